@@ -1,0 +1,284 @@
+#!/usr/bin/env python3
+"""Proves that layers.py passes a clean tree and catches each kind of violation, and that the function finder measures right."""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import layers
+from cpp_functions import Unbalanced, code_lines, count_parameters, find_functions
+
+CLEAN = {
+    'README.md': 'Cloth.\n',
+    'LICENSE': 'MIT\n',
+    'engine/include/percale/mesh.h': '#pragma once\n#include <Eigen/Core>\n#include <vector>\nusing Vec3 = Eigen::Vector3d;\n',
+    'engine/support/check.h': '#pragma once\n#include <cstdio>\nvoid check(bool fine);\n',
+    'engine/model/shapes.h': '#pragma once\n#include "percale/mesh.h"\n#include "support/check.h"\nint shape();\n',
+    'engine/model/shapes.cpp': '#include "shapes.h"\n\nint shape() { return 3; }\n',
+    'engine/forces/body_force.h': '#pragma once\n#include "model/shapes.h"\n',
+    'engine/solve/newton.h': '#pragma once\n#include "forces/body_force.h"\n',
+    'engine/step/step.h': '#pragma once\n#include "solve/newton.h"\n',
+    'engine/simulation.h': '#pragma once\n#include "step/step.h"\n',
+    'collision/include/percale/detectors.h': '#pragma once\n#include "percale/mesh.h"\n',
+    'collision/surface.h': '#pragma once\n#include "percale/detectors.h"\n#include <ccd/ccd.h>\n',
+    'collision/fcl/fcl_tree.h': '#pragma once\n#include "surface.h"\n#include <fcl/fcl.h>\n',
+    'collision/bullet/bullet_tree.h': '#pragma once\n#include <btBulletCollisionCommon.h>\n',
+    'scenes/scene.h': '#pragma once\n#include <percale/detectors.h>\n#include <toml++/toml.h>\n',
+    'scenes/export/frames.h': '#pragma once\n#include "scene.h"\n',
+    'tests/engine/model/shapes_test.cpp':
+        '#include "model/shapes.h"\n#include "tests/support/catch.h"\n' + 'TEST_CASE("a shape") { CHECK(shape() == 3); }\n' * 60,
+    'tests/support/catch.h': '#pragma once\n#include <catch2/catch.hpp>\n',
+    'data/scenes/hang.toml': 'title = "hang"\n',
+}
+
+
+def long_function(lines):
+    return 'void run() {\n' + '    step();\n' * (lines - 2) + '}\n'
+
+
+def violations(changes=None, removed=()):
+    """What layers.py says about the clean tree with some files changed (or removed)."""
+    with tempfile.TemporaryDirectory() as folder:
+        for path, text in {**CLEAN, **(changes or {})}.items():
+            if path not in removed:
+                (Path(folder) / path).parent.mkdir(parents=True, exist_ok=True)
+                (Path(folder) / path).write_text(text)
+        return layers.check(folder)[0]
+
+
+class Rules(unittest.TestCase):
+    def caught(self, path, text, expected):
+        """Exactly one violation, at the changed file, that says what is expected."""
+        found = violations({path: text})
+        self.assertEqual(len(found), 1, found)
+        self.assertTrue(found[0].startswith(f'{path}:'), found)
+        self.assertIn(expected, found[0])
+
+    def include_caught(self, path, include, expected):
+        self.caught(path, CLEAN.get(path, '') + f'#include {include}\n', expected)
+
+    def test_a_clean_tree_passes(self):
+        self.assertEqual(violations(), [])
+
+    def test_top_level(self):
+        self.caught('notes.txt', 'x\n', 'not allowed at the top level')
+        found = violations({'src/a.md': 'x\n'})
+        self.assertEqual(found, ['src:1: not allowed at the top level'])
+
+    def test_unknown_part_of_the_engine(self):
+        self.caught('engine/misc/thing.h', '#pragma once\n', 'unknown part of the engine')
+
+    def test_every_forbidden_direction_between_layers(self):
+        header = {'public': 'engine/include/percale/mesh.h', 'support': 'engine/support/check.h', 'model': 'engine/model/shapes.h',
+                  'forces': 'engine/forces/body_force.h', 'solve': 'engine/solve/newton.h', 'step': 'engine/step/step.h',
+                  'engine': 'engine/simulation.h', 'public_collision': 'collision/include/percale/detectors.h',
+                  'collision': 'collision/surface.h', 'scenes': 'scenes/scene.h'}
+        for part, path in header.items():
+            for other, target in header.items():
+                said = violations({path: CLEAN[path] + f'#include "{target}"\n'})
+                is_refused = any(f'{part} must not include {other} ' in line for line in said)
+                self.assertEqual(is_refused, other not in layers.MAY_INCLUDE[part], (part, other, said))
+
+    def test_the_table_of_directions(self):
+        order = ['support', 'model', 'forces', 'solve', 'step']
+        for low, part in enumerate(order):
+            for high, other in enumerate(order):
+                self.assertEqual(other in layers.MAY_INCLUDE[part], high <= low, (part, other))
+        for part in order + ['public', 'engine']:
+            self.assertFalse(layers.MAY_INCLUDE[part] & {'collision', 'public_collision', 'scenes', 'tests'}, part)
+        self.assertEqual(layers.MAY_INCLUDE['collision'], {'public', 'public_collision', 'collision'})
+        self.assertEqual(layers.MAY_INCLUDE['scenes'], {'public', 'public_collision', 'scenes'})
+        self.assertNotIn('public', layers.MAY_INCLUDE['support'])
+
+    def test_an_include_that_is_no_file(self):
+        self.include_caught('scenes/scene.h', '"sceen.h"', 'is no file of the project')
+
+    def test_headers_of_other_projects(self):
+        for path, name in [
+                ('engine/model/shapes.h', '<fcl/fcl.h>'), ('engine/model/shapes.h', '<ccd/ccd.h>'),
+                ('collision/surface.h', '<fcl/geometry/bvh/BVH_model.h>'), ('collision/surface.h', '<btBulletCollisionCommon.h>'),
+                ('collision/fcl/fcl_tree.h', '<BulletCollision/btDbvt.h>'), ('collision/bullet/bullet_tree.h', '<fcl/fcl.h>'),
+                ('collision/surface.h', '<nlohmann/json.hpp>'), ('engine/step/step.h', '<CLI/CLI.hpp>'),
+                ('scenes/scene.h', '<ccd/ccd.h>'), ('tests/engine/model/shapes_test.cpp', '<assimp/scene.h>'),
+                ('tests/engine/model/shapes_test.cpp', '<catch2/catch.hpp>'), ('engine/solve/newton.h', '<cholmod.h>'),
+                ('engine/solve/newton.h', '<boost/any.hpp>')]:
+            self.include_caught(path, name, 'is not allowed')
+
+    def test_a_commented_include_is_none(self):
+        self.assertEqual(violations({'engine/solve/newton.h': '#pragma once\n// #include <fcl/fcl.h>\n'}), [])
+
+    def test_forces_do_not_know_the_detector(self):
+        self.caught('engine/forces/body_force.h', '#pragma once\n\nclass ContactDetector;\n', 'forces must not know')
+        self.assertEqual(violations({'engine/forces/body_force.h': '#pragma once\n// rows come from the ContactDetector\n'}), [])
+
+    def test_files_that_include_each_other(self):
+        found = violations({'scenes/a.h': '#include "b.h"\n', 'scenes/b.h': '#include "c.h"\n', 'scenes/c.h': '#include "a.h"\n'})
+        self.assertEqual(found, ['scenes/a.h:1: files include each other (scenes/a.h, scenes/b.h, scenes/c.h)'])
+
+    def test_a_file_that_includes_itself(self):
+        self.caught('scenes/a.h', '#include "a.h"\n', 'files include each other')
+
+    def test_folders_that_include_each_other(self):
+        found = violations({'scenes/run.h': '#include "export/frames.h"\n'})
+        self.assertEqual(found, ['scenes:1: folders include each other (scenes, scenes/export)'])
+
+    def test_a_source_without_its_test(self):
+        self.caught('scenes/export/frames.cpp', 'int x;\n', 'no test file (tests/scenes/export/frames_test.cpp)')
+        self.assertEqual(len(violations(removed=['tests/engine/model/shapes_test.cpp'])), 2)  # the size of the tests too
+        for exempt in layers.NO_TEST_FILE:
+            self.assertEqual(violations({exempt: 'int main() {}\n'}), [])
+
+    def test_length_of_functions(self):
+        path = 'tests/support/thing.h'
+        self.assertEqual(violations({path: long_function(60)}), [])
+        self.caught(path, long_function(61), 'run: function too long (61, 60)')
+        more_tests = {'tests/support/more.h': 'int x;\n' * 100}
+        self.assertEqual(violations({'engine/model/spring_kernel.inl': long_function(61), **more_tests}), [])
+        found = violations({'engine/model/spring.inl': long_function(61), **more_tests})
+        self.assertEqual(found[0], 'engine/model/spring.inl:1: run: function too long (61, 60)')
+
+    def test_distribution_of_function_lengths(self):
+        functions = ''.join(long_function(9) for _ in range(8))
+        found = violations({'engine/model/thing.h': functions, 'tests/a.h': 'int x;\n' * 400})
+        self.assertEqual(found, ['library:1: median of function lines (9, 8)'])
+        functions = ''.join(long_function(2) for _ in range(16)) + long_function(26) * 3
+        found = violations({'engine/model/thing.h': functions, 'tests/a.h': 'int x;\n' * 400})
+        self.assertEqual(found, ['library:1: p90 of function lines (26, 25)'])
+
+    def test_length_of_files(self):
+        self.caught('tests/support/thing.h', 'int x;\n' * 451, 'file too long (451, 450)')
+        found = violations({f'engine/model/thing{i}.h': '\n' * 301 for i in range(5)})
+        self.assertEqual(found, ['library:1: p90 of file lines (301, 300)'])
+
+    def test_number_of_parameters(self):
+        self.assertEqual(violations({'scenes/a.h': 'void f(int, int, int, int, int, std::map<int, int> m) {}\n'}), [])
+        self.caught('scenes/a.h', 'void f(int, int, int, int, int, int, int) {}\n', 'f: too many parameters (7, 6)')
+        self.caught('scenes/a.h', 'struct A { virtual int f(int, int, int, int, int, int, int) = 0; };\n', 'too many parameters (7, 6)')
+
+    def test_nesting(self):
+        self.assertEqual(violations({'scenes/a.h': 'void f() {\n' + 'if (a) {\n' * 3 + '}\n' * 3 + '}\n'}), [])
+        self.caught('scenes/a.h', 'void f() {\n' + 'if (a) {\n' * 4 + '}\n' * 4 + '}\n', 'f: nested too deep (4, 3)')
+        found = violations({'engine/forces/a_kernel.inl': 'void f() {\n' + 'if (a) {\n' * 4 + '}\n' * 4 + '}\n'})
+        self.assertEqual(found, [])
+
+    def test_brackets_that_do_not_match(self):
+        self.caught('scenes/a.h', 'void f() {\n\n}}\n', 'brackets do not match')
+
+    def test_names(self):
+        self.caught('scenes/SceneFile.h', '#pragma once\n', 'name is not snake_case (SceneFile.h)')
+        self.caught('data/scenes/on-ball.toml', 'x = 1\n', 'name is not snake_case (on-ball.toml)')
+        self.caught('scenes/a.h', '#define SQUARE(x) x\n', 'macro does not start with PERCALE_ (SQUARE)')
+
+    def test_eigen_types_in_public_headers(self):
+        for name in ['Vector4d', 'VectorXd', 'MatrixXd', 'Quaterniond', 'Isometry3d', 'Matrix<double, Eigen::Dynamic, 3>', 'Vector2d',
+                     'SparseMatrix<double>', 'Matrix4d', 'Matrix3Xd']:
+            for path in ['engine/include/percale/thing.h', 'collision/include/percale/thing.h']:
+                self.caught(path, f'#pragma once\nEigen::{name} x;\n', 'in a public header')
+        self.assertEqual(violations({'engine/include/percale/thing.h': '// no MatrixXd here\nEigen::Vector3d x;\n'}), [])
+
+    def test_unfinished_work(self):
+        for word in ['TO' + 'DO', 'FIX' + 'ME', 'X' + 'XX', 'HA' + 'CK']:
+            self.caught('data/README.md', f'a\n{word}: more\n', f'unfinished work ({word})')
+
+    def test_paths_of_one_machine(self):
+        for start in ['/wo' + 'rk/main', '/ro' + 'ot/x', '/tm' + 'p/build', '/ho' + 'me/me']:
+            self.caught('README.md', f'see {start}\n', 'path of one machine')
+
+    def test_large_files(self):
+        self.caught('data/big.obj', 'v' * ((1 << 20) + 1), 'file too large (1048577 bytes, 1048576)')
+
+    def test_less_test_code_than_library_code(self):
+        found = violations({'scenes/a.h': 'int x;\n' * 200})
+        self.assertEqual(len(found), 1)
+        self.assertIn('less test code than library code', found[0])
+
+    def test_only_files_that_git_would_track_count(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(['git', '-C', folder, 'init', '-q'], check=True)
+            (Path(folder) / '.gitignore').write_text('/build/\n')
+            (Path(folder) / 'build').mkdir()
+            (Path(folder) / 'build' / 'junk.h').write_text('x')
+            (Path(folder) / 'junk.h').write_text('x')
+            self.assertEqual(layers.check(folder)[0], ['junk.h:1: not allowed at the top level'])
+
+    def test_the_program_says_so_by_its_exit_code(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = [sys.executable, str(Path(__file__).resolve().parent / 'layers.py'), folder]
+            self.assertEqual(subprocess.run(program, capture_output=True, check=False).returncode, 0)
+            (Path(folder) / 'junk.h').write_text('x')
+            result = subprocess.run(program, capture_output=True, check=False, text=True)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn('1 violations', result.stdout)
+
+
+class FunctionFinder(unittest.TestCase):
+    def found(self, text):
+        return {f.name: (f.lines, f.parameters, f.nesting) for f in find_functions(text) if not f.is_lambda}
+
+    def test_kinds_of_functions(self):
+        text = '''namespace a {
+struct P { int x = 3; std::vector<int> y{1, 2}; bool operator==(const P& o) const { return x == o.x; } };
+class C : public B<int> {
+public:
+    explicit C(int a, std::map<int, int> m = {}) noexcept : a_{a}, b_(a), c_{m} {
+        run();
+    }
+    ~C() = default;
+    operator bool() const { return true; }
+    int operator()(int a) { return a; }
+};
+template <class T, class U = std::vector<T>>
+requires(sizeof(T) > 3)
+auto pair_of(const T& t, U u) -> std::pair<int, int> { return {1, 2}; }
+[[nodiscard]] static int last(int a[3], void (*call)(int, int)) { return a[0]; }
+}
+extern "C" { int plain(void) { return 1; } }
+TEST_CASE("a { thing", "[tag]") { CHECK(true); }
+'''
+        self.assertEqual(self.found(text), {
+            'operator==': (1, 1, 0), 'C': (3, 2, 0), 'operator bool': (1, 0, 0), 'operator()': (1, 1, 0), 'pair_of': (3, 2, 0),
+            'last': (1, 2, 0), 'plain': (1, 0, 0), 'TEST_CASE': (1, 2, 0)})
+
+    def test_what_is_no_function(self):
+        for text in ['enum class E : int { a, b };', 'const auto table = std::array<int, 3>{1, 2, 3};', 'int x{3};',
+                     'constexpr double v[] = {1, 2};', 'int declared(int a);', 'struct S { int a = 1; };']:
+            self.assertEqual(find_functions(text), [], text)
+
+    def nesting(self, body):
+        return self.found('void f() {\n' + body + '\n}')['f'][2]
+
+    def test_nesting_of_control_flow(self):
+        self.assertEqual(self.nesting('run();'), 0)
+        self.assertEqual(self.nesting('if (a) { b(); } else if (c) { d(); } else { e(); }'), 1)
+        self.assertEqual(self.nesting('for (;;) { while (x) { switch (y) { case 1: { do { z(); } while (q); } } } }'), 4)
+        self.assertEqual(self.nesting('for (int i : {1, 2}) for (int j : {3}) if (i) { run(); }'), 3)
+        self.assertEqual(self.nesting('for (int i : {1, 2}) for (int j : {3}) run(i, j);'), 2)
+        self.assertEqual(self.nesting('for (int i : {1, 2}) { if (i) continue; if (!i) return; }'), 1)
+        self.assertEqual(self.nesting('{ { const Foo x{1, {2}}; } }'), 0)
+        self.assertEqual(self.nesting('SECTION("x") { if constexpr (a) { b(); } }'), 1)
+        self.assertEqual(self.nesting('try { if (a) { b(); } } catch (const E& e) { if (a) { while (b) { c(); } } }'), 2)
+
+    def test_a_lambda_starts_again(self):
+        text = 'void f() {\n if (a) { for (;;) { g([&](int x) mutable -> int { if (x) { return 1; } return 2; }); } }\n}'
+        functions = {f.name: f for f in find_functions(text)}
+        self.assertEqual((functions['f'].nesting, functions['f'].lines), (2, 3))
+        self.assertEqual((functions['lambda'].nesting, functions['lambda'].parameters), (1, 1))
+
+    def test_comments_and_literals_do_not_count(self):
+        text = 'void f() {\n // {\n /* { */\n const char* s = "{"; char c = \'{\'; int n = 1\'000\'000; auto r = R"x({{)x";\n}\n'
+        self.assertEqual(self.found(text), {'f': (5, 0, 0)})
+        self.assertEqual(code_lines('// a\n\n/* b\n c */\nint x;  // d\nconst char* s = "// e";\n'), 2)
+
+    def test_parameters(self):
+        self.assertEqual([count_parameters(text) for text in ('', 'void', 'int a', 'std::map<int, int> m, F<void(int, int)> f')],
+                         [0, 0, 1, 2])
+
+    def test_unbalanced_text_is_refused(self):
+        for text in ('void f() {', 'void f() }', 'void f(] {}'):
+            self.assertRaises(Unbalanced, find_functions, text)
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,63 @@
+#include <BulletCollision/CollisionShapes/btOptimizedBvh.h>
+#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
+
+#include "bullet/bullet_tree.h"
+#include "detector.h"
+#include "percale/detectors.h"
+
+namespace percale {
+namespace {
+
+// Linking the single-precision library against these headers would corrupt memory silently.
+static_assert(sizeof(btScalar) == 8, "Bullet must be the double-precision build (bullet-float64, BT_USE_DOUBLE_PRECISION)");
+
+/// Collects the triangles of the leaves that a walk reaches.
+class Collector : public btNodeOverlapCallback {
+public:
+    explicit Collector(std::vector<int>& ids) : ids_(ids) {}
+    void processNode(int /*part*/, int triangle) override { ids_.push_back(triangle); }
+
+private:
+    std::vector<int>& ids_;
+};
+
+btVector3 to_bullet(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
+
+/// Bullet's quantized tree: 16 bytes a node; boxes are rounded outwards, so it finds a few triangles more.
+class BulletTree : public ObstacleTree {
+public:
+    BulletTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+        static_assert(sizeof(Triangle) == 3 * sizeof(int) && sizeof(Vec3) == 3 * sizeof(double));
+        for (const Vec3& x : vertices) bounds_.add(x);
+        // Bullet's interface asks for mutable pointers and only reads.
+        btTriangleIndexVertexArray mesh(static_cast<int>(triangles.size()), const_cast<int*>(triangles[0].data()), sizeof(Triangle),
+                                        static_cast<int>(vertices.size()), const_cast<double*>(vertices[0].data()), sizeof(Vec3));
+        const double margin = 1e-6 * (bounds_.high - bounds_.low).norm();
+        bounds_.grow(margin);
+        tree_.build(&mesh, true, to_bullet(bounds_.low), to_bullet(bounds_.high));
+    }
+
+    void find(std::span<const Box> boxes, TriangleLists& found) const override {
+        found.start.assign(1, 0);
+        found.ids.clear();
+        Collector collector(found.ids);
+        for (const Box& box : boxes) {
+            if (box.overlaps(bounds_)) tree_.reportAabbOverlappingNodex(&collector, to_bullet(box.low), to_bullet(box.high));
+            found.start.push_back(static_cast<int>(found.ids.size()));
+        }
+    }
+
+private:
+    btOptimizedBvh tree_;
+    Box bounds_;
+};
+
+}  // namespace
+
+std::unique_ptr<ObstacleTree> make_bullet_tree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+    return std::make_unique<BulletTree>(vertices, triangles);
+}
+
+std::unique_ptr<ContactDetector> make_bullet_detector() { return make_detector(make_bullet_tree); }
+
+}  // namespace percale

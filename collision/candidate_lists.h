@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cloth_clusters.h"
+#include "contact_pair.h"
+#include "obstacle.h"
+
+namespace percale {
+
+using Obstacles = std::vector<std::unique_ptr<Obstacle>>;
+
+/// The pairs of one cluster that can come closer than the thickness while its vertices stay in their boxes.
+struct ClusterList {
+    std::vector<Box> boxes;          // one for each of the cluster's vertices (ClothCluster::all_vertices)
+    std::vector<ContactPair> pairs;  // by kind, cloth feature, obstacle, obstacle triangle
+    double thickness = 0.0;          // m, largest of its vertices
+    double travel = 0.0;             // m, bound of how much any distance has shrunk since the cluster's first list
+    double least_reach = 0.0;        // least ContactPair::reach
+    int version = -1;                // of the obstacles' motion it was built for
+};
+
+/// Verlet lists: candidate pairs of all cloth, rebuilt only where the cloth left its boxes or an obstacle moves.
+class CandidateLists {
+public:
+    CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, std::span<const Vec3> positions);
+
+    /// Makes every list good for all states between two, and moves the lists' time to `move.from`.
+    void cover(const ClothMove& move, const Obstacles& obstacles);
+
+    /// Tells the lists that cloth and obstacles are here now: shortens the bounds by what they moved.
+    void advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles);
+
+    std::span<const ClothCluster> clusters() const { return clusters_.clusters; }
+    std::span<ClusterList> lists() { return lists_; }
+    long builds() const { return builds_; }  // of a cluster's list, since the beginning
+
+private:
+    bool covers(std::size_t cluster, const ClothMove& move, int version) const;
+    Box set_boxes(std::size_t cluster, const ClothMove& move);
+    void add_pairs(std::size_t cluster, int obstacle_number, std::span<const int> near, const ClothMove& move,
+                   const Obstacle& obstacle);
+    void set_rooms(std::size_t cluster, const ClothMove& move);
+    std::span<const int> close_to(std::span<const int> vertices, std::span<const int> near, double thickness,
+                                  const Obstacle& obstacle);
+    double shrink_of(std::size_t cluster, std::span<const Vec3> positions) const;
+
+    std::vector<Triangle> triangles_;
+    std::vector<double> thickness_;
+    ClothClusters clusters_;
+    std::vector<ClusterList> lists_;
+    std::vector<Vec3> seen_;        // positions at the last advance
+    std::vector<double> room_;      // m, how far a vertex can get from `from` inside its box; valid while a cluster is built
+    std::vector<Box> vertex_boxes_; // likewise
+    std::vector<int> close_;        // triangles near the feature being paired
+    std::vector<std::size_t> dirty_;
+    std::vector<Box> asked_;
+    TriangleLists found_;
+    double seen_fraction_ = 0.0;
+    long builds_ = 0;
+};
+
+}  // namespace percale

@@ -1,0 +1,174 @@
+#include "percale/certify.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "certificate/box_tree.h"
+#include "certificate/inside_test.h"
+#include "certificate/triangle_gap.h"
+#include "certificate/triangle_overlap.h"
+#include "percale/error.h"
+
+namespace percale {
+namespace {
+
+using namespace certificate;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// Room for rounding where a bound of a distance decides that a pair need not be measured.
+constexpr double bound_slack = 1.0 - 1e-9;
+
+struct Surface {
+    std::vector<Corners> triangles;
+    BoxTree tree;
+
+    explicit Surface(const TriangleMesh& mesh) : triangles(corners_of(mesh)), tree(triangles) {}
+};
+
+void check_limit(double limit) {
+    if (!(limit >= 0.0)) throw SceneError("certify: distance_limit is " + std::to_string(limit) + " m; it has to be 0 or more");
+}
+
+/// Squared areas stay below overflow.
+void check_range(const TriangleMesh& mesh, const std::string& name) {
+    constexpr double largest = 1e75;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const double size = mesh.vertices[v].cwiseAbs().maxCoeff();
+        if (size <= largest) continue;
+        throw SceneError(name + ": vertex " + std::to_string(v) + " has a coordinate of magnitude " + std::to_string(size) +
+                         " m; the largest allowed is 1e75 m");
+    }
+}
+
+void check(const TriangleMesh& mesh, const std::string& name) {
+    check_mesh(mesh, name, false);
+    check_range(mesh, name);
+}
+
+void sort(std::vector<IntersectingPair>& pairs) {
+    std::sort(pairs.begin(), pairs.end(), [](const IntersectingPair& a, const IntersectingPair& b) {
+        return a.first != b.first ? a.first < b.first : a.second < b.second;
+    });
+}
+
+/// Fills the pairs; returns for every cloth triangle whether it shares no point with the obstacle.
+std::vector<bool> find_pairs(const Surface& cloth, const Surface& obstacle, Certificate& result) {
+    std::vector<bool> free(cloth.triangles.size(), true);
+    cloth.tree.walk_overlaps(obstacle.tree, [&](int i, int j) {
+        const Overlap overlap = classify(cloth.triangles[i], obstacle.triangles[j]);
+        if (overlap == Overlap::disjoint) return;
+        free[i] = false;
+        if (overlap == Overlap::crossing) result.pairs.push_back({i, j});
+        result.touching_pairs += overlap == Overlap::touching;
+    });
+    sort(result.pairs);
+    return free;
+}
+
+/// Cloth vertices joined by triangles that share no point with the obstacle: each group lies on one side of it.
+class Groups {
+public:
+    Groups(const TriangleMesh& cloth, const std::vector<bool>& free) : parent_(cloth.vertices.size()) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+        for (std::size_t i = 0; i < cloth.triangles.size(); ++i) {
+            if (!free[i]) continue;
+            join(cloth.triangles[i][0], cloth.triangles[i][1]);
+            join(cloth.triangles[i][1], cloth.triangles[i][2]);
+        }
+    }
+
+    int representative(int vertex) {
+        while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
+        return vertex;
+    }
+
+private:
+    void join(int a, int b) {
+        const int root_a = representative(a), root_b = representative(b);
+        parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
+    }
+
+    std::vector<int> parent_;
+};
+
+std::vector<int> vertices_inside(const TriangleMesh& cloth, const Surface& obstacle, const std::vector<bool>& free) {
+    Groups groups(cloth, free);
+    const Box bounds = obstacle.tree.bounds();
+    std::vector<bool> inside(cloth.vertices.size());
+    std::vector<int> result;
+    for (int v = 0; v < static_cast<int>(cloth.vertices.size()); ++v) {
+        const int first = groups.representative(v);  // the lowest of its group, so already decided
+        const Vec3& x = cloth.vertices[v];
+        const auto own_side = [&] { return bounds.contains(x) && side_of(x, obstacle.triangles, obstacle.tree) == Side::inside; };
+        inside[v] = first < v ? inside[first] : own_side();
+        if (inside[v]) result.push_back(v);
+    }
+    return result;
+}
+
+double distance_to_surface(const Vec3& x, const Surface& surface) {
+    Box here;
+    here.add(x);
+    const auto box_distance = [&](const Box& box) { return distance(here, box) * bound_slack; };
+    const auto item_distance = [&](int i) { return point_triangle_distance(x, surface.triangles[i]); };
+    return surface.tree.nearest(infinity, box_distance, item_distance).second;
+}
+
+void measure_depth(const TriangleMesh& cloth, const Surface& obstacle, const std::vector<bool>& free, Certificate& result) {
+    const std::vector<int> inside = vertices_inside(cloth, obstacle, free);
+    result.vertices_inside = static_cast<int>(inside.size());
+    for (const int v : inside) {
+        const double depth = distance_to_surface(cloth.vertices[v], obstacle);
+        if (result.deepest_vertex >= 0 && depth <= result.deepest_penetration) continue;
+        result.deepest_penetration = depth;
+        result.deepest_vertex = v;
+    }
+}
+
+double smallest_distance(const Surface& cloth, const Surface& obstacle, double limit) {
+    std::vector<Slab> slabs;
+    slabs.reserve(cloth.triangles.size());
+    for (const Corners& triangle : cloth.triangles) slabs.push_back(slab_of(triangle));
+    return cloth.tree.nearest_pair(obstacle.tree, limit, [&](int i, int j, double best) {
+        const Corners &a = cloth.triangles[i], &b = obstacle.triangles[j];
+        const double too_far = best / bound_slack;
+        return triangle_separation(a, slabs[i], b, too_far) > too_far ? infinity : triangle_distance(a, b);
+    });
+}
+
+bool share_a_vertex(const Triangle& a, const Triangle& b) {
+    return std::any_of(a.begin(), a.end(), [&](int v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+}
+
+}  // namespace
+
+Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, double distance_limit) {
+    check(cloth, "certify: cloth");
+    check(obstacle, "certify: obstacle");
+    check_limit(distance_limit);
+    const Surface cloth_surface(cloth), obstacle_surface(obstacle);
+    Certificate result;
+    const std::vector<bool> free = find_pairs(cloth_surface, obstacle_surface, result);
+    result.watertight = is_watertight(obstacle);
+    if (result.watertight) measure_depth(cloth, obstacle_surface, free, result);
+    const bool meet = !result.pairs.empty() || result.touching_pairs > 0;
+    result.smallest_distance = meet ? 0.0 : smallest_distance(cloth_surface, obstacle_surface, distance_limit);
+    return result;
+}
+
+std::vector<IntersectingPair> self_intersections(const TriangleMesh& mesh) {
+    check(mesh, "self_intersections: mesh");
+    const Surface surface(mesh);
+    std::vector<IntersectingPair> pairs;
+    surface.tree.walk_overlaps(surface.tree, [&](int i, int j) {
+        if (i >= j || share_a_vertex(mesh.triangles[i], mesh.triangles[j])) return;
+        if (classify(surface.triangles[i], surface.triangles[j]) == Overlap::crossing) pairs.push_back({i, j});
+    });
+    sort(pairs);
+    return pairs;
+}
+
+}  // namespace percale

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "percale/mesh.h"
+
+namespace percale {
+
+/// A few neighbouring cloth triangles with the vertices and edges they own (each belongs to exactly one cluster).
+struct ClothCluster {
+    std::vector<int> triangles;        // indices
+    std::vector<int> vertices;         // owned
+    std::vector<std::array<int, 2>> edges;  // owned
+    std::vector<int> all_vertices;     // of its triangles, owned or not
+};
+
+/// Cloth features grouped by nearness along the order of the triangles' centres on a space-filling (Morton) curve of `positions`.
+/// `edge_owner_bits[t]` has bit k set if triangle t owns its edge k (corners k, k + 1).
+struct ClothClusters {
+    std::vector<ClothCluster> clusters;
+    std::vector<unsigned char> edge_owner_bits;
+};
+
+ClothClusters make_clusters(std::span<const Triangle> triangles, std::span<const Vec3> positions);
+
+}  // namespace percale

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+
+#include "obstacle.h"
+#include "percale/contact.h"
+#include "time_of_impact.h"
+
+namespace percale {
+
+enum class PairKind : unsigned char { vertex_face, edge_edge, face_vertex };  // cloth feature first
+
+/// A cloth feature and an obstacle feature that may come near each other.
+struct ContactPair {
+    PairKind kind = PairKind::vertex_face;
+    std::array<int, 3> cloth{-1, -1, -1};  // vertices: 1, 2 or 3
+    unsigned char edge_bits = 7;          // face_vertex: which edges of the cloth triangle it owns
+    int obstacle = 0;
+    int feature = 0;                      // obstacle triangle, edge or vertex
+    bool held = false;                    // has been a contact since the last refresh: stays one while it is near
+    double reach = 0.0;                   // distance + cluster travel when last measured: reach - travel bounds the distance from below
+
+    int cloth_count() const { return static_cast<int>(kind) + 1; }
+};
+
+/// The exact closest points of a pair.
+struct PairContact {
+    double distance = 0.0;                 // m
+    std::array<double, 4> weight{};        // of the cloth vertices
+    Vec3 cloth_point = Vec3::Zero();
+    Vec3 obstacle_point = Vec3::Zero();
+    Vec3 direction = Vec3::Zero();         // unit, obstacle towards cloth; zero if the distance is
+    Vec3 obstacle_displacement = Vec3::Zero();
+    bool local_minimum = false;            // no neighbouring pair stands for the same contact better
+};
+
+/// Distance only, m.
+double pair_distance(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction);
+
+/// Everything about the closest points. A contact belongs to exactly one pair: closest points inside a face or inside two edges
+/// belong to that pair, those on an edge or vertex of the obstacle to the feature's owner and only if the feature faces the
+/// cloth, those on a cloth edge to the triangle that owns it.
+PairContact pair_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction);
+
+/// The pair as four points moving while the cloth goes from one state to another and obstacles over a part of the step.
+struct ClothMove {
+    std::span<const Vec3> from, to;
+    StepFraction part;
+};
+MovingFour moving_pair(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle);
+
+inline PairShape shape_of(PairKind kind) { return kind == PairKind::edge_edge ? PairShape::edge_edge : PairShape::point_triangle; }
+
+}  // namespace percale

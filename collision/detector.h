@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "obstacle_tree.h"
+#include "percale/contact.h"
+
+namespace percale {
+
+/// The detector all backends share: lists, exact distances, rows and cuts on top of a backend's tree.
+std::unique_ptr<ContactDetector> make_detector(TreeFactory make_tree);
+
+}  // namespace percale

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "percale/mesh.h"
+
+namespace percale {
+
+/// Two triangles that intersect.
+struct IntersectingPair {
+    int first = -1;   // triangle of the first mesh (the cloth)
+    int second = -1;  // triangle of the second mesh (the obstacle)
+};
+
+/// What the independent check of one cloth against one obstacle found.
+struct Certificate {
+    std::vector<IntersectingPair> pairs;  // intersecting, not merely touching; ordered
+    int touching_pairs = 0;               // pairs that share points but do not cross
+    bool watertight = false;              // whether the obstacle is closed, so that depth has a meaning
+    int vertices_inside = 0;              // cloth vertices inside a watertight obstacle
+    int deepest_vertex = -1;
+    double deepest_penetration = 0.0;                                    // m; 0 on an open obstacle
+    double smallest_distance = std::numeric_limits<double>::infinity();  // m, cloth to obstacle, 0 where they intersect
+
+    bool clean() const { return pairs.empty() && vertices_inside == 0; }
+};
+
+/// Exact check that does not share code with the solver: triangle-triangle tests by exact predicates, signed depth of every cloth
+/// vertex, smallest distance between the surfaces (searched up to `distance_limit`, m; beyond it stays infinity).
+/// Both meshes in world coordinates, finite. Thread-safe.
+Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle,
+                    double distance_limit = std::numeric_limits<double>::infinity());
+
+/// Intersecting pairs inside one mesh, neighbours that share a vertex left out.
+std::vector<IntersectingPair> self_intersections(const TriangleMesh& mesh);
+
+}  // namespace percale

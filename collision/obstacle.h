@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+
+#include "obstacle_surface.h"
+#include "obstacle_tree.h"
+
+namespace percale {
+
+/// One obstacle in motion. Within a step each vertex runs straight from its place at the start to its place at the end.
+class Obstacle {
+public:
+    /// `pose` places the mesh (its scale included); the tree is built there, once.
+    Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree);
+
+    void move(const Pose& start, const Pose& end);
+
+    const ObstacleSurface& surface() const { return surface_; }
+    double friction() const { return friction_; }
+    bool moves() const { return moves_; }
+    /// m, longest way of a vertex in the coming step.
+    double longest_way() const { return longest_way_; }
+    /// Counts the poses it has had: lists made for another one are no longer good.
+    int version() const { return version_; }
+
+    Vec3 at(int vertex, double fraction) const {
+        return moves_ ? Vec3(start_[vertex] + fraction * (end_[vertex] - start_[vertex])) : start_[vertex];
+    }
+    Vec3 displacement(int vertex) const { return moves_ ? Vec3(end_[vertex] - start_[vertex]) : Vec3(Vec3::Zero()); }
+
+    /// Box of a triangle during the whole step, m, world.
+    const Box& box(int triangle) const { return world_boxes_[triangle]; }
+
+    /// Triangles that may come near each world box during the step, ascending and the same for every kind of tree.
+    void find(std::span<const Box> boxes, TriangleLists& found) const;
+    /// The mesh at the start of the step, as it was given (not cleaned).
+    TriangleMesh given_mesh() const;
+
+private:
+    Box to_tree(const Box& box) const;
+    void set_world_boxes();
+
+    TriangleMesh mesh_;
+    ObstacleSurface surface_;         // vertices where the tree was built
+    std::vector<Vec3> local_;         // cleaned vertices before the pose
+    std::vector<Vec3> start_, end_;   // m, world
+    std::vector<Box> world_boxes_;    // of the triangles during the step
+    std::vector<Box> boxes_;          // of the triangles where the tree was built
+    std::unique_ptr<ObstacleTree> tree_;
+    Pose built_, start_pose_, end_pose_;
+    double friction_ = 0.0;
+    double longest_way_ = 0.0;
+    int version_ = 0;
+    bool moves_ = false;
+    bool away_ = false;               // not where the tree was built
+};
+
+}  // namespace percale

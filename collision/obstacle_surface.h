@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "percale/mesh.h"
+
+namespace percale {
+
+struct SurfaceEdge {
+    std::array<int, 2> vertex;
+    int owner = -1;          // the first triangle that has it
+    bool can_touch = true;   // false for flat edges, and for concave ones of a watertight surface: cloth meets the faces first
+};
+
+/// What cleaning dropped.
+struct CleaningReport {
+    int merged_vertices = 0;       // at exactly the same place as another one
+    int degenerate_triangles = 0;  // without area
+    int duplicate_triangles = 0;
+    int unreferenced_vertices = 0;
+};
+
+/// A cleaned obstacle mesh and its connectivity. Positions are those it was made from; a moving obstacle moves its own copy.
+struct ObstacleSurface {
+    std::vector<Vec3> vertices;
+    std::vector<Triangle> triangles;
+    std::vector<SurfaceEdge> edges;
+    std::vector<std::array<int, 3>> triangle_edges;  // edge k joins corners k and k + 1
+    std::vector<int> vertex_owner;                   // the first triangle of each vertex
+    std::vector<bool> vertex_can_touch;              // some edge at it can touch
+    std::vector<int> ring_start, ring;               // neighbours of vertex v: ring[ring_start[v]] ... ring[ring_start[v + 1] - 1]
+    std::vector<int> opposite_start, opposite;       // vertices opposite edge e in its triangles, likewise
+    bool watertight = false;                         // every edge in exactly two triangles, which agree on its direction
+    CleaningReport cleaning;
+
+    std::span<const int> neighbours(int v) const { return std::span(ring).subspan(ring_start[v], ring_start[v + 1] - ring_start[v]); }
+    std::span<const int> opposites(int e) const {
+        return std::span(opposite).subspan(opposite_start[e], opposite_start[e + 1] - opposite_start[e]);
+    }
+};
+
+/// Merges vertices at the same place, drops triangles without area and repeated ones, drops unused vertices.
+/// Throws SceneError if nothing is left.
+ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+/// Whether a point at `foot` on an edge, seen along the unit vector `direction`, is locally the surface's closest: no face at the
+/// edge rises towards the viewer. `at` gives the current position of a vertex.
+template <class Position>
+bool edge_faces(const ObstacleSurface& surface, int edge, const Vec3& foot, const Vec3& direction, const Position& at) {
+    for (const int other : surface.opposites(edge)) {
+        const Vec3 away = at(other) - foot;
+        if (away.dot(direction) > 1e-9 * away.norm()) return false;
+    }
+    return true;
+}
+
+/// The same at a vertex.
+template <class Position>
+bool vertex_faces(const ObstacleSurface& surface, int vertex, const Vec3& direction, const Position& at) {
+    const Vec3 foot = at(vertex);
+    for (const int other : surface.neighbours(vertex)) {
+        const Vec3 away = at(other) - foot;
+        if (away.dot(direction) > 1e-9 * away.norm()) return false;
+    }
+    return true;
+}
+
+}  // namespace percale

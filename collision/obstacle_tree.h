@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "percale/mesh.h"
+
+namespace percale {
+
+/// Axis-parallel box, m.
+struct Box {
+    Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+
+    void add(const Vec3& x) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    void add(const Box& other) {
+        low = low.cwiseMin(other.low);
+        high = high.cwiseMax(other.high);
+    }
+    void grow(double by) {
+        low.array() -= by;
+        high.array() += by;
+    }
+    bool overlaps(const Box& b) const { return (low.array() <= b.high.array()).all() && (b.low.array() <= high.array()).all(); }
+    bool contains(const Vec3& x) const { return (low.array() <= x.array()).all() && (x.array() <= high.array()).all(); }
+};
+
+/// Triangles found near each box of a batch, one list after the other: those of box i are ids[start[i]] ... ids[start[i + 1] - 1].
+struct TriangleLists {
+    std::vector<int> start;
+    std::vector<int> ids;
+};
+
+/// Finds the triangles of one rigid mesh near boxes: all that a backend does. Every triangle whose own box overlaps the asked
+/// box is found; more may be, in any order (the caller filters and sorts). Const calls are thread-safe.
+class ObstacleTree {
+public:
+    virtual ~ObstacleTree() = default;
+    virtual void find(std::span<const Box> boxes, TriangleLists& found) const = 0;
+};
+
+/// Makes a tree over a mesh; both spans outlive the tree.
+using TreeFactory = std::unique_ptr<ObstacleTree> (*)(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+}  // namespace percale

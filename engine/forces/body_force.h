@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+
+#include "model/vectors.h"
+
+namespace percale {
+
+/// forces = m g on every vertex (replaces what was there). Mass in kg, gravity in m/s^2.
+void set_gravity_forces(std::span<const double> mass, const Vec3& gravity, Vectors& forces);
+
+/// -sum m g . x, J; zero at the origin.
+double gravity_energy(std::span<const double> mass, const Vec3& gravity, const Vectors& positions);
+
+}  // namespace percale

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "model/vectors.h"
+#include "percale/contact.h"
+
+namespace percale {
+
+/// Potential of one contact in the raw distance d, with thickness h and stiffness k: 0 from h on, 1/2 k (h - d)^2 down to
+/// h/2, logarithmic below, so that it grows without bound as d -> 0. Twice continuously differentiable but for the jump of the
+/// second derivative at h. `slope` is -dP/dd >= 0, N; `curvature` d2P/dd2 >= 0, N/m.
+struct ContactPotential {
+    double energy = 0.0, slope = 0.0, curvature = 0.0;
+};
+ContactPotential contact_potential(double distance, double thickness, double stiffness);
+
+/// The block diagonal of a step matrix: six arrays xx xy xz yy yz zz, kg.
+using DiagonalBlocks = std::array<std::vector<double>, 6>;
+
+/// What the contact term needs of the step it is in.
+struct ContactStep {
+    double dt = 0.0;                  // s, of the part of the step being solved
+    double obstacle_rate = 0.0;       // 1/s, obstacle velocity / obstacle_displacement
+    Vec3 gravity = Vec3::Zero();      // m/s^2
+    const std::vector<double>* mass = nullptr;      // kg, of each vertex
+    const DiagonalBlocks* diagonal = nullptr;       // of the elastic step matrix when the step began; frozen
+    bool first_evaluation = false;    // stick or slide is then decided by where gravity will push
+};
+
+/// One row's part of the step matrix: weight w_k w_l K between its vertices, K symmetric, kg.
+struct ContactBlock {
+    std::array<int, 4> vertex;     // -1 = unused
+    std::array<double, 4> weight;
+    std::array<double, 6> k;       // xx xy xz yy yz zz
+};
+
+struct ContactTerms {
+    std::vector<ContactBlock> blocks;
+    double energy = 0.0;            // J
+    double largest_stiffness = 0.0; // N/m
+    double obstacle_power = 0.0;    // W, of the obstacles on the cloth
+};
+
+/// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`.
+/// Stiffness of a row: n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks, but at least four times
+/// (static weight on the row)/thickness, so that slack cloth rests at no less than 3/4 of the thickness.
+/// Friction acts against the tangential velocity relative to the obstacle, mu N at most; below 1e-3 m/s it grows linearly.
+/// A sliding row is a constant force whose matrix leaves the sliding direction free; a sticking one a stiff damper.
+void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& velocities, Vectors& forces, ContactTerms& terms);
+
+}  // namespace percale

@@ -1,0 +1,22 @@
+#include "total_force.h"
+
+#include "body_force.h"
+
+namespace percale {
+
+void evaluate_forces(const ForceInput& input, Forces& forces) {
+    const ClothModel& model = *input.model;
+    if (forces.total.padded_size() != input.positions->padded_size()) forces.total.resize(model.vertex_count());
+    set_gravity_forces(model.mass, input.gravity, forces.total);
+    forces.potential = gravity_energy(model.mass, input.gravity, *input.positions);
+    forces.potential += evaluate_springs(model.springs, *input.springs, {*input.positions, *input.velocities, input.dt},
+                                         input.with_matrix, forces.spring_terms);
+    add_spring_forces(model.adjacency, forces.spring_terms, forces.total);
+}
+
+void add_contact_forces(const ForceInput& input, const ContactStep& contact_step, Forces& forces) {
+    add_contact(forces.rows, contact_step, *input.velocities, forces.total, forces.contact);
+    forces.potential += forces.contact.energy;
+}
+
+}  // namespace percale

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "percale/mesh.h"
+
+namespace percale {
+
+/// Contact rows, a structure of arrays. Row i says: the cloth point sum_k weight[i][k] x[vertex[i][k]] is
+/// `distance` away from `obstacle_point`, along the unit vector `direction` (from the obstacle towards the cloth):
+/// direction . (sum_k weight[k] x[vertex[k]] - obstacle_point) = distance.
+/// The order of rows follows from cloth and obstacles alone, whatever the backend.
+struct ContactRows {
+    std::vector<std::array<int, 4>> vertex;     // cloth vertices; -1 = unused: 1 point, 2 edge, 3 triangle
+    std::vector<std::array<double, 4>> weight;  // sums to 1 against an obstacle
+    std::vector<Vec3> direction;                // unit
+    std::vector<Vec3> obstacle_point;           // m, world, at the asked fraction of the step
+    std::vector<Vec3> obstacle_displacement;    // m, how far that point moves during the whole step
+    std::vector<double> distance;               // m, from the cloth's middle surface to the obstacle, > 0
+    std::vector<double> thickness;              // m, where the contact zone starts
+    std::vector<double> friction;               // Coulomb coefficient
+    std::vector<int> obstacle;
+    std::vector<int> feature;  // obstacle triangle, edge or vertex, by number of vertices used
+
+    std::size_t size() const { return vertex.size(); }
+    void clear() {
+        vertex.clear();
+        weight.clear();
+        for (auto* vectors : {&direction, &obstacle_point, &obstacle_displacement}) vectors->clear();
+        for (auto* numbers : {&distance, &thickness, &friction}) numbers->clear();
+        obstacle.clear();
+        feature.clear();
+    }
+};
+
+/// The part of a step over which cloth and obstacles move together: 0 = start, 1 = end.
+struct StepFraction {
+    double from = 0.0;
+    double to = 1.0;
+};
+
+/// What is wrong with a start position; all zero if nothing is.
+struct StartFault {
+    int intersecting_pairs = 0;  // cloth triangles that cross an obstacle triangle
+    int cloth_triangle = -1;     // one of them
+    int obstacle = -1;           // the obstacle it crosses or is inside of
+    int obstacle_triangle = -1;
+    int vertices_inside = 0;          // cloth vertices inside a watertight obstacle
+    int inside_vertex = -1;           // one of them
+    double smallest_distance = -1.0;  // m, between cloth and obstacles; < 0 = not computed (nothing near)
+
+    bool any() const { return intersecting_pairs > 0 || vertices_inside > 0 || smallest_distance == 0.0; }
+};
+
+/// Finds contacts between all cloth of a simulation and its obstacles. Whole batches, plain types.
+/// Within a step an obstacle vertex moves on the straight line from its place at the start to its place at the end.
+/// Not thread-safe: one detector belongs to one simulation.
+class ContactDetector {
+public:
+    virtual ~ContactDetector() = default;
+
+    /// All cloth triangles of the simulation and the contact thickness of each vertex, m, > 0.
+    virtual void set_cloth(std::span<const Triangle> triangles, std::span<const double> vertex_thickness) = 0;
+
+    /// Returns the obstacle's number. Throws SceneError if nothing is left of the mesh after cleaning.
+    virtual int add_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) = 0;
+
+    /// Where the obstacle is at the two ends of the coming step. The scale must not change.
+    virtual void move_obstacle(int obstacle, const Pose& start, const Pose& end) = 0;
+
+    /// Whether this start may be simulated: no crossing, no vertex inside a watertight obstacle.
+    virtual StartFault check_start(std::span<const Vec3> positions) = 0;
+
+    /// Once a step: makes the candidate lists good for moves between these positions. Outrunning them later is allowed:
+    /// the lists then grow.
+    virtual void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) = 0;
+
+    /// Every contact closer than the thickness, with obstacles at `fraction` of the step. A pair of features that was a contact
+    /// since the last refresh stays one while it is that near, even if its neighbours are nearer by now: within one
+    /// solve contacts only join, so that forces change continuously.
+    virtual void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) = 0;
+
+    /// The largest f in [0, 1] such that moving all vertices along from + f (to - from), while the obstacles move over
+    /// f of the part of the step, keeps every distance above a small positive floor.
+    virtual double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) = 0;
+
+    /// Smallest distance of the last evaluation, m; infinity if nothing was near.
+    virtual double smallest_distance() const = 0;
+};
+
+}  // namespace percale

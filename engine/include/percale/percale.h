@@ -1,0 +1,11 @@
+#pragma once
+
+// Everything a program needs to simulate cloth. Detectors for obstacles: percale/detectors.h.
+#include "percale/contact.h"
+#include "percale/error.h"
+#include "percale/fabric.h"
+#include "percale/mesh.h"
+#include "percale/options.h"
+#include "percale/report.h"
+#include "percale/settings.h"
+#include "percale/simulation.h"

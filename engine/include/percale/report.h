@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+namespace percale {
+
+enum class StepStatus {
+    ok,
+    halved,             // ok, but only after the step was redone as shorter ones
+    not_converged,      // accepted at the iteration limit; the residual says how far off
+    pin_blocked,        // failed: a pin could not reach its target without crossing an obstacle
+    obstacle_too_fast,  // failed: the cloth could not follow a moving obstacle
+    not_finite,         // failed: a state would have become infinite or NaN; the state is that of the step's start
+};
+
+/// CPU seconds of the calling thread, by stage.
+struct StageTimes {
+    double refresh = 0.0, evaluate = 0.0, force = 0.0, setup = 0.0, solve = 0.0, cut = 0.0, measure = 0.0;
+};
+
+/// Energies in J at the end of the step; the dissipated ones and the work are those of this step.
+struct StepEnergy {
+    double kinetic = 0.0, gravity = 0.0, elastic = 0.0, contact = 0.0;
+    double work = 0.0;  // of pins and obstacles on the cloth during this step
+
+    double total() const { return kinetic + gravity + elastic + contact; }
+};
+
+/// What one step did. A failed step leaves positions and velocities as they were.
+struct StepReport {
+    StepStatus status = StepStatus::ok;
+    double time = 0.0;  // s, at the end of the step
+    double dt = 0.0;    // s
+    int newton_iterations = 0;
+    int linear_iterations = 0;
+    int line_search_cuts = 0;
+    int halvings = 0;                // how often the step was redone shorter
+    double residual = 0.0;           // relative to the first of the step
+    double smallest_fraction = 1.0;  // smallest part of a move that was free of crossing
+    int contacts = 0;                // contact rows at the end
+    double smallest_distance = 0.0;  // m; infinity if nothing was near
+    double contact_stiffness = 0.0;  // N/m, largest of the step
+    double largest_strain = 0.0;     // of structural springs, (l - l0)/l0
+    double largest_speed = 0.0;      // m/s
+    int blocked_cloth = -1;          // the cloth and vertex of a blocked pin
+    int blocked_vertex = -1;
+    int blocking_obstacle = -1;
+    std::uint64_t contact_hash = 0;  // of the contact rows at the end
+    StepEnergy energy;
+    StageTimes stages;
+
+    bool ok() const { return status == StepStatus::ok || status == StepStatus::halved || status == StepStatus::not_converged; }
+    /// One sentence on what happened, with figures.
+    std::string explanation() const;
+    void explain(std::FILE* out) const;
+};
+
+const char* status_word(StepStatus status);
+
+}  // namespace percale

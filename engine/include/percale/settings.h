@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "percale/mesh.h"
+
+namespace percale {
+
+enum class Scheme { symplectic_euler, rk4, backward_euler };
+enum class LinearSolver { automatic, cg };
+enum class ContactResponse { penalty };
+enum class DampingForm { length_rate, velocity };
+
+/// How the simulation steps. Ranges and sentences of every field: options.h.
+struct StepSettings {
+    double time_step = 1.0 / 60.0;  // s
+    Scheme scheme = Scheme::backward_euler;
+    /// Residual relative to the first of the step; empty = solver error below a quarter of the step's time error.
+    std::optional<double> newton_tolerance = {};
+    int newton_iterations = 50;  // at most; 1 = linearly implicit
+    LinearSolver linear_solver = LinearSolver::automatic;
+    ContactResponse contact_response = ContactResponse::penalty;
+    /// length_rate: kd (l - l_n)/dt along the current direction, backward Euler only; velocity: kd (v_ij . d).
+    DampingForm damping_form = DampingForm::length_rate;
+    Vec3 gravity = Vec3(0.0, -9.81, 0.0);  // m/s^2
+};
+
+}  // namespace percale

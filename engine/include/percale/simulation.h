@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "percale/contact.h"
+#include "percale/fabric.h"
+#include "percale/mesh.h"
+#include "percale/report.h"
+#include "percale/settings.h"
+
+namespace percale {
+
+struct ClothId {
+    int index = -1;
+};
+struct ObstacleId {
+    int index = -1;
+};
+
+struct ObstacleSettings {
+    double friction = 0.3;          // Coulomb coefficient against cloth, 0 ... 10
+    std::string name = "obstacle";  // for messages
+};
+
+/// Cloth, obstacles and their motion in time. Wrong arguments throw SceneError from the call that was wrong; a step never
+/// throws for numerical trouble but returns a status. One thread at a time per simulation; simulations are independent.
+class Simulation {
+public:
+    /// Without a detector, obstacles are refused. Throws SceneError for settings out of range.
+    explicit Simulation(const StepSettings& settings, std::unique_ptr<ContactDetector> detector = nullptr);
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+
+    /// The mesh at `pose` (its scale included) is the rest shape. `name` is used in messages.
+    ClothId add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose = {}, const std::string& name = "cloth");
+    ObstacleId add_obstacle(const TriangleMesh& mesh, const Pose& pose = {}, const ObstacleSettings& settings = {});
+
+    void pin(ClothId cloth, int vertex);
+    void unpin(ClothId cloth, int vertex);
+    /// Where a pinned vertex is at the end of the next step, m; it then stays there.
+    void move_pin(ClothId cloth, int vertex, const Vec3& target);
+    /// Where an obstacle is at the end of the next step; it then stays there. The scale must not change.
+    void move_obstacle(ObstacleId obstacle, const Pose& end);
+    void set_gravity(const Vec3& gravity);  // m/s^2
+    void set_time_step(double time_step);   // s, > 0
+    /// All vertices of a cloth; m and m/s. For starts that are not at rest.
+    void set_positions(ClothId cloth, std::span<const Vec3> positions);
+    void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
+
+    /// Checks the scene as a whole (no cloth starts inside or through an obstacle); throws SceneError. The first step calls it.
+    void prepare();
+    StepReport step();
+
+    double time() const;  // s
+    int cloth_count() const;
+    /// Views, valid until the next call that changes the simulation. m and m/s, world.
+    std::span<const Vec3> positions(ClothId cloth) const;
+    std::span<const Vec3> velocities(ClothId cloth) const;
+    /// Lumped masses, kg.
+    std::span<const double> masses(ClothId cloth) const;
+    Pose obstacle_pose(ObstacleId obstacle) const;
+    /// Energies of the current state, J; `work` is 0.
+    StepEnergy energy() const;
+    /// Depends on every bit of positions and velocities.
+    std::uint64_t state_hash() const;
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace percale

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adjacency.h"
+#include "percale/fabric.h"
+#include "percale/mesh.h"
+#include "spring_network.h"
+#include "vectors.h"
+
+namespace percale {
+
+/// The vertices of one cloth among all vertices of a simulation.
+struct ClothRange {
+    std::string name;
+    int first = 0;
+    int count = 0;
+    double mass = 0.0;  // kg
+};
+
+/// All cloth of a simulation as one system: what does not change from step to step.
+struct ClothModel {
+    std::vector<ClothRange> cloths;
+    std::vector<double> mass;       // kg, one a vertex
+    std::vector<double> thickness;  // m, one a vertex
+    std::vector<Triangle> triangles;
+    SpringNetwork springs;
+    Adjacency adjacency;
+
+    int vertex_count() const { return static_cast<int>(mass.size()); }
+};
+
+/// Appends a cloth; `rest` in m, world. Throws SceneError naming `name`. The adjacency is made anew by finish_model.
+void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fabric, const std::string& name);
+void finish_model(ClothModel& model);
+
+/// What may change in a step.
+struct ClothState {
+    Vectors positions;         // m
+    Vectors velocities;        // m/s
+    std::vector<Vec3> points;  // positions again, one after the other, for detectors and callers
+};
+
+/// Copies positions to points.
+void update_points(ClothState& state);
+
+}  // namespace percale

@@ -1,0 +1,87 @@
+#include "spring_network.h"
+
+#include "percale/error.h"
+#include "topology.h"
+
+namespace percale {
+namespace {
+
+/// Adds the springs of one cloth.
+class SpringWriter {
+public:
+    SpringWriter(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex, const std::string& name)
+        : network_(network), rest_(rest), fabric_(fabric), first_vertex_(first_vertex), name_(name) {}
+
+    void add(int a, int b, SpringKind kind) {
+        const double stiffness = constant(kind);
+        if (stiffness == 0.0) return;
+        const double length = (rest_.vertices[a] - rest_.vertices[b]).norm();
+        if (!(length > 0.0)) {
+            throw SceneError(name_ + ": vertices " + std::to_string(a) + " and " + std::to_string(b) +
+                             " are joined by a spring but lie at the same place");
+        }
+        network_.first.push_back(first_vertex_ + a);
+        network_.second.push_back(first_vertex_ + b);
+        network_.rest_length.push_back(length);
+        network_.stiffness.push_back(stiffness);
+        network_.damping.push_back(fabric_.spring_damping);
+        network_.kind.push_back(kind);
+    }
+
+private:
+    double constant(SpringKind kind) const {
+        if (kind == SpringKind::structural) return fabric_.springs.structural;
+        return kind == SpringKind::shear ? fabric_.springs.shear : fabric_.springs.bend;
+    }
+
+    SpringNetwork& network_;
+    const TriangleMesh& rest_;
+    const Fabric& fabric_;
+    int first_vertex_;
+    const std::string& name_;
+};
+
+/// Springs from every grid vertex to the one `columns_apart`, `rows_apart` away, where there is one.
+void add_family(SpringWriter& writer, const TriangleMesh& grid, int columns_apart, int rows_apart, SpringKind kind) {
+    const int first_column = columns_apart < 0 ? -columns_apart : 0;
+    const int last_column = grid.grid_columns - (columns_apart > 0 ? columns_apart : 0);
+    for (int r = 0; r + rows_apart < grid.grid_rows; ++r) {
+        for (int c = first_column; c < last_column; ++c) {
+            const int from = r * grid.grid_columns + c;
+            writer.add(from, from + rows_apart * grid.grid_columns + columns_apart, kind);
+        }
+    }
+}
+
+void add_grid(SpringWriter& writer, const TriangleMesh& grid) {
+    add_family(writer, grid, 1, 0, SpringKind::structural);
+    add_family(writer, grid, 0, 1, SpringKind::structural);
+    add_family(writer, grid, 1, 1, SpringKind::shear);
+    add_family(writer, grid, -1, 1, SpringKind::shear);
+    add_family(writer, grid, 2, 0, SpringKind::bend);
+    add_family(writer, grid, 0, 2, SpringKind::bend);
+}
+
+void add_free(SpringWriter& writer, const TriangleMesh& mesh) {
+    const std::vector<MeshEdge> edges = mesh_edges(mesh.triangles);
+    for (const MeshEdge& edge : edges) writer.add(edge.vertex[0], edge.vertex[1], SpringKind::structural);
+    for (const MeshEdge& edge : edges) {
+        if (edge.opposite[1] >= 0) writer.add(edge.opposite[0], edge.opposite[1], SpringKind::bend);
+    }
+}
+
+}  // namespace
+
+void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex,
+                    const std::string& name) {
+    if (!rest.is_grid() && fabric.springs.shear != 0.0) {
+        throw SceneError(name + ": springs.shear = " + std::to_string(fabric.springs.shear) +
+                         " N/m, but a free mesh has no shear springs; its edges already resist shear, leave springs.shear out");
+    }
+    const int before = network.size();
+    SpringWriter writer(network, rest, fabric, first_vertex, name);
+    rest.is_grid() ? add_grid(writer, rest) : add_free(writer, rest);
+    if (network.size() == before) throw SceneError(name + ": the fabric has no springs; springs.structural must be above 0 N/m");
+}
+
+}  // namespace percale

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "percale/fabric.h"
+#include "percale/mesh.h"
+
+namespace percale {
+
+enum class SpringKind : std::uint8_t { structural, shear, bend };
+
+/// All springs of a simulation, a structure of arrays.
+struct SpringNetwork {
+    std::vector<int> first, second;   // vertices
+    std::vector<double> rest_length;  // m
+    std::vector<double> stiffness;    // ks, N/m
+    std::vector<double> damping;      // kd, N s/m
+    std::vector<SpringKind> kind;
+
+    int size() const { return static_cast<int>(first.size()); }
+};
+
+/// Appends the springs of one cloth whose vertices start at `first_vertex`. `rest` is the rest shape in m.
+/// Grid: structural along rows and columns, shear on both diagonals of every cell, bend two apart along rows and columns.
+/// Free mesh: structural on every edge, bend between the two vertices opposite an inner edge.
+/// A kind whose constant is 0 has no springs, and so no damping either. Throws SceneError naming `name` for shear on a
+/// free mesh, no spring at all, or a spring of no length.
+void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex,
+                    const std::string& name);
+
+}  // namespace percale

@@ -1,0 +1,136 @@
+#include "percale/options.h"
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "percale/error.h"
+
+namespace percale {
+namespace {
+
+constexpr std::string_view scheme_words[] = {"symplectic_euler", "rk4", "backward_euler"};
+constexpr std::string_view solver_words[] = {"auto", "cg"};
+constexpr std::string_view response_words[] = {"penalty"};
+constexpr std::string_view damping_words[] = {"length_rate", "velocity"};
+
+constexpr Option<Fabric> fabric_list[] = {
+    {.key = "area_density",
+     .unit = "kg/m^2",
+     .sentence = "Mass of one square metre.",
+     .lowest = 1e-4,
+     .highest = 1e3,
+     .number = [](Fabric& f) { return &f.area_density; }},
+    {.key = "thickness",
+     .unit = "m",
+     .sentence = "Gap kept from obstacles, measured from the middle surface.",
+     .lowest = 1e-6,
+     .highest = 1.0,
+     .number = [](Fabric& f) { return &f.thickness; }},
+    {.key = "springs.structural",
+     .unit = "N/m",
+     .sentence = "Constant of each spring along rows and columns of a grid, or along each edge of a free mesh.",
+     .lowest = 0.0,
+     .highest = 1e9,
+     .number = [](Fabric& f) { return &f.springs.structural; }},
+    {.key = "springs.shear",
+     .unit = "N/m",
+     .sentence = "Constant of each spring on both diagonals of every grid cell; an error on a free mesh unless 0.",
+     .lowest = 0.0,
+     .highest = 1e9,
+     .number = [](Fabric& f) { return &f.springs.shear; }},
+    {.key = "springs.bend",
+     .unit = "N/m",
+     .sentence = "Constant of each spring two apart along rows and columns, or across each inner edge of a free mesh.",
+     .lowest = 0.0,
+     .highest = 1e9,
+     .number = [](Fabric& f) { return &f.springs.bend; }},
+    {.key = "spring_damping",
+     .unit = "N s/m",
+     .sentence = "Damping of each spring, along the spring only.",
+     .lowest = 0.0,
+     .highest = 1e6,
+     .number = [](Fabric& f) { return &f.spring_damping; }},
+};
+
+constexpr Option<StepSettings> step_list[] = {
+    {.key = "time_step",
+     .unit = "s",
+     .sentence = "Length of a step.",
+     .lowest = 1e-7,
+     .highest = 1.0,
+     .number = [](StepSettings& s) { return &s.time_step; }},
+    {.key = "scheme",
+     .unit = "",
+     .sentence = "Time integration; the explicit ones (symplectic_euler, rk4) need small steps and take no obstacles.",
+     .choices = scheme_words,
+     .get_choice = [](const StepSettings& s) { return static_cast<int>(s.scheme); },
+     .set_choice = [](StepSettings& s, int i) { s.scheme = static_cast<Scheme>(i); }},
+    {.key = "newton_tolerance",
+     .unit = "",
+     .sentence =
+         "Residual relative to the first of the step; auto keeps the solver's error below a quarter of the step's time error.",
+     .lowest = 1e-14,
+     .highest = 1.0,
+     .number_or_auto = [](StepSettings& s) { return &s.newton_tolerance; }},
+    {.key = "newton_iterations",
+     .unit = "",
+     .sentence = "Newton iterations at most; 1 is linearly implicit.",
+     .lowest = 1,
+     .highest = 1000,
+     .integer = [](StepSettings& s) { return &s.newton_iterations; }},
+    {.key = "linear_solver",
+     .unit = "",
+     .sentence = "How the linear system of a Newton iteration is solved: cg = conjugate gradient with block Jacobi.",
+     .choices = solver_words,
+     .get_choice = [](const StepSettings& s) { return static_cast<int>(s.linear_solver); },
+     .set_choice = [](StepSettings& s, int i) { s.linear_solver = static_cast<LinearSolver>(i); }},
+    {.key = "contact_response",
+     .unit = "",
+     .sentence = "How contact acts inside a step: penalty = springs that grow without bound as the distance goes to 0.",
+     .choices = response_words,
+     .get_choice = [](const StepSettings& s) { return static_cast<int>(s.contact_response); },
+     .set_choice = [](StepSettings& s, int i) { s.contact_response = static_cast<ContactResponse>(i); }},
+    {.key = "damping_form",
+     .unit = "",
+     .sentence = "Spring damping as the rate of the length over the step (backward Euler only) or by the relative velocity.",
+     .choices = damping_words,
+     .get_choice = [](const StepSettings& s) { return static_cast<int>(s.damping_form); },
+     .set_choice = [](StepSettings& s, int i) { s.damping_form = static_cast<DampingForm>(i); }},
+};
+
+void check_number(std::string_view owner, std::string_view key, std::string_view unit, double value, double low, double high) {
+    if (std::isfinite(value) && value >= low && value <= high) return;
+    std::ostringstream text;
+    text << owner << ": " << key << " = " << value << (unit.empty() ? "" : " ") << unit << " is outside the allowed range " << low
+         << " ... " << high;
+    throw SceneError(text.str());
+}
+
+template <class Owner>
+void check_fields(Owner owner, std::string_view name, std::span<const Option<Owner>> options) {
+    for (const Option<Owner>& option : options) {
+        const auto check = [&](double value) {
+            check_number(name, option.key, option.unit, value, option.lowest, option.highest);
+        };
+        if (option.number) check(*option.number(owner));
+        if (option.integer) check(*option.integer(owner));
+        if (option.number_or_auto && option.number_or_auto(owner)->has_value()) check(**option.number_or_auto(owner));
+    }
+}
+
+}  // namespace
+
+std::span<const Option<Fabric>> fabric_options() { return fabric_list; }
+std::span<const Option<StepSettings>> step_options() { return step_list; }
+
+void check_options(const Fabric& fabric, std::string_view owner_name) {
+    check_fields<Fabric>(fabric, owner_name, fabric_options());
+}
+
+void check_options(const StepSettings& settings, std::string_view owner_name) {
+    check_fields<StepSettings>(settings, owner_name, step_options());
+    for (int axis = 0; axis < 3; ++axis) check_number(owner_name, "gravity", "m/s^2", settings.gravity[axis], -1e4, 1e4);
+}
+
+}  // namespace percale

@@ -1,0 +1,61 @@
+#include "percale/report.h"
+
+#include <sstream>
+
+namespace percale {
+namespace {
+
+std::string failure_text(const StepReport& report) {
+    std::ostringstream text;
+    const std::string blocker =
+        report.blocking_obstacle >= 0 ? "obstacle " + std::to_string(report.blocking_obstacle) : "the obstacles";
+    switch (report.status) {
+        case StepStatus::pin_blocked:
+            text << "pinned vertex " << report.blocked_vertex << " of cloth " << report.blocked_cloth
+                 << " cannot reach its target without taking the cloth through " << blocker;
+            break;
+        case StepStatus::obstacle_too_fast:
+            text << blocker << " moves faster than the cloth can follow, smallest safe fraction of a move "
+                 << report.smallest_fraction << "; take a shorter time step or a slower motion";
+            break;
+        case StepStatus::not_finite:
+            text << "positions or velocities would become infinite; take a shorter time step or an implicit scheme";
+            break;
+        default:
+            break;
+    }
+    return text.str();
+}
+
+}  // namespace
+
+const char* status_word(StepStatus status) {
+    switch (status) {
+        case StepStatus::ok:
+            return "ok";
+        case StepStatus::halved:
+            return "halved";
+        case StepStatus::not_converged:
+            return "not_converged";
+        case StepStatus::pin_blocked:
+            return "pin_blocked";
+        case StepStatus::obstacle_too_fast:
+            return "obstacle_too_fast";
+        case StepStatus::not_finite:
+            return "not_finite";
+    }
+    return "unknown";
+}
+
+std::string StepReport::explanation() const {
+    std::ostringstream text;
+    text << "step from t = " << (ok() ? time - dt : time) << " s over " << dt << " s: " << status_word(status);
+    if (!ok()) text << ", " << failure_text(*this);
+    text << " (" << newton_iterations << " Newton and " << linear_iterations << " linear iterations, relative residual " << residual
+         << ", " << halvings << " halvings)";
+    return text.str();
+}
+
+void StepReport::explain(std::FILE* out) const { std::fprintf(out, "%s\n", explanation().c_str()); }
+
+}  // namespace percale

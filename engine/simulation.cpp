@@ -1,0 +1,294 @@
+#include "percale/simulation.h"
+
+#include <cmath>
+#include <utility>
+
+#include "percale/error.h"
+#include "percale/options.h"
+#include "step/measure.h"
+#include "step/step.h"
+#include "support/hash.h"
+
+namespace percale {
+namespace {
+
+std::string number_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+void check_pose(const Pose& pose, const std::string& name) {
+    const Rotation& q = pose.rotation;
+    const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (!pose.translation.allFinite()) throw SceneError(name + ": the translation of its pose is not finite");
+    if (!(std::abs(norm - 1.0) <= 1e-6)) {
+        throw SceneError(name + ": the rotation of its pose has length " + number_text(norm) + ", a rotation is a unit quaternion (w, x, y, z)");
+    }
+    if (!(pose.scale > 0.0) || !std::isfinite(pose.scale)) {
+        throw SceneError(name + ": the scale of its pose is " + number_text(pose.scale) + ", it must be above 0");
+    }
+}
+
+/// Exactly unit length, so that rotated lengths keep to rounding.
+Pose normalised(Pose pose) {
+    Rotation& q = pose.rotation;
+    const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (norm != 1.0) q = {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
+    return pose;
+}
+
+void check_finite(const Vec3& value, const std::string& what) {
+    if (!value.allFinite()) throw SceneError(what + " is not finite");
+}
+
+}  // namespace
+
+struct Simulation::Implementation {
+    World world;
+
+    const ClothRange& cloth(ClothId id) const {
+        if (id.index >= 0 && id.index < static_cast<int>(world.model.cloths.size())) return world.model.cloths[id.index];
+        throw SceneError("there is no cloth " + std::to_string(id.index) + ", cloths are 0 ... " +
+                         std::to_string(static_cast<int>(world.model.cloths.size()) - 1));
+    }
+
+    ObstacleState& obstacle(ObstacleId id) {
+        if (id.index >= 0 && id.index < static_cast<int>(world.script.obstacles.size())) return world.script.obstacles[id.index];
+        throw SceneError("there is no obstacle " + std::to_string(id.index) + ", obstacles are 0 ... " +
+                         std::to_string(static_cast<int>(world.script.obstacles.size()) - 1));
+    }
+
+    int vertex(ClothId id, int index) const {
+        const ClothRange& range = cloth(id);
+        if (index >= 0 && index < range.count) return range.first + index;
+        throw SceneError(range.name + ": there is no vertex " + std::to_string(index) + ", vertices are 0 ... " +
+                         std::to_string(range.count - 1));
+    }
+
+    int pinned_vertex(ClothId id, int index, const char* call) const {
+        const int at = vertex(id, index);
+        if (world.script.free[at] == 0.0) return at;
+        throw SceneError(cloth(id).name + ": " + call + " of vertex " + std::to_string(index) + ", which is not pinned");
+    }
+
+    void pass_cloth_to_detector() {
+        if (world.detector) world.detector->set_cloth(world.model.triangles, world.model.thickness);
+    }
+
+    /// The cloth that owns a vertex of the whole system, and its index there.
+    std::string vertex_name(int vertex_index) const {
+        for (const ClothRange& range : world.model.cloths) {
+            if (vertex_index < range.first + range.count) {
+                return "vertex " + std::to_string(vertex_index - range.first) + " of " + range.name;
+            }
+        }
+        return "vertex " + std::to_string(vertex_index);
+    }
+
+    void check_start() {
+        const StartFault fault = world.detector->check_start(world.state.points);
+        if (!fault.any()) return;
+        const std::string obstacle_name = fault.obstacle >= 0 ? world.script.obstacles[fault.obstacle].name : "an obstacle";
+        if (fault.intersecting_pairs > 0) {
+            const int corner = world.model.triangles[fault.cloth_triangle][0];
+            throw SceneError("the cloth starts through " + obstacle_name + ": " + std::to_string(fault.intersecting_pairs) +
+                             " intersecting triangle pairs, one of them at " + vertex_name(corner) + " and triangle " +
+                             std::to_string(fault.obstacle_triangle) + "; move the cloth or the obstacle apart");
+        }
+        if (fault.vertices_inside > 0) {
+            throw SceneError("the cloth starts inside " + obstacle_name + ": " + std::to_string(fault.vertices_inside) +
+                             " vertices, one of them " + vertex_name(fault.inside_vertex) + "; move the cloth or the obstacle apart");
+        }
+        throw SceneError("the cloth starts touching " + obstacle_name + "; leave some distance");
+    }
+
+    void check_scheme() const {
+        if (world.script.obstacles.empty() || world.settings.scheme == Scheme::backward_euler) return;
+        throw SceneError("an explicit scheme takes no obstacles; use scheme backward_euler");
+    }
+};
+
+Simulation::Simulation(const StepSettings& settings, std::unique_ptr<ContactDetector> detector)
+    : implementation_(std::make_unique<Implementation>()) {
+    check_options(settings, "settings");
+    implementation_->world.settings = settings;
+    implementation_->world.detector = std::move(detector);
+}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose, const std::string& name) {
+    World& world = implementation_->world;
+    check_pose(pose, name);
+    TriangleMesh rest = mesh;
+    rest.vertices = transform(normalised(pose), mesh.vertices);
+    ClothModel model = world.model;
+    append_cloth(model, rest, fabric, name);
+    finish_model(model);
+    world.model = std::move(model);
+    world.newton.matrix.pattern = nullptr;
+    // The vertices of earlier cloths keep state and pins.
+    ClothState state;
+    for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(world.model.vertex_count());
+    state.points = world.state.points;
+    state.points.insert(state.points.end(), rest.vertices.begin(), rest.vertices.end());
+    copy_in(state.points, state.positions);
+    for (std::size_t i = 0; i < world.state.points.size(); ++i) {
+        state.velocities.set(static_cast<int>(i), world.state.velocities.at(static_cast<int>(i)));
+    }
+    std::vector<double> free(state.positions.padded_size(), 0.0);
+    Vectors targets = state.positions;
+    for (int i = 0; i < world.model.vertex_count(); ++i) {
+        const bool old = i < static_cast<int>(world.state.points.size());
+        free[i] = old ? world.script.free[i] : 1.0;
+        if (old) targets.set(i, world.script.pin_targets.at(i));
+    }
+    world.state = std::move(state);
+    world.script.free = std::move(free);
+    world.script.pin_targets = std::move(targets);
+    implementation_->pass_cloth_to_detector();
+    world.changed = true;
+    return {static_cast<int>(world.model.cloths.size()) - 1};
+}
+
+ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, const ObstacleSettings& settings) {
+    World& world = implementation_->world;
+    if (!world.detector) throw SceneError(settings.name + ": an obstacle needs a contact detector, give one to the simulation");
+    if (!(settings.friction >= 0.0 && settings.friction <= 10.0)) {
+        throw SceneError(settings.name + ": friction = " + number_text(settings.friction) + " is outside the allowed range 0 ... 10");
+    }
+    check_pose(pose, settings.name);
+    check_mesh(mesh, settings.name, false);
+    const Pose placed = normalised(pose);
+    world.detector->add_obstacle(mesh, placed, settings.friction);
+    world.script.obstacles.push_back({settings.name, placed, placed});
+    world.changed = true;
+    return {static_cast<int>(world.script.obstacles.size()) - 1};
+}
+
+void Simulation::pin(ClothId cloth, int vertex) {
+    World& world = implementation_->world;
+    const int at = implementation_->vertex(cloth, vertex);
+    world.script.free[at] = 0.0;
+    world.script.pin_targets.set(at, world.state.positions.at(at));
+    world.state.velocities.set(at, Vec3::Zero());
+}
+
+void Simulation::unpin(ClothId cloth, int vertex) {
+    implementation_->world.script.free[implementation_->pinned_vertex(cloth, vertex, "unpin")] = 1.0;
+}
+
+void Simulation::move_pin(ClothId cloth, int vertex, const Vec3& target) {
+    const int at = implementation_->pinned_vertex(cloth, vertex, "move_pin");
+    check_finite(target, implementation_->cloth(cloth).name + ": the target of pinned vertex " + std::to_string(vertex));
+    implementation_->world.script.pin_targets.set(at, target);
+}
+
+void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
+    ObstacleState& state = implementation_->obstacle(obstacle);
+    check_pose(end, state.name);
+    if (end.scale != state.start.scale) {
+        throw SceneError(state.name + ": the scale of an obstacle cannot change, it is " + number_text(state.start.scale));
+    }
+    state.end = normalised(end);
+}
+
+void Simulation::set_gravity(const Vec3& gravity) {
+    StepSettings settings = implementation_->world.settings;
+    settings.gravity = gravity;
+    check_options(settings, "set_gravity");
+    implementation_->world.settings = settings;
+}
+
+void Simulation::set_time_step(double time_step) {
+    StepSettings settings = implementation_->world.settings;
+    settings.time_step = time_step;
+    check_options(settings, "set_time_step");
+    implementation_->world.settings = settings;
+}
+
+void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
+    World& world = implementation_->world;
+    const ClothRange& range = implementation_->cloth(cloth);
+    if (static_cast<int>(positions.size()) != range.count) {
+        throw SceneError(range.name + ": set_positions got " + std::to_string(positions.size()) + " positions for " +
+                         std::to_string(range.count) + " vertices");
+    }
+    for (int i = 0; i < range.count; ++i) check_finite(positions[i], range.name + ": position " + std::to_string(i));
+    for (int i = 0; i < range.count; ++i) {
+        world.state.positions.set(range.first + i, positions[i]);
+        world.script.pin_targets.set(range.first + i, positions[i]);
+    }
+    update_points(world.state);
+    world.changed = true;
+}
+
+void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities) {
+    World& world = implementation_->world;
+    const ClothRange& range = implementation_->cloth(cloth);
+    if (static_cast<int>(velocities.size()) != range.count) {
+        throw SceneError(range.name + ": set_velocities got " + std::to_string(velocities.size()) + " velocities for " +
+                         std::to_string(range.count) + " vertices");
+    }
+    for (int i = 0; i < range.count; ++i) check_finite(velocities[i], range.name + ": velocity " + std::to_string(i));
+    for (int i = 0; i < range.count; ++i) {
+        const bool free = world.script.free[range.first + i] > 0.0;
+        world.state.velocities.set(range.first + i, free ? velocities[i] : Vec3(Vec3::Zero()));
+    }
+}
+
+void Simulation::prepare() {
+    World& world = implementation_->world;
+    if (!world.changed) return;
+    implementation_->check_scheme();
+    if (world.detector && !world.script.obstacles.empty() && !world.model.cloths.empty()) implementation_->check_start();
+    world.changed = false;
+}
+
+StepReport Simulation::step() {
+    prepare();
+    return percale::step(implementation_->world);
+}
+
+double Simulation::time() const { return implementation_->world.time; }
+
+int Simulation::cloth_count() const { return static_cast<int>(implementation_->world.model.cloths.size()); }
+
+std::span<const Vec3> Simulation::positions(ClothId cloth) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    return std::span(implementation_->world.state.points).subspan(range.first, range.count);
+}
+
+std::span<const Vec3> Simulation::velocities(ClothId cloth) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    World& world = implementation_->world;
+    world.velocity_points.resize(world.state.points.size());
+    copy_out(world.state.velocities, world.velocity_points);
+    return std::span<const Vec3>(world.velocity_points).subspan(range.first, range.count);
+}
+
+std::span<const double> Simulation::masses(ClothId cloth) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    return std::span<const double>(implementation_->world.model.mass).subspan(range.first, range.count);
+}
+
+Pose Simulation::obstacle_pose(ObstacleId obstacle) const { return implementation_->obstacle(obstacle).start; }
+
+StepEnergy Simulation::energy() const { return current_energy(implementation_->world); }
+
+std::uint64_t Simulation::state_hash() const {
+    Hash hash;
+    const ClothState& state = implementation_->world.state;
+    for (int i = 0; i < implementation_->world.model.vertex_count(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            hash.add(state.positions.at(i)[axis]);
+            hash.add(state.velocities.at(i)[axis]);
+        }
+    }
+    return hash.value();
+}
+
+}  // namespace percale

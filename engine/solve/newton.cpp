@@ -1,0 +1,333 @@
+#include "newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "line_search.h"
+#include "support/stage_timer.h"
+
+namespace percale {
+namespace {
+
+constexpr double energy_accuracy = 0.05;      // of the linear solve, in the energy norm
+constexpr double share_of_time_error = 0.25;  // solver error over time error
+constexpr double smallest_change = 1e-7;      // m, below it iterations are pointless
+constexpr int most_trials = 10;               // of one line search
+
+/// The solve of one part: functions that share the part, its work space and what is reported.
+class NewtonSolve {
+public:
+    NewtonSolve(const ImplicitPart& part, NewtonSpace& space, StageTimes& stages)
+        : part_(part), model_(*part.model), space_(space), stages_(stages) {}
+
+    NewtonReport run(ClothState& state) {
+        start(state);
+        if (part_.options.predict) predict(state);
+        evaluate(space_.current);
+        iterate();
+        if (!std::isfinite(space_.current.objective)) report_.end = NewtonEnd::not_finite;
+        if (report_.end != NewtonEnd::not_finite && report_.end != NewtonEnd::blocked) finish(state);
+        return report_;
+    }
+
+private:
+    void start(const ClothState& state) {
+        space_.start_positions = state.positions;
+        space_.start_velocities = state.velocities;
+        space_.current.positions = state.positions;
+        space_.current.velocities = state.velocities;
+        space_.current.points = state.points;
+        space_.trial.points = state.points;
+        space_.current.fraction = moves_are_scripted() ? part_.span.from : part_.span.to;
+        space_.frozen_diagonal[0].clear();
+        if (space_.matrix.pattern != &model_.adjacency || space_.matrix.free.size() != part_.free->size()) {
+            set_pattern(model_.adjacency, space_.matrix);
+        }
+        space_.matrix.free = *part_.free;
+        for (auto* vectors : {&space_.direction, &space_.right_side}) vectors->resize(model_.vertex_count());
+        set_step_springs(model_.springs, state.positions, part_.plan->damping, part_.dt, space_.springs);
+    }
+
+    bool moves_are_scripted() const { return part_.plan->obstacles_move || part_.plan->pins_move; }
+    bool arrived() const { return space_.current.fraction >= part_.span.to; }
+
+    /// Free vertices go to q_n + dt v_n (without gravity: in the prediction it would press into the contact, and friction would then
+    /// freeze everything), prescribed ones and obstacles to their ends, all cut where something would cross.
+    void predict(const ClothState& state) {
+        for (int i = 0; i < model_.vertex_count(); ++i) {
+            const bool free = (*part_.free)[i] > 0.0;
+            const Vec3 velocity = free ? state.velocities.at(i) : Vec3((part_.targets->at(i) - state.positions.at(i)) / part_.dt);
+            space_.direction.set(i, velocity);
+        }
+        // Velocities along the way are (q - q_n)/dt: what a cut takes from the move is not stored as energy.
+        space_.current.velocities.resize(model_.vertex_count());
+        move(1.0);
+        if (part_.plan->contacts) {
+            StageTimer timer(stages_.refresh);
+            part_.detector->refresh(space_.current.points, space_.trial.points);
+        }
+        cut_move();
+        std::swap(space_.current, space_.trial);
+    }
+
+    /// trial = current + fraction * direction, not yet cut.
+    void move(double fraction) {
+        NewtonPoint& trial = space_.trial;
+        trial.velocities = space_.current.velocities;
+        add_scaled(trial.velocities, fraction, space_.direction);
+        place_trial();
+        const double remaining = part_.span.to - space_.current.fraction;
+        trial.fraction = fraction == 1.0 ? part_.span.to : space_.current.fraction + fraction * remaining;
+    }
+
+    void place_trial() {
+        NewtonPoint& trial = space_.trial;
+        trial.positions = space_.start_positions;
+        add_scaled(trial.positions, part_.dt, trial.velocities);
+        if (part_.plan->contacts) copy_out(trial.positions, trial.points);
+    }
+
+    /// Cuts the move from current to trial to what is proven free of crossing; returns the fraction kept.
+    double cut_move() {
+        if (!part_.plan->contacts) return 1.0;
+        StageTimer timer(stages_.cut);
+        NewtonPoint &current = space_.current, &trial = space_.trial;
+        const StepFraction span{current.fraction, trial.fraction};
+        const double fraction = part_.detector->largest_safe_fraction(current.points, trial.points, span);
+        report_.smallest_fraction = std::min(report_.smallest_fraction, fraction);
+        if (fraction >= 1.0) return 1.0;
+        for (std::size_t i = 0; i < trial.velocities.padded_size(); ++i) {
+            trial.velocities.x[i] = current.velocities.x[i] + fraction * (trial.velocities.x[i] - current.velocities.x[i]);
+            trial.velocities.y[i] = current.velocities.y[i] + fraction * (trial.velocities.y[i] - current.velocities.y[i]);
+            trial.velocities.z[i] = current.velocities.z[i] + fraction * (trial.velocities.z[i] - current.velocities.z[i]);
+        }
+        place_trial();
+        if (moves_are_scripted()) trial.fraction = current.fraction + fraction * (span.to - span.from);
+        return fraction;
+    }
+
+    ForceInput force_input(const NewtonPoint& point) const {
+        return {.model = &model_,
+                .springs = &space_.springs,
+                .positions = &point.positions,
+                .velocities = &point.velocities,
+                .gravity = part_.settings->gravity,
+                .dt = part_.dt,
+                .with_matrix = true};
+    }
+
+    void evaluate(NewtonPoint& point) {
+        if (part_.plan->contacts) {
+            StageTimer timer(stages_.evaluate);
+            part_.detector->evaluate(point.points, point.fraction, point.forces.rows);
+        }
+        StageTimer timer(stages_.force);
+        const ForceInput input = force_input(point);
+        evaluate_forces(input, point.forces);
+        if (part_.plan->contacts) add_contacts(input, point.forces);
+        set_residual(point);
+    }
+
+    void add_contacts(const ForceInput& input, Forces& forces) {
+        const bool first = space_.frozen_diagonal[0].empty();
+        if (first) fill_diagonal(model_.mass, model_.adjacency, forces.spring_terms, space_.frozen_diagonal);
+        const ContactStep step{.dt = part_.dt,
+                               .obstacle_rate = 1.0 / part_.full_step,
+                               .gravity = part_.settings->gravity,
+                               .mass = &model_.mass,
+                               .diagonal = &space_.frozen_diagonal,
+                               .first_evaluation = first};
+        add_contact_forces(input, step, forces);
+        report_.largest_stiffness = std::max(report_.largest_stiffness, forces.contact.largest_stiffness);
+    }
+
+    /// r = M (v - v_n) - dt f and the incremental potential whose gradient by v it is.
+    void set_residual(NewtonPoint& point) {
+        if (point.residual.padded_size() != point.velocities.padded_size()) point.residual.resize(model_.vertex_count());
+        double kinetic = 0.0;
+        for (int i = 0; i < model_.vertex_count(); ++i) {
+            const double free = (*part_.free)[i], mass = model_.mass[i];
+            const Vec3 change = point.velocities.at(i) - space_.start_velocities.at(i);
+            kinetic += 0.5 * mass * free * change.squaredNorm();
+            point.residual.set(i, free * (mass * change - part_.dt * point.forces.total.at(i)));
+        }
+        point.objective = kinetic + point.forces.potential;
+    }
+
+    /// |r| in velocity units weighted by mass: sqrt(sum |r_i|^2/m_i).
+    double residual_norm() const {
+        double sum = 0.0;
+        for (int i = 0; i < model_.vertex_count(); ++i) sum += space_.current.residual.at(i).squaredNorm() / model_.mass[i];
+        return std::sqrt(sum);
+    }
+
+    void iterate() {
+        const int most = part_.settings->newton_iterations;
+        double first_norm = 0.0, last_norm = 0.0;
+        for (int iteration = 0;; ++iteration) {
+            const double norm = residual_norm();
+            if (iteration == 0) first_norm = std::max(norm, part_.settings->newton_tolerance ? gravity_norm() : 0.0);
+            report_.residual = first_norm > 0.0 ? norm / first_norm : 0.0;
+            if (norm == 0.0 || !std::isfinite(norm)) return end_here(norm == 0.0);
+            if (arrived() && part_.settings->newton_tolerance && report_.residual <= *part_.settings->newton_tolerance) return;
+            if (iteration == most) break;
+            solve_direction(iteration, norm, last_norm);
+            last_norm = norm;
+            ++report_.newton_iterations;
+            if (!step_along() || most == 1) return end_here(most == 1);
+        }
+        end_here(false);
+    }
+
+    /// The momentum that gravity gives in a step, as a norm: what a residual is measured against in a scene that is at rest.
+    double gravity_norm() const {
+        double mass = 0.0;
+        for (const double m : model_.mass) mass += m;
+        return part_.dt * part_.settings->gravity.norm() * std::sqrt(mass);
+    }
+
+    void end_here(bool good_enough) {
+        if (!std::isfinite(report_.residual)) {
+            report_.end = NewtonEnd::not_finite;
+        } else if (!arrived()) {
+            report_.end = NewtonEnd::blocked;
+        } else if (!good_enough && !converged_) {
+            report_.end = NewtonEnd::iterations_used;
+        }
+    }
+
+    /// direction = dv of the Newton system A dv = -r, prescribed vertices heading for their targets.
+    void solve_direction(int iteration, double norm, double last_norm) {
+        BlockMatrix& matrix = space_.matrix;
+        const NewtonPoint& point = space_.current;
+        set_prescribed_direction();
+        if (!part_.options.jacobians) return divide_by_mass();
+        {
+            StageTimer timer(stages_.setup);
+            fill_matrix(model_.mass, point.forces.spring_terms, matrix);
+            set_contacts(point.forces.contact.blocks, matrix);
+            space_.right_side.resize(model_.vertex_count());
+            add_scaled(space_.right_side, -1.0, point.residual);
+        }
+        StageTimer timer(stages_.solve);
+        const SolveTarget target = solve_target(iteration, norm, last_norm);
+        report_.linear_iterations +=
+            solve_cg(matrix, space_.right_side, target, space_.solve, space_.direction).iterations;
+    }
+
+    void set_prescribed_direction() {
+        space_.direction.resize(model_.vertex_count());
+        if (!part_.plan->pins_move || arrived()) return;
+        for (int i = 0; i < model_.vertex_count(); ++i) {
+            if ((*part_.free)[i] > 0.0) continue;
+            space_.direction.set(i, (part_.targets->at(i) - space_.current.positions.at(i)) / part_.dt);
+        }
+    }
+
+    void divide_by_mass() {
+        for (int i = 0; i < model_.vertex_count(); ++i) {
+            if ((*part_.free)[i] > 0.0) space_.direction.set(i, -space_.current.residual.at(i) / model_.mass[i]);
+        }
+    }
+
+    /// With a residual to reach, the linear residual follows the Newton residual (Eisenstat and Walker 1996, choice 2); else the energy
+    /// gained per iteration decides, which bounds the smooth error that a loose residual leaves behind.
+    SolveTarget solve_target(int iteration, double norm, double last_norm) const {
+        if (part_.settings->newton_tolerance) {
+            const double ratio = iteration > 0 ? norm / last_norm : 1.0;
+            const double wanted = 0.3 * *part_.settings->newton_tolerance / std::max(report_.residual, 1e-300);
+            const double forcing = iteration > 0 ? std::clamp(0.9 * ratio * ratio, 1e-6, 0.1) : 0.1;
+            return {.relative_residual = std::min(0.3, std::max(forcing, wanted))};
+        }
+        const double change = iteration > 0 ? energy_accuracy * energy_accuracy * velocity_change() : 0.0;
+        return {.relative_residual = 1e-10, .relative_gain = energy_accuracy, .absolute_gain = change};
+    }
+
+    /// |v - v_n|_M^2 over free vertices, J.
+    double velocity_change() const {
+        double sum = 0.0;
+        for (const ClothRange& cloth : model_.cloths) sum += velocity_change(cloth, space_.current.velocities);
+        return sum;
+    }
+
+    double velocity_change(const ClothRange& cloth, const Vectors& velocities) const {
+        double sum = 0.0;
+        for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
+            if ((*part_.free)[i] == 0.0) continue;
+            sum += model_.mass[i] * (velocities.at(i) - space_.start_velocities.at(i)).squaredNorm();
+        }
+        return sum;
+    }
+
+    /// Line search and cut along the direction; false when the target is met or nothing more can be gained.
+    bool step_along() {
+        const double slope = dot(space_.current.residual, space_.direction);
+        const bool was_arrived = arrived();
+        LineTrial line{.start_objective = space_.current.objective, .start_slope = slope};
+        double fraction = 1.0, kept = 1.0;
+        move(fraction);
+        const bool small = change_is_small();
+        bool accepted = false;
+        for (int trial = 0; trial < most_trials && !accepted; ++trial) {
+            if (trial > 0) move(fraction);
+            kept = cut_move();
+            evaluate(space_.trial);
+            line.objective = space_.trial.objective;
+            line.slope = dot(space_.trial.residual, space_.direction);
+            line.objective_known = !part_.plan->contacts || (space_.current.forces.rows.size() + space_.trial.forces.rows.size() == 0);
+            // While pins or obstacles are on their way, the objective may have to rise.
+            accepted = !part_.options.line_search || !was_arrived || accept_trial(fraction * kept, line);
+            if (accepted) break;
+            fraction *= kept * shorten(line);
+            ++report_.line_search_cuts;
+        }
+        std::swap(space_.current, space_.trial);
+        const bool by_change = small && fraction * kept == 1.0 && !part_.settings->newton_tolerance && report_.newton_iterations > 1;
+        const bool by_rounding = !accepted && -slope <= 1e-12 * std::abs(line.start_objective);
+        converged_ = was_arrived && (by_change || by_rounding);
+        return !converged_;
+    }
+
+    /// Whether the direction changes every cloth by less than its share of the time error, in the mean and at its worst vertex.
+    /// The trial must be the full, uncut move.
+    bool change_is_small() const {
+        const Vectors& ahead = space_.trial.velocities;
+        return std::all_of(model_.cloths.begin(), model_.cloths.end(), [&](const ClothRange& cloth) {
+            double gain = 0.0, worst = 0.0, worst_error = 0.0;
+            for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
+                gain -= space_.current.residual.at(i).dot(space_.direction.at(i));
+                worst = std::max(worst, space_.direction.at(i).norm());
+                worst_error = std::max(worst_error, (ahead.at(i) - space_.start_velocities.at(i)).norm());
+            }
+            const double change = part_.dt * std::sqrt(std::max(gain, 0.0) / cloth.mass);
+            const double time_error = 0.5 * part_.dt * std::sqrt(velocity_change(cloth, ahead) / cloth.mass);
+            return change <= share_of_time_error * time_error + smallest_change &&
+                   part_.dt * worst <= 0.5 * part_.dt * worst_error + 10.0 * smallest_change;
+        });
+    }
+
+    void finish(ClothState& state) {
+        state.positions = space_.current.positions;
+        state.velocities = space_.current.velocities;
+        for (int i = 0; i < model_.vertex_count(); ++i) {
+            if ((*part_.free)[i] > 0.0 || !arrived()) continue;
+            state.positions.set(i, part_.targets->at(i));
+        }
+        update_points(state);
+    }
+
+    const ImplicitPart& part_;
+    const ClothModel& model_;
+    NewtonSpace& space_;
+    StageTimes& stages_;
+    NewtonReport report_;
+    bool converged_ = false;
+};
+
+}  // namespace
+
+NewtonReport solve_implicit(const ImplicitPart& part, NewtonSpace& space, ClothState& state, StageTimes& stages) {
+    return NewtonSolve(part, space, stages).run(state);
+}
+
+}  // namespace percale

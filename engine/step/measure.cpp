@@ -1,0 +1,60 @@
+#include "measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "forces/body_force.h"
+#include "support/hash.h"
+#include "support/stage_timer.h"
+
+namespace percale {
+namespace {
+
+std::uint64_t hash_of(const ContactRows& rows) {
+    Hash hash;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        for (const int vertex : rows.vertex[row]) hash.add(vertex);
+        hash.add(rows.obstacle[row]);
+        hash.add(rows.feature[row]);
+        hash.add(rows.distance[row]);
+    }
+    return hash.value();
+}
+
+double largest_speed(const World& world) {
+    double square = 0.0;
+    for (int i = 0; i < world.model.vertex_count(); ++i) square = std::max(square, world.state.velocities.at(i).squaredNorm());
+    return std::sqrt(square);
+}
+
+}  // namespace
+
+StepEnergy current_energy(const World& world) {
+    StepEnergy energy;
+    for (int i = 0; i < world.model.vertex_count(); ++i) {
+        energy.kinetic += 0.5 * world.model.mass[i] * world.state.velocities.at(i).squaredNorm();
+    }
+    energy.gravity = gravity_energy(world.model.mass, world.settings.gravity, world.state.positions);
+    energy.elastic = elastic_energy(world.model.springs, world.state.positions);
+    energy.contact = world.plan.contacts ? world.newton.current.forces.contact.energy : 0.0;
+    return energy;
+}
+
+void measure(World& world) {
+    StageTimer timer(world.report.stages.measure);
+    StepReport& report = world.report;
+    const double work = report.energy.work;
+    report.energy = current_energy(world);
+    report.energy.work = work;
+    report.largest_strain = largest_strain(world.model.springs, world.state.positions);
+    report.largest_speed = largest_speed(world);
+    report.smallest_distance = std::numeric_limits<double>::infinity();
+    if (!world.plan.contacts) return;
+    const ContactRows& rows = world.newton.current.forces.rows;
+    report.contacts = static_cast<int>(rows.size());
+    report.contact_hash = hash_of(rows);
+    report.smallest_distance = world.detector->smallest_distance();
+}
+
+}  // namespace percale

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "world.h"
+
+namespace percale {
+
+/// Tells the detector where obstacles are at the ends of the coming step, and the plan what moves.
+void set_targets(World& world);
+
+/// After a good step: obstacles stay where they arrived.
+void finish_motion(World& world);
+
+/// world.part_targets: where pins are after the given fraction of the step, on the straight line from its start.
+void set_part_targets(World& world, double fraction);
+
+}  // namespace percale

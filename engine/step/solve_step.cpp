@@ -1,0 +1,140 @@
+#include "solve_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scripted_motion.h"
+#include "solve/schemes.h"
+#include "support/stage_timer.h"
+
+namespace percale {
+namespace {
+
+constexpr int most_halvings = 6;  // of one step, one inside the other
+
+void solve_explicit(World& world) {
+    StageTimer timer(world.report.stages.force);
+    set_part_targets(world, 1.0);
+    const ExplicitPart part{.model = &world.model,
+                            .settings = &world.settings,
+                            .targets = &world.part_targets,
+                            .free = &world.script.free,
+                            .dt = world.settings.time_step};
+    if (world.settings.scheme == Scheme::rk4) {
+        step_rk4(part, world.explicit_space, world.state);
+    } else {
+        step_symplectic_euler(part, world.explicit_space, world.state);
+    }
+}
+
+/// Work of pins and obstacles during the part just solved, J: a pin's reaction is what its residual lacks, M (v - v_n) - dt f.
+double script_work(const World& world, double dt) {
+    const NewtonPoint& end = world.newton.current;
+    double work = world.plan.contacts ? dt * end.forces.contact.obstacle_power : 0.0;
+    if (!world.plan.pins_move) return work;
+    for (int i = 0; i < world.model.vertex_count(); ++i) {
+        if (world.script.free[i] > 0.0) continue;
+        const Vec3 change = end.velocities.at(i) - world.newton.start_velocities.at(i);
+        const Vec3 impulse = world.model.mass[i] * change - dt * end.forces.total.at(i);
+        work += impulse.dot(end.velocities.at(i));
+    }
+    return work;
+}
+
+void add_figures(const NewtonReport& part, StepReport& report) {
+    report.newton_iterations += part.newton_iterations;
+    report.linear_iterations += part.linear_iterations;
+    report.line_search_cuts += part.line_search_cuts;
+    report.residual = part.residual;
+    report.smallest_fraction = std::min(report.smallest_fraction, part.smallest_fraction);
+    report.contact_stiffness = std::max(report.contact_stiffness, part.largest_stiffness);
+}
+
+NewtonReport solve_part(World& world, StepFraction span) {
+    const double dt = world.settings.time_step * (span.to - span.from);
+    set_part_targets(world, span.to);
+    const ImplicitPart part{.model = &world.model,
+                            .settings = &world.settings,
+                            .plan = &world.plan,
+                            .detector = world.detector.get(),
+                            .targets = &world.part_targets,
+                            .free = &world.script.free,
+                            .dt = dt,
+                            .full_step = world.settings.time_step,
+                            .span = span,
+                            .options = {}};
+    const NewtonReport part_report = solve_implicit(part, world.newton, world.state, world.report.stages);
+    add_figures(part_report, world.report);
+    return part_report;
+}
+
+/// Names the pin that is farthest from where it should be.
+void name_blocked_pin(World& world) {
+    double farthest = 0.0;
+    for (std::size_t c = 0; c < world.model.cloths.size(); ++c) {
+        const ClothRange& cloth = world.model.cloths[c];
+        for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
+            if (world.script.free[i] > 0.0) continue;
+            const double missing = (world.newton.current.positions.at(i) - world.part_targets.at(i)).norm();
+            if (missing <= farthest) continue;
+            farthest = missing;
+            world.report.blocked_cloth = static_cast<int>(c);
+            world.report.blocked_vertex = i - cloth.first;
+        }
+    }
+}
+
+/// The obstacle of the closest contact.
+void name_blocking_obstacle(World& world) {
+    const ContactRows& rows = world.newton.current.forces.rows;
+    if (rows.size() == 0) return;
+    const auto closest = std::min_element(rows.distance.begin(), rows.distance.end());
+    world.report.blocking_obstacle = rows.obstacle[static_cast<std::size_t>(closest - rows.distance.begin())];
+}
+
+void fail(World& world, NewtonEnd end) {
+    if (end == NewtonEnd::not_finite) {
+        world.report.status = StepStatus::not_finite;
+        return;
+    }
+    name_blocking_obstacle(world);
+    const bool by_obstacle = world.plan.obstacles_move;
+    if (world.plan.pins_move) name_blocked_pin(world);
+    world.report.status = by_obstacle ? StepStatus::obstacle_too_fast : StepStatus::pin_blocked;
+}
+
+bool may_halve(const World& world, int depth) { return depth < most_halvings && world.settings.newton_iterations > 1; }
+
+/// Solves a span of the step; false after a failure that halving could not mend.
+bool solve_span(World& world, StepFraction span, int depth) {
+    const NewtonReport part = solve_part(world, span);
+    if (part.end == NewtonEnd::converged) {
+        world.report.energy.work += script_work(world, world.settings.time_step * (span.to - span.from));
+        return true;
+    }
+    if (may_halve(world, depth)) {
+        ++world.report.halvings;
+        world.state.positions = world.newton.start_positions;
+        world.state.velocities = world.newton.start_velocities;
+        update_points(world.state);
+        const double middle = 0.5 * (span.from + span.to);
+        return solve_span(world, {span.from, middle}, depth + 1) && solve_span(world, {middle, span.to}, depth + 1);
+    }
+    if (part.end == NewtonEnd::iterations_used) {
+        world.report.status = StepStatus::not_converged;
+        world.report.energy.work += script_work(world, world.settings.time_step * (span.to - span.from));
+        return true;
+    }
+    fail(world, part.end);
+    return false;
+}
+
+}  // namespace
+
+void solve_step(World& world) {
+    if (!world.plan.implicit) return solve_explicit(world);
+    const bool good = solve_span(world, {0.0, 1.0}, 0);
+    if (good && world.report.halvings > 0 && world.report.status == StepStatus::ok) world.report.status = StepStatus::halved;
+}
+
+}  // namespace percale

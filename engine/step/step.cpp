@@ -1,0 +1,42 @@
+#include "step.h"
+
+#include <cmath>
+
+#include "measure.h"
+#include "scripted_motion.h"
+#include "solve_step.h"
+
+namespace percale {
+namespace {
+
+bool all_finite(const ClothState& state) {
+    double sum = 0.0;
+    for (const auto* vectors : {&state.positions, &state.velocities}) {
+        for (const auto* axis : {&vectors->x, &vectors->y, &vectors->z}) {
+            for (const double value : *axis) sum += 0.0 * value;
+        }
+    }
+    return sum == 0.0;
+}
+
+}  // namespace
+
+StepReport step(World& world) {
+    world.report = {};
+    world.report.dt = world.settings.time_step;
+    world.before = world.state;
+    set_targets(world);  // where pins and obstacles have to be at the end; nothing moves yet
+    solve_step(world);   // explicit update, or Newton on the implicit scheme; every move is cut safe
+    if (world.report.ok() && !all_finite(world.state)) world.report.status = StepStatus::not_finite;
+    if (world.report.ok()) {
+        finish_motion(world);
+        world.time += world.settings.time_step;
+        measure(world);
+    } else {
+        world.state = world.before;
+    }
+    world.report.time = world.time;
+    return world.report;
+}
+
+}  // namespace percale

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "world.h"
+
+namespace percale {
+
+/// One time step. A failed one leaves the state as it was.
+StepReport step(World& world);
+
+}  // namespace percale

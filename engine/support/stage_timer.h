@@ -1,0 +1,27 @@
+#pragma once
+
+#include <ctime>
+
+namespace percale {
+
+/// CPU seconds used by the calling thread.
+inline double thread_cpu_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Adds the CPU time of its scope to a total.
+class StageTimer {
+public:
+    explicit StageTimer(double& total) : total_(total), start_(thread_cpu_seconds()) {}
+    ~StageTimer() { total_ += thread_cpu_seconds() - start_; }
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+
+private:
+    double& total_;
+    double start_;
+};
+
+}  // namespace percale

@@ -1,0 +1,69 @@
+#include "expectations.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "scene_text.h"
+
+namespace percale::scenes {
+namespace {
+
+const MeasureDescription measure_list[] = {
+    {"intersections", "",
+     "Intersecting (not merely touching) triangle pairs of cloth and obstacles, summed over all output frames."},
+    {"deepest_penetration", "m",
+     "Largest depth of a cloth vertex inside a watertight obstacle over all output frames; 0 if none."},
+    {"smallest_distance", "m", "Smallest distance between cloth and obstacles over all steps; infinite if they were never near."},
+    {"largest_strain", "", "Largest (l - l0)/l0 of a structural spring over all steps."},
+    {"speed_at_end", "m/s", "Largest speed of a vertex in the last step."},
+    {"rms_speed_at_end", "m/s", "Root of the mean squared speed of all vertices in the last step."},
+    {"energy_gain", "J", "Largest rise of the total energy in one step beyond the work of pins and obstacles."},
+    {"lowest_vertex", "m", "Height of the lowest cloth vertex at the end."},
+};
+
+// Six digits, or all of them where six would contradict the verdict.
+std::string value_text(const Expectation& expectation, double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    const bool same_verdict = within(expectation, std::strtod(text, nullptr)) == within(expectation, value);
+    return same_verdict ? text : number_text(value);
+}
+
+ExpectationResult judged(const Expectation& expectation, const std::map<std::string, double>& measures) {
+    ExpectationResult result{.expectation = expectation, .value = {}, .passed = false, .text = {}};
+    const auto found = measures.find(expectation.measure);
+    if (found != measures.end()) result.value = found->second;
+    result.passed = result.value && within(expectation, *result.value);
+    const std::string file = expectation.file.empty() ? "" : " " + expectation.file;
+    const std::string value = result.value ? value_text(expectation, *result.value) : "not measured";
+    result.text = expectation.measure + file + " " + value + ", expected " + limit_text(expectation) +
+                  (result.passed ? ": passed" : ": failed");
+    return result;
+}
+
+}  // namespace
+
+std::span<const MeasureDescription> measure_descriptions() { return measure_list; }
+
+std::string limit_text(const Expectation& expectation) {
+    const std::string lowest = number_text(expectation.lowest), highest = number_text(expectation.highest);
+    if (expectation.lowest == expectation.highest) return "= " + lowest;
+    if (std::isinf(expectation.lowest)) return (expectation.highest_included ? "<= " : "< ") + highest;
+    if (std::isinf(expectation.highest)) return (expectation.lowest_included ? ">= " : "> ") + lowest;
+    return lowest + " ... " + highest;
+}
+
+bool within(const Expectation& expectation, double value) {
+    const bool high_enough = expectation.lowest_included ? value >= expectation.lowest : value > expectation.lowest;
+    const bool low_enough = expectation.highest_included ? value <= expectation.highest : value < expectation.highest;
+    return high_enough && low_enough;
+}
+
+std::vector<ExpectationResult> judge(std::span<const Expectation> expectations, const std::map<std::string, double>& measures) {
+    std::vector<ExpectationResult> results;
+    for (const Expectation& expectation : expectations) results.push_back(judged(expectation, measures));
+    return results;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,74 @@
+#include "export/frames.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "obj_file.h"
+#include "percale/error.h"
+
+namespace percale::scenes {
+
+namespace {
+
+void check_name(const std::string& what, const std::string& name) {
+    if (!name.empty() && name.front() != '.' && name.find_first_of(std::string("/\\\0\n\r", 5)) == std::string::npos) return;
+    throw SceneError(what + " '" + name +
+                     "': the name becomes part of a file name, so it must not be empty, start with a point " + "or hold / or \\");
+}
+
+template <class Spec>
+std::vector<std::string> file_names(const std::string& what, const std::vector<Spec>& specs) {
+    std::vector<std::string> names;
+    for (const Spec& spec : specs) {
+        check_name(what, spec.name);
+        if (std::find(names.begin(), names.end(), spec.name) != names.end())
+            throw SceneError(what + " '" + spec.name + "': the name is used twice, but frames are named after it");
+        names.push_back(spec.name);
+    }
+    return names;
+}
+
+std::string numbered(const std::string& folder, const std::string& name, int index) {
+    char number[16];
+    std::snprintf(number, sizeof number, "_%05d.obj", index);
+    return folder + "/" + name + number;
+}
+
+void make_folder(const std::string& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) throw SceneError(path + ": cannot be made: " + error.message());
+}
+
+}  // namespace
+
+bool obstacle_moves(const ObstacleSpec& obstacle) {
+    return obstacle.motion.size() > 1 || (obstacle.spin && obstacle.spin->turns_per_s != 0.0);
+}
+
+FrameWriter::FrameWriter(const std::string& folder, const Scene& scene)
+    : folder_(folder), cloth_names_(file_names("cloth", scene.cloths)), obstacle_names_(file_names("obstacle", scene.obstacles)) {
+    for (const ObstacleSpec& obstacle : scene.obstacles) obstacle_moves_.push_back(obstacle_moves(obstacle));
+}
+
+FrameRecord FrameWriter::write(const Frame& frame) {
+    FrameRecord record{frame.index, frame.time, {}, {}, frame.check};
+    make_folder(folder_ + "/frames");
+    if (!frame.obstacles.empty()) make_folder(folder_ + "/obstacles");
+    const auto write = [&](const std::string& name, const TriangleMesh& mesh) {
+        write_obj(folder_ + "/" + name, mesh.vertices, mesh.triangles);
+    };
+    for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
+        record.cloths.push_back(numbered("frames", cloth_names_[i], frame.index));
+        write(record.cloths.back(), frame.cloths[i]);
+    }
+    for (std::size_t i = 0; i < frame.obstacles.size(); ++i) {
+        record.obstacles.push_back(numbered("obstacles", obstacle_names_[i], obstacle_moves_[i] ? frame.index : 0));
+        if (obstacle_moves_[i] || frame.index == 0) write(record.obstacles.back(), frame.obstacles[i]);
+    }
+    return record;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run_scene.h"
+
+namespace percale::scenes {
+
+/// One output frame as a report lists it: where its meshes are, relative to the output folder, and what the certificate said.
+struct FrameRecord {
+    int index = 0;
+    double time = 0.0;                   // s
+    std::vector<std::string> cloths;     // in the order of the scene; empty if nothing was written
+    std::vector<std::string> obstacles;  // in the order of the scene; a resting one has the same file in every frame
+    FrameCheck check;
+};
+
+/// Writes FOLDER/frames/<cloth>_00000.obj and FOLDER/obstacles/<obstacle>_00000.obj, whole or not at all.
+class FrameWriter {
+public:
+    /// Creates nothing yet. Throws SceneError for a name that cannot be part of a file name or that two cloths or two obstacles
+    /// share.
+    FrameWriter(const std::string& folder, const Scene& scene);
+
+    /// Throws SceneError naming the file that cannot be written.
+    FrameRecord write(const Frame& frame);
+
+private:
+    std::string folder_;
+    std::vector<std::string> cloth_names_, obstacle_names_;
+    std::vector<bool> obstacle_moves_;
+};
+
+/// Whether an obstacle has more than one pose during a run.
+bool obstacle_moves(const ObstacleSpec& obstacle);
+
+}  // namespace percale::scenes

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "expectations.h"
+
+namespace percale::scenes {
+
+/// How the check of one scene file came out.
+struct CheckedScene {
+    std::string file;
+    std::string error;   // wrong input or an internal error: the scene was not run
+    std::string reason;  // why the run did not finish; "" if it did
+    double wall_s = 0.0;
+    std::vector<ExpectationResult> expectations;
+
+    int passed() const;
+    int failed() const;  // an error and a run that did not finish count as one each
+};
+
+/// A JUnit XML document: a suite a scene, a case an expectation and one for the run itself.
+std::string junit_text(std::span<const CheckedScene> scenes);
+
+}  // namespace percale::scenes

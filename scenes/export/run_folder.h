@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "export/frames.h"
+#include "export/run_report.h"
+#include "export/step_table.h"
+
+namespace percale::scenes {
+
+/// What a run leaves in its folder: frames, steps.csv, report.json.
+class RunFolder {
+public:
+    /// Creates nothing yet. Throws SceneError where a name of the scene cannot be part of a file name.
+    RunFolder(const std::string& folder, const Scene& scene, bool with_state_hash);
+
+    /// Makes the folder, or takes what an earlier run's report lists out of it (report.json first: until `finish` there is
+    /// none). Throws SceneError if that is not possible.
+    void begin();
+    void add(const Frame& frame);
+    void add(const StepReport& report, const Simulation& simulation);
+    void finish(const BuiltScene& built, const RunResult& result, std::span<const ExpectationResult> expectations);
+
+private:
+    std::string folder_;
+    bool with_frames_, with_state_hash_;
+    FrameWriter writer_;
+    std::optional<StepTable> steps_;
+    std::vector<FrameRecord> frames_;
+};
+
+}  // namespace percale::scenes

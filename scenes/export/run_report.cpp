@@ -1,0 +1,181 @@
+#include "export/run_report.h"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "export/run_settings.h"
+#include "percale/error.h"
+
+namespace percale::scenes {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* version = PERCALE_VERSION;
+
+bool is_explicit(Scheme scheme) { return scheme != Scheme::backward_euler; }
+
+/// Largest resident set of this process so far, bytes.
+double peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+void put_counts(ordered_json& json, const Scene& scene, const RunTotals& totals) {
+    json["simulated_s"] = totals.simulated_s;
+    json["steps"] = totals.steps;
+    json["rejected_steps"] = totals.rejected_steps;
+    json["smallest_step_s"] = totals.smallest_step_s;
+    json["largest_step_s"] = totals.largest_step_s;
+    json["newton_iterations"] = totals.newton_iterations;
+    json["linear_iterations"] = totals.linear_iterations;
+    json["largest_residual"] = totals.largest_residual;
+    json["linear_solver"] = is_explicit(scene.step.scheme) ? "none" : "cg";
+}
+
+void put_costs(ordered_json& json, const RunTotals& totals) {
+    const StageTimes& t = totals.stages;
+    json["cpu_s"] = totals.cpu_s;
+    json["wall_s"] = totals.wall_s;
+    json["peak_memory_bytes"] = static_cast<long long>(peak_memory_bytes());
+    json["stages"] = {{"refresh", t.refresh}, {"evaluate", t.evaluate}, {"force", t.force},    {"setup", t.setup},
+                      {"solve", t.solve},     {"cut", t.cut},           {"measure", t.measure}};
+}
+
+void put_contact_and_energy(ordered_json& json, const RunTotals& totals) {
+    const StepEnergy& e = totals.energy;
+    json["contacts_most"] = totals.contacts_most;
+    json["contact_stiffness"] = totals.contact_stiffness;
+    json["energy"] = {
+        {"kinetic", e.kinetic}, {"gravity", e.gravity}, {"elastic", e.elastic}, {"contact", e.contact}, {"work", e.work}};
+}
+
+void put_measures(ordered_json& json, const Measures& m) {
+    json["intersections"] = m.intersections;
+    json["deepest_penetration"] = m.deepest_penetration;
+    json["smallest_distance"] = m.smallest_distance;
+    json["worst_frame"] = m.worst_frame < 0 ? ordered_json(nullptr) : ordered_json(m.worst_frame);
+    json["largest_strain"] = m.largest_strain;
+    json["speed_at_end"] = m.speed_at_end;
+    json["rms_speed_at_end"] = m.rms_speed_at_end;
+    json["energy_gain"] = m.energy_gain;
+    json["lowest_vertex"] = m.lowest_vertex;
+    if (m.matches) json["matches"] = *m.matches;
+}
+
+ordered_json expectation_list(std::span<const ExpectationResult> results) {
+    ordered_json list = ordered_json::array();
+    for (const ExpectationResult& result : results)
+        list.push_back({{"measure", result.expectation.measure},
+                        {"value", result.value ? ordered_json(*result.value) : ordered_json(nullptr)},
+                        {"limit", limit_text(result.expectation)},
+                        {"passed", result.passed}});
+    return list;
+}
+
+ordered_json frame_list(std::span<const FrameRecord> frames) {
+    ordered_json list = ordered_json::array();
+    for (const FrameRecord& frame : frames)
+        list.push_back({{"index", frame.index},
+                        {"time", frame.time},
+                        {"cloths", frame.cloths},
+                        {"obstacles", frame.obstacles},
+                        {"intersections", frame.check.intersections},
+                        {"deepest_penetration", frame.check.deepest_penetration},
+                        {"smallest_distance", frame.check.smallest_distance}});
+    return list;
+}
+
+ordered_json skipped_list(const BuiltScene& built) {
+    ordered_json list = ordered_json::array();
+    for (const SkippedPart& part : skipped_parts(built)) list.push_back({{"what", part.what}, {"why", part.why}});
+    return list;
+}
+
+void add_skipped_springs(const Scene& scene, const ClothSpec& cloth, std::vector<SkippedPart>& parts) {
+    const auto fabric = scene.fabrics.find(cloth.fabric);
+    if (fabric == scene.fabrics.end()) return;
+    const std::string key = "fabric." + cloth.fabric + ".";
+    const SpringConstants& springs = fabric->second.springs;
+    if (springs.structural == 0.0) parts.push_back({"structural springs of " + cloth.name, key + "springs.structural is 0"});
+    if (!cloth.grid)
+        parts.push_back({"shear springs of " + cloth.name, "a free mesh has none"});
+    else if (springs.shear == 0.0)
+        parts.push_back({"shear springs of " + cloth.name, key + "springs.shear is 0"});
+    if (springs.bend == 0.0) parts.push_back({"bending springs of " + cloth.name, key + "springs.bend is 0"});
+    if (fabric->second.spring_damping == 0.0) parts.push_back({"damping of " + cloth.name, key + "spring_damping is 0"});
+}
+
+}  // namespace
+
+std::vector<SkippedPart> skipped_parts(const BuiltScene& built) {
+    const Scene& scene = built.scene;
+    std::vector<SkippedPart> parts;
+    if (scene.obstacles.empty())
+        parts.push_back({"contact", "the scene has no obstacle"});
+    else if (scene.detector == Detector::none)
+        parts.push_back({"contact", "step.detector is none"});
+    if (is_explicit(scene.step.scheme)) parts.push_back({"linear solver", "step.scheme is explicit"});
+    for (const ClothSpec& cloth : scene.cloths) add_skipped_springs(scene, cloth, parts);
+    return parts;
+}
+
+std::string run_report_text(const BuiltScene& built, const RunResult& result, std::span<const FrameRecord> frames,
+                            std::span<const ExpectationResult> expectations) {
+    ordered_json json;
+    json["status"] = status_word(result.status);
+    if (!result.reason.empty()) json["reason"] = result.reason;
+    json["title"] = built.scene.title;
+    json["scene"] = built.scene.file;
+    put_counts(json, built.scene, result.totals);
+    put_costs(json, result.totals);
+    json["skipped"] = skipped_list(built);
+    put_contact_and_energy(json, result.totals);
+    put_measures(json, result.measures);
+    json["expectations"] = expectation_list(expectations);
+    json["settings"] = ordered_json::parse(settings_text(built.scene));
+    json["version"] = version;
+    json["frames"] = frame_list(frames);
+    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+namespace {
+
+double number_or_infinity(const ordered_json& value) {
+    return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+}
+
+FrameRecord frame_record(const ordered_json& json) {
+    FrameRecord record;
+    record.index = json.at("index").get<int>();
+    record.time = json.at("time").get<double>();
+    record.cloths = json.at("cloths").get<std::vector<std::string>>();
+    record.obstacles = json.at("obstacles").get<std::vector<std::string>>();
+    record.check.intersections = json.at("intersections").get<int>();
+    record.check.deepest_penetration = json.at("deepest_penetration").get<double>();
+    record.check.smallest_distance = number_or_infinity(json.at("smallest_distance"));
+    return record;
+}
+
+}  // namespace
+
+std::vector<FrameRecord> read_frame_records(const std::string& folder) {
+    const std::string file = folder + "/report.json";
+    std::ifstream in(file);
+    if (!in) throw SceneError(file + ": cannot be read; a folder written by `percale run` holds it");
+    try {
+        std::vector<FrameRecord> records;
+        const ordered_json json = ordered_json::parse(in);
+        for (const ordered_json& frame : json.at("frames")) records.push_back(frame_record(frame));
+        return records;
+    } catch (const ordered_json::exception& error) {
+        throw SceneError(file + ": is not the report of a run: " + error.what());
+    }
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "expectations.h"
+#include "export/frames.h"
+#include "run_scene.h"
+
+namespace percale::scenes {
+
+/// A part of the work that a scene does not need.
+struct SkippedPart {
+    std::string what, why;
+};
+std::vector<SkippedPart> skipped_parts(const BuiltScene& built);
+
+/// report.json as text: status, counts, costs, energies, measures, expectations, frames and every setting used. SI units; what
+/// JSON cannot say (infinity) is null; the order of the entries is fixed.
+std::string run_report_text(const BuiltScene& built, const RunResult& result, std::span<const FrameRecord> frames,
+                            std::span<const ExpectationResult> expectations);
+
+/// The frames that FOLDER/report.json lists. Throws SceneError naming the file if it is missing or is no report.
+std::vector<FrameRecord> read_frame_records(const std::string& folder);
+
+}  // namespace percale::scenes

@@ -1,0 +1,35 @@
+#include "export/step_table.h"
+
+#include <cstdio>
+
+namespace percale::scenes {
+
+namespace {
+
+std::string hexadecimal(std::uint64_t value) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+    return text;
+}
+
+}  // namespace
+
+std::string step_table_header() {
+    return "time,dt,newton,linear,residual,contacts,smallest_distance,energy,status,contact_hash,state_hash";
+}
+
+std::string step_table_line(const StepReport& report, std::optional<std::uint64_t> state_hash) {
+    char text[256];
+    std::snprintf(text, sizeof text, "%.17g,%.17g,%d,%d,%.17g,%d,%.17g,%.17g,%s,", report.time, report.dt,
+                  report.newton_iterations, report.linear_iterations, report.residual, report.contacts, report.smallest_distance,
+                  report.energy.total(), status_word(report.status));
+    return text + hexadecimal(report.contact_hash) + "," + (state_hash ? hexadecimal(*state_hash) : "");
+}
+
+StepTable::StepTable(const std::string& file) : file_(file) { file_.out() << step_table_header() << '\n'; }
+
+void StepTable::add(const StepReport& report, std::optional<std::uint64_t> state_hash) {
+    file_.out() << step_table_line(report, state_hash) << '\n';
+}
+
+}  // namespace percale::scenes

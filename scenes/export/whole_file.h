@@ -1,0 +1,29 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+
+namespace percale::scenes {
+
+/// A text file that is either whole or absent: written under a temporary name beside the wanted one and renamed by `commit`.
+/// Without `commit` nothing is left. Throws SceneError naming the file if it cannot be written.
+class WholeFile {
+public:
+    explicit WholeFile(const std::string& file);
+    ~WholeFile();
+    WholeFile(const WholeFile&) = delete;
+    WholeFile& operator=(const WholeFile&) = delete;
+
+    std::ostream& out() { return out_; }
+    void commit();
+
+private:
+    std::string file_, temporary_;
+    std::ofstream out_;
+    bool committed_ = false;
+};
+
+/// Text as a whole file.
+void write_whole_file(const std::string& file, const std::string& text);
+
+}  // namespace percale::scenes

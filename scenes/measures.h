@@ -1,0 +1,59 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "percale/certify.h"
+#include "percale/simulation.h"
+
+// What a run is judged by: collected over its steps and its output frames.
+namespace percale::scenes {
+
+/// What the certificates of one output frame say together, over all pairs of cloth and obstacle.
+struct FrameCheck {
+    int intersections = 0;  // intersecting triangle pairs
+    int touching_pairs = 0;
+    int vertices_inside = 0;                                             // of watertight obstacles
+    double deepest_penetration = 0.0;                                    // m
+    double smallest_distance = std::numeric_limits<double>::infinity();  // m; infinity if nothing was near
+
+    bool clean() const { return intersections == 0 && vertices_inside == 0; }
+};
+
+void add_certificate(FrameCheck& check, const Certificate& certificate);
+
+/// The measures of a run; the names of the fields are those of scene files and reports.
+struct Measures {
+    int intersections = 0;                                               // summed over the frames, the start included
+    double deepest_penetration = 0.0;                                    // m, largest over the frames
+    double smallest_distance = std::numeric_limits<double>::infinity();  // m, over steps and frames; infinity: never near
+    int worst_frame = -1;                                                // frame with the smallest distance; -1: never near
+    double largest_strain = 0.0;                                         // (l - l0)/l0 of structural springs, over the steps
+    double speed_at_end = 0.0;                                           // m/s, largest of a vertex
+    double rms_speed_at_end = 0.0;                                       // m/s, over all vertices
+    double energy_gain = 0.0;                                            // J, largest rise in a step beyond its work
+    double lowest_vertex = std::numeric_limits<double>::infinity();      // m, height at the end
+    std::optional<double> matches;                                       // m, largest distance from the reference at the end
+
+    FrameCheck worst;  // of the frame `worst_frame`
+};
+
+/// Of two frames with equal distances (0 where both intersect) the one with more intersecting pairs is the worse.
+void add_frame(Measures& measures, int index, const FrameCheck& check);
+
+/// `energy_before`: total energy at the start of the step, J.
+void add_step(Measures& measures, const StepReport& report, double energy_before);
+
+/// Speeds and heights of all cloths as they are now.
+void add_end(Measures& measures, const Simulation& simulation, std::span<const ClothId> cloths);
+
+/// Largest distance between the cloths' vertices, taken in order, and the reference's, m. The counts must be equal.
+double largest_vertex_distance(const Simulation& simulation, std::span<const ClothId> cloths, std::span<const Vec3> reference);
+
+/// By name, as expectations use them; worst_frame included, `matches` only where there is one.
+std::map<std::string, double> measure_values(const Measures& measures);
+
+}  // namespace percale::scenes

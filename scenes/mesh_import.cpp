@@ -1,0 +1,148 @@
+#include "mesh_import.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <unordered_map>
+
+#include "mesh_header.h"
+#include "obj_file.h"
+#include "off_file.h"
+#include "percale/error.h"
+
+namespace percale::scenes {
+
+namespace {
+
+/// The extension in lower case; for one that is none of our own, what the file's first word gives away, since assimp would go by
+/// that, too.
+std::string format_of(const std::string& file) {
+    std::string extension = std::filesystem::path(file).extension().string();
+    for (char& letter : extension) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    if (extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl") return extension;
+    std::ifstream in(file, std::ios::binary);
+    std::string word;
+    in >> std::setw(8) >> word;
+    if (word == "OFF" || word == "COFF" || word == "NOFF" || word == "CNOFF") return ".off";
+    return word == "ply" ? ".ply" : extension;
+}
+
+void check_file(const std::string& file) {
+    std::error_code status;
+    if (!std::filesystem::exists(file, status)) throw SceneError(file + ": no such file");
+    if (!std::filesystem::is_regular_file(file, status)) throw SceneError(file + ": not a file");
+    if (std::filesystem::file_size(file, status) == 0) throw SceneError(file + ": no vertices: the file is empty");
+}
+
+TriangleMesh read_text(const std::string& file, TriangleMesh (*read)(std::istream&, const std::string&)) {
+    errno = 0;
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw SceneError(file + ": cannot be read: " + std::strerror(errno));
+    return read(in, file);
+}
+
+template <typename Point>
+void check_finite(const Point& x, std::size_t vertex, const std::string& file) {
+    constexpr const char* names[] = {"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(x[axis]))
+            throw SceneError(file + ": vertex " + std::to_string(vertex) + ": coordinate " + names[axis] + " is not finite");
+}
+
+/// Appends one mesh of an imported scene with its node's transform.
+void append(const aiMesh& part, const aiMatrix4x4& to_world, const std::string& file, TriangleMesh& mesh) {
+    if ((part.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) return;
+    const std::size_t first = mesh.vertices.size();
+    if (first + part.mNumVertices > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw SceneError(file + ": more vertices than an index can name");
+    for (unsigned k = 0; k < part.mNumVertices; ++k) {
+        check_finite(part.mVertices[k], first + k, file);
+        const aiVector3D x = to_world * part.mVertices[k];
+        mesh.vertices.emplace_back(x.x, x.y, x.z);
+    }
+    for (unsigned k = 0; k < part.mNumFaces; ++k) {
+        const aiFace& face = part.mFaces[k];
+        if (face.mNumIndices != 3) continue;  // points and lines
+        Triangle triangle{};
+        for (unsigned corner = 0; corner < 3; ++corner) {
+            if (face.mIndices[corner] >= part.mNumVertices)
+                throw SceneError(file + ": face " + std::to_string(k) + ": vertex index " +
+                                 std::to_string(face.mIndices[corner]) + " is out of range 0 ... " +
+                                 std::to_string(part.mNumVertices - 1));
+            triangle[corner] = static_cast<int>(first + face.mIndices[corner]);
+        }
+        mesh.triangles.push_back(triangle);
+    }
+}
+
+void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, const std::string& file,
+                 TriangleMesh& mesh) {
+    const aiMatrix4x4 to_world = parent * node.mTransformation;
+    for (unsigned k = 0; k < node.mNumMeshes; ++k) append(*scene.mMeshes[node.mMeshes[k]], to_world, file, mesh);
+    for (unsigned k = 0; k < node.mNumChildren; ++k) append_node(scene, *node.mChildren[k], to_world, file, mesh);
+}
+
+struct PositionHash {
+    std::size_t operator()(const std::array<double, 3>& x) const {
+        std::size_t hash = 0;
+        for (const double number : x) hash = (hash ^ std::hash<double>{}(number)) * 0x9e3779b97f4a7c15ull;
+        return hash ^ hash >> 32;
+    }
+};
+
+/// Vertices at the same place become one, at the first one's position in the order.
+TriangleMesh weld(const TriangleMesh& split) {
+    TriangleMesh mesh;
+    std::unordered_map<std::array<double, 3>, int, PositionHash> known;
+    std::vector<int> welded(split.vertices.size());
+    for (std::size_t k = 0; k < split.vertices.size(); ++k) {
+        const Vec3 x = split.vertices[k] + Vec3::Zero();  // -0 becomes +0
+        const auto [entry, is_new] = known.try_emplace({x[0], x[1], x[2]}, static_cast<int>(mesh.vertices.size()));
+        if (is_new) mesh.vertices.push_back(split.vertices[k]);
+        welded[k] = entry->second;
+    }
+    for (const Triangle& t : split.triangles) mesh.triangles.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+    return mesh;
+}
+
+/// Exporters split vertices at seams of texture or shading, and STL shares none.
+TriangleMesh read_with_assimp(const std::string& file) {
+    Assimp::Importer importer;
+    const aiScene* scene = nullptr;
+    try {
+        scene = importer.ReadFile(file, aiProcess_Triangulate);
+    } catch (const std::exception& error) {
+        throw SceneError(file + ": cannot be imported: " + error.what());
+    }
+    if (scene == nullptr) throw SceneError(file + ": cannot be imported: " + importer.GetErrorString());
+    if (scene->mRootNode == nullptr) throw SceneError(file + ": no vertices");
+    TriangleMesh mesh;
+    append_node(*scene, *scene->mRootNode, aiMatrix4x4(), file, mesh);
+    return mesh;
+}
+
+}  // namespace
+
+TriangleMesh import_mesh(const std::string& file, double unit) {
+    if (!std::isfinite(unit) || unit <= 0.0) throw SceneError(file + ": unit is " + std::to_string(unit) + ", must be above 0");
+    check_file(file);
+    const std::string format = format_of(file);
+    check_mesh_header(file, format);
+    TriangleMesh mesh = format == ".obj"   ? read_text(file, read_obj)
+                        : format == ".off" ? read_text(file, read_off)
+                                           : read_with_assimp(file);
+    if (mesh.triangles.empty()) throw SceneError(file + ": no triangles");
+    for (std::size_t k = 0; k < mesh.vertices.size(); ++k) check_finite(mesh.vertices[k] *= unit, k, file);
+    return format == ".obj" || format == ".off" ? mesh : weld(mesh);
+}
+
+}  // namespace percale::scenes

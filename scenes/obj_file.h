@@ -1,0 +1,19 @@
+#pragma once
+
+#include <iosfwd>
+#include <span>
+#include <string>
+
+#include "percale/mesh.h"
+
+namespace percale::scenes {
+
+/// Wavefront OBJ: v and f (with or without /vt/vn, negative indices allowed, polygons fanned from their first vertex); other
+/// keywords are passed over. Vertex order is kept. Throws SceneError with name:line.
+TriangleMesh read_obj(std::istream& in, const std::string& name);
+
+/// Writes v and f; to a temporary name first, then renamed. Each coordinate has as many digits (at most 17) as it takes to read
+/// back the same bits. Throws SceneError with the system's reason if the file cannot be written.
+void write_obj(const std::string& file, std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+}  // namespace percale::scenes

@@ -1,0 +1,158 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "export/junit.h"
+#include "export/whole_file.h"
+#include "percale/error.h"
+#include "program/commands.h"
+#include "program/common_options.h"
+#include "program/exit_codes.h"
+#include "program/stop_signals.h"
+#include "run_scene.h"
+
+namespace percale::program {
+
+namespace {
+
+using namespace percale::scenes;
+
+struct CheckOptions {
+    CommonOptions common;
+    std::vector<std::string> scenes;
+    std::string junit;
+    int jobs = 1;
+};
+
+struct Outcome {
+    CheckedScene scene;
+    int exit_code = all_well;
+    std::uint64_t state_hash = 0;  // of the last state
+};
+
+void run_into(Outcome& outcome, const std::vector<Override>& overrides, const StopSignals& signals) {
+    BuiltScene built = build_scene(load_scene(outcome.scene.file, overrides));
+    RunHooks hooks;
+    hooks.stop_asked = [&] { return signals.asked(); };
+    const RunResult result = run_scene(built, hooks);
+    outcome.scene.reason = result.reason;
+    outcome.scene.wall_s = result.totals.wall_s;
+    outcome.scene.expectations = judge(built.scene.expectations, measure_values(result.measures));
+    outcome.state_hash = built.simulation.state_hash();
+    outcome.exit_code = outcome.scene.failed() > 0 ? not_as_expected : all_well;
+    if (result.status == RunStatus::stopped) outcome.exit_code = stopped_by_signal;
+}
+
+Outcome check_scene(const std::string& file, const std::vector<Override>& overrides, const StopSignals& signals) {
+    Outcome outcome;
+    outcome.scene.file = file;
+    try {
+        run_into(outcome, overrides, signals);
+    } catch (const SceneError& error) {
+        outcome.scene.error = error.what();
+        outcome.exit_code = wrong_input;
+    } catch (const std::exception& error) {
+        outcome.scene.error = file + ": internal error: " + error.what();
+        outcome.exit_code = internal_error;
+    }
+    return outcome;
+}
+
+void print_outcome(const CheckOptions& options, const Outcome& outcome) {
+    const CheckedScene& scene = outcome.scene;
+    if (!scene.error.empty()) std::fprintf(stderr, "percale: %s\n", scene.error.c_str());
+    if (!scene.reason.empty())
+        std::fprintf(stderr, "percale: %s: did not finish: %s\n", scene.file.c_str(), scene.reason.c_str());
+    if (options.common.quiet || !scene.error.empty()) return;
+    std::printf("%s\n", scene.file.c_str());
+    for (const ExpectationResult& expectation : scene.expectations) std::printf("  %s\n", expectation.text.c_str());
+    if (options.common.replay_hash) std::printf("  state_hash %016llx\n", static_cast<unsigned long long>(outcome.state_hash));
+    std::fflush(stdout);
+}
+
+/// Hands scenes to threads and prints what is done in the order of the scenes.
+class Checker {
+public:
+    Checker(const CheckOptions& options, const StopSignals& signals)
+        : options_(options),
+          signals_(signals),
+          overrides_(scene_overrides(options.common)),
+          outcomes_(options.scenes.size()),
+          done_(options.scenes.size(), false) {}
+
+    std::vector<Outcome> check_all() {
+        const std::size_t jobs = std::min(static_cast<std::size_t>(options_.jobs), options_.scenes.size());
+        std::vector<std::thread> threads;
+        for (std::size_t i = 1; i < jobs; ++i) threads.emplace_back([this] { work(); });
+        work();
+        for (std::thread& thread : threads) thread.join();
+        return std::move(outcomes_);
+    }
+
+private:
+    void work() {
+        for (std::size_t i = take(); i < outcomes_.size(); i = take()) {
+            Outcome outcome = check_scene(options_.scenes[i], overrides_, signals_);
+            const std::lock_guard lock(mutex_);
+            outcomes_[i] = std::move(outcome);
+            done_[i] = true;
+            for (; printed_ < done_.size() && done_[printed_]; ++printed_) print_outcome(options_, outcomes_[printed_]);
+        }
+    }
+
+    std::size_t take() {
+        const std::lock_guard lock(mutex_);
+        return next_++;
+    }
+
+    const CheckOptions& options_;
+    const StopSignals& signals_;
+    const std::vector<Override> overrides_;
+    std::vector<Outcome> outcomes_;
+    std::vector<bool> done_;
+    std::size_t next_ = 0, printed_ = 0;
+    std::mutex mutex_;
+};
+
+void check_options(const CheckOptions& options) {
+    check_common_options(options.common);
+    if (!options.common.frames.empty() && options.common.frames != "none")
+        throw SceneError("--frames " + options.common.frames + ": check writes no frames; percale run does");
+    if (options.jobs < 1 || options.jobs > 256)
+        throw SceneError("--jobs " + std::to_string(options.jobs) + " is outside the allowed range 1 ... 256");
+}
+
+int check(const CheckOptions& options) {
+    check_options(options);
+    const StopSignals signals;
+    const std::vector<Outcome> outcomes = Checker(options, signals).check_all();
+    std::vector<CheckedScene> scenes;
+    int passed = 0, failed = 0, worst = all_well;
+    for (const Outcome& outcome : outcomes) {
+        scenes.push_back(outcome.scene);
+        passed += outcome.scene.passed();
+        failed += outcome.scene.failed();
+        worst = std::max(worst, outcome.exit_code);
+    }
+    if (!options.junit.empty()) write_whole_file(options.junit, junit_text(scenes));
+    if (!options.common.quiet) std::printf("%d passed, %d failed\n", passed, failed);
+    return worst;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program, Action& action) {
+    auto options = std::make_shared<CheckOptions>();
+    CLI::App* command = program.add_subcommand("check", "Run scenes and compare them with their [expect] sections");
+    command->footer("Example: percale check data/scenes/*.toml --jobs 2");
+    command->add_option("SCENE", options->scenes, "Scene files (TOML)")->required();
+    command->add_option("--junit", options->junit, "Also write the outcome as JUnit XML")->type_name("FILE");
+    command->add_option("--jobs", options->jobs, "Scenes run at a time (default 1)")->type_name("N");
+    add_common_options(*command, options->common);
+    command->callback([options, &action] { action = [options] { return check(*options); }; });
+}
+
+}  // namespace percale::program

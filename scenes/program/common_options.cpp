@@ -1,0 +1,63 @@
+#include "program/common_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "nearest_name.h"
+#include "percale/error.h"
+
+namespace percale::program {
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+    command.add_option("--set", options.set, "Override one key of the scene file; may be given several times")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command.add_option("--threads", options.threads, "Threads of the simulation; 1 in this version")->type_name("N");
+    command.add_flag("--quiet", options.quiet, "Print nothing but errors");
+    command.add_option("--frames", options.frames, "Format of the frames: none or obj")->type_name("FORMAT");
+    command.add_option("--fps", options.fps, "Output frames per simulated second (default 30)")->type_name("F");
+    command.add_option("--checkpoint", options.checkpoint, "Not in this version")->type_name("SECONDS");
+    command.add_option("--resume", options.resume, "Not in this version")->type_name("FILE");
+    command.add_flag("--replay-hash", options.replay_hash,
+                     "A hash of the state for every step in steps.csv; check prints the last");
+}
+
+namespace {
+
+void check_frame_format(const std::string& format) {
+    const std::vector<std::string> here = {"none", "obj"};
+    const std::vector<std::string> later = {"ply", "glb", "pc2", "mdd", "vtp"};
+    const auto holds = [&](const std::vector<std::string>& list) {
+        return std::find(list.begin(), list.end(), format) != list.end();
+    };
+    if (format.empty() || holds(here)) return;
+    if (holds(later))
+        throw SceneError("--frames " + format + ": this build lacks the frame format '" + format + "'; it has none and obj");
+    throw SceneError("--frames " + format + ": no such frame format" + scenes::suggestion(format, here));
+}
+
+}  // namespace
+
+void check_common_options(const CommonOptions& options) {
+    if (options.threads != 1)
+        throw SceneError("--threads " + std::to_string(options.threads) +
+                         " is outside the allowed range 1 ... 1 of this version");
+    if (!options.checkpoint.empty()) throw SceneError("--checkpoint: this build lacks checkpoints");
+    if (!options.resume.empty()) throw SceneError("--resume: this build lacks checkpoints, so there is none to resume");
+    check_frame_format(options.frames);
+}
+
+std::vector<scenes::Override> scene_overrides(const CommonOptions& options) {
+    std::vector<scenes::Override> overrides;
+    for (const std::string& text : options.set) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw SceneError("--set " + text + ": must be KEY=VALUE, such as --set step.time_step=0.01");
+        overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+    if (!options.frames.empty()) overrides.push_back({"output.frames", "\"" + options.frames + "\""});
+    if (!options.fps.empty()) overrides.push_back({"output.fps", options.fps});
+    return overrides;
+}
+
+}  // namespace percale::program

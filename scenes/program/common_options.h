@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene_file.h"
+
+namespace CLI {
+class App;
+}
+
+namespace percale::program {
+
+/// What `run` and `check` both take.
+struct CommonOptions {
+    std::vector<std::string> set;  // KEY=VALUE
+    std::string frames, fps;       // "" = as the scene says
+    std::string checkpoint, resume;
+    int threads = 1;
+    bool quiet = false;
+    bool replay_hash = false;
+};
+
+void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// Throws SceneError for what this build lacks or what is out of range.
+void check_common_options(const CommonOptions& options);
+
+/// The options that stand for keys of the scene file, --set first. Throws SceneError for a --set that is not KEY=VALUE.
+std::vector<scenes::Override> scene_overrides(const CommonOptions& options);
+
+}  // namespace percale::program

@@ -1,0 +1,179 @@
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "export/whole_file.h"
+#include "measures.h"
+#include "obj_file.h"
+#include "percale/certify.h"
+#include "percale/error.h"
+#include "program/commands.h"
+#include "program/exit_codes.h"
+#include "program/progress_bar.h"
+#include "program/stop_signals.h"
+#include "scene_build.h"
+
+namespace percale::program {
+
+namespace {
+
+using namespace percale::scenes;
+
+constexpr double rest_speed = 0.02;  // m/s
+constexpr int rest_steps = 10;       // so many steps in a row below it: a swing that only turns around is not at rest
+
+struct DrapeOptions {
+    std::string garment, body, out;
+    std::string garment_unit = "m", body_unit = "m";
+    std::array<double, 3> move = {0.0, 0.0, 0.0};  // m
+    Fabric fabric;
+    double friction = 0.3;
+    double seconds = 20.0;  // s, limit
+    bool quiet = false;
+};
+
+enum class DrapeEnd { settled, time_up, failed, stopped };
+
+struct Drape {
+    DrapeEnd end = DrapeEnd::time_up;
+    StepReport last;
+};
+
+double metres(const std::string& option, const std::string& unit) {
+    if (unit == "m") return 1.0;
+    if (unit == "cm") return 0.01;
+    if (unit == "mm") return 0.001;
+    throw SceneError(option + " " + unit + ": must be mm, cm or m");
+}
+
+void check_options(const DrapeOptions& options) {
+    if (!(options.seconds > 0.0 && options.seconds <= 3600.0))
+        throw SceneError("--seconds: is outside the allowed range 0 ... 3600 s (0 excluded)");
+    if (std::filesystem::path(options.out).extension() != ".obj")
+        throw SceneError("-o " + options.out + ": this build writes .obj only");
+    const WholeFile probe(options.out);  // an output that cannot be written is found before the work, not after it
+}
+
+/// The scene that the command line describes: both meshes where they are, the garment moved as asked.
+Scene drape_scene(const DrapeOptions& options) {
+    Scene scene;
+    scene.file = "drape";
+    const SourcePlace place{scene.file, 0, 0};
+    scene.duration = options.seconds;
+    scene.fabrics["garment"] = options.fabric;
+    ClothSpec cloth;
+    cloth.name = "garment";
+    cloth.fabric = "garment";
+    cloth.mesh = std::filesystem::absolute(options.garment).string();
+    cloth.unit = metres("--garment-unit", options.garment_unit);
+    cloth.pose.translation = Vec3(options.move[0], options.move[1], options.move[2]);
+    cloth.place = place;
+    scene.cloths.push_back(cloth);
+    ObstacleSpec body;
+    body.name = "body";
+    body.mesh = std::filesystem::absolute(options.body).string();
+    body.unit = metres("--body-unit", options.body_unit);
+    body.friction = options.friction;
+    body.place = place;
+    scene.obstacles.push_back(body);
+    return scene;
+}
+
+Drape settle(Simulation& simulation, const DrapeOptions& options) {
+    const StopSignals signals;
+    ProgressBar bar(!options.quiet, options.seconds);
+    Drape drape;
+    int slow_steps = 0;
+    while (simulation.time() < options.seconds - 1e-9) {
+        drape.last = simulation.step();
+        if (!drape.last.ok()) {
+            drape.end = DrapeEnd::failed;
+            return drape;
+        }
+        bar.show(simulation.time());
+        slow_steps = drape.last.largest_speed < rest_speed ? slow_steps + 1 : 0;
+        if (slow_steps < rest_steps && !signals.asked()) continue;
+        drape.end = slow_steps < rest_steps ? DrapeEnd::stopped : DrapeEnd::settled;
+        return drape;
+    }
+    return drape;
+}
+
+FrameCheck write_and_certify(const BuiltScene& built, const DrapeOptions& options) {
+    TriangleMesh cloth = built.cloth_meshes[0], body = built.obstacle_meshes[0];
+    const std::span<const Vec3> positions = built.simulation.positions(built.cloths[0]);
+    cloth.vertices.assign(positions.begin(), positions.end());
+    body.vertices = transform(built.simulation.obstacle_pose(built.obstacles[0]), std::span<const Vec3>(body.vertices));
+    write_obj(options.out, cloth.vertices, cloth.triangles);
+    FrameCheck check;
+    add_certificate(check, certify(cloth, body, 4.0 * options.fabric.thickness));
+    return check;
+}
+
+int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& check) {
+    const char* out = options.out.c_str();
+    if (!check.clean()) {
+        std::fprintf(stderr, "percale: %s: not clean: %d intersecting pairs, %d vertices inside the body, deepest %.3g m\n", out,
+                     check.intersections, check.vertices_inside, check.deepest_penetration);
+        return not_as_expected;
+    }
+    if (drape.end == DrapeEnd::settled) return all_well;
+    const bool stopped = drape.end == DrapeEnd::stopped;
+    std::fprintf(stderr,
+                 "percale: %s: not at rest when %s after %.3g s: the fastest vertex moves at %.3g m/s (at rest: below %.3g)\n",
+                 out, stopped ? "stopped" : "the time was up", drape.last.time, drape.last.largest_speed, rest_speed);
+    return stopped ? stopped_by_signal : not_as_expected;
+}
+
+int drape_garment(const DrapeOptions& options) {
+    const Scene scene = drape_scene(options);
+    check_options(options);
+    BuiltScene built = build_scene(scene);
+    if (!options.quiet) std::printf("%s onto %s\n", options.garment.c_str(), options.body.c_str());
+    std::fflush(stdout);
+    const Drape drape = settle(built.simulation, options);
+    if (drape.end == DrapeEnd::failed) {
+        std::fprintf(stderr, "percale: %s: nothing was written: %s\n", options.garment.c_str(), drape.last.explanation().c_str());
+        return not_as_expected;
+    }
+    const FrameCheck check = write_and_certify(built, options);
+    if (!options.quiet)
+        std::printf("%s: %.3g s simulated, fastest vertex %.3g m/s, %d intersecting pairs, smallest distance %.3g m\n",
+                    options.out.c_str(), drape.last.time, drape.last.largest_speed, check.intersections, check.smallest_distance);
+    return verdict(options, drape, check);
+}
+
+void add_options(CLI::App& command, DrapeOptions& options) {
+    command.add_option("GARMENT", options.garment, "Garment mesh, outside the body")->required();
+    command.add_option("BODY", options.body, "Body mesh")->required();
+    command.add_option("-o", options.out, "Draped mesh (.obj)")->type_name("OUT")->required();
+    command.add_option("--garment-unit", options.garment_unit, "Unit of the garment's file: mm, cm, m (default m)")
+        ->type_name("UNIT");
+    command.add_option("--body-unit", options.body_unit, "Unit of the body's file: mm, cm, m (default m)")->type_name("UNIT");
+    command.add_option("--move", options.move, "Move the garment before it starts, m")
+        ->type_name("X Y Z")
+        ->allow_extra_args(false);
+    command.add_option("--thickness", options.fabric.thickness, "Gap kept from the body, m (default 0.005)")->type_name("M");
+    command.add_option("--area-density", options.fabric.area_density, "kg/m^2 (default 0.2)")->type_name("D");
+    command.add_option("--structural", options.fabric.springs.structural, "Spring constant of edges, N/m (default 1000)")
+        ->type_name("K");
+    command.add_option("--bend", options.fabric.springs.bend, "Spring constant across edges, N/m (default 0)")->type_name("K");
+    command.add_option("--damping", options.fabric.spring_damping, "Damping of each spring, N s/m (default 0.1)")->type_name("C");
+    command.add_option("--friction", options.friction, "Coulomb coefficient (default 0.3)")->type_name("MU");
+    command.add_option("--seconds", options.seconds, "Simulated time at most, s (default 20)")->type_name("S");
+    command.add_flag("--quiet", options.quiet, "Print nothing but errors");
+}
+
+}  // namespace
+
+void add_drape_command(CLI::App& program, Action& action) {
+    auto options = std::make_shared<DrapeOptions>();
+    CLI::App* command = program.add_subcommand("drape", "Let a garment settle on a body until it is at rest");
+    command->footer("Example: percale drape poncho.obj mannequin.obj -o draped.obj --friction 0.4");
+    add_options(*command, *options);
+    command->callback([options, &action] { action = [options] { return drape_garment(*options); }; });
+}
+
+}  // namespace percale::program

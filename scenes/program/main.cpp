@@ -1,0 +1,68 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "nearest_name.h"
+#include "percale/error.h"
+#include "program/commands.h"
+#include "program/exit_codes.h"
+
+namespace percale::program {
+
+namespace {
+
+const std::vector<std::string> commands_here = {"run", "check", "explain", "certify", "drape"};
+const std::vector<std::string> commands_later = {"plan", "doctor", "compare", "stress", "report", "render"};
+
+bool holds(const std::vector<std::string>& list, const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+/// Says what is wrong with a command name better than the parser, which takes it for a stray argument.
+void check_command_name(const std::string& word) {
+    if (word.empty() || word.front() == '-' || holds(commands_here, word)) return;
+    if (holds(commands_later, word)) throw SceneError("this build lacks the command '" + word + "'");
+    throw SceneError("no such command '" + word + "'" + scenes::suggestion(word, commands_here));
+}
+
+int parse_and_act(int argc, char** argv) {
+    CLI::App program("Simulates cloth over rigid mesh obstacles.", "percale");
+    program.footer("Example: percale run data/scenes/poncho_on_mannequin.toml\n`percale COMMAND --help` says more.");
+    program.set_version_flag("--version", "percale " PERCALE_VERSION);
+    program.require_subcommand(1);
+    Action action;
+    add_run_command(program, action);
+    add_check_command(program, action);
+    add_explain_command(program, action);
+    add_certify_command(program, action);
+    add_drape_command(program, action);
+    if (argc > 1) check_command_name(argv[1]);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return program.exit(error);
+        throw SceneError(std::string(error.what()) + " (see --help)");
+    }
+    return action();
+}
+
+int run_program(int argc, char** argv) {
+    try {
+        return parse_and_act(argc, argv);
+    } catch (const SceneError& error) {
+        std::fprintf(stderr, "percale: %s\n", error.what());
+        return wrong_input;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "percale: internal error: %s\n", error.what());
+        return internal_error;
+    }
+}
+
+}  // namespace
+
+}  // namespace percale::program
+
+int main(int argc, char** argv) { return percale::program::run_program(argc, argv); }

@@ -1,0 +1,26 @@
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "obj_file.h"
+#include "shipped_meshes.h"
+
+/// percale_make_data OUTDIR: writes the meshes of data/meshes. Exit code 0, or 2 with one message.
+int main(int count, char** arguments) {
+    if (count != 2) {
+        std::fprintf(stderr, "usage: percale_make_data OUTDIR\n");
+        return 2;
+    }
+    try {
+        const std::filesystem::path folder = arguments[1];
+        std::filesystem::create_directories(folder);
+        for (const auto& [file, mesh] : percale::scenes::make_shipped_meshes()) {
+            percale::scenes::write_obj((folder / file).string(), mesh.vertices, mesh.triangles);
+            std::printf("%s: %zu vertices, %zu triangles\n", file.c_str(), mesh.vertices.size(), mesh.triangles.size());
+        }
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "percale_make_data: %s\n", error.what());
+        return 2;
+    }
+    return 0;
+}

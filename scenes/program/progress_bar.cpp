@@ -1,0 +1,63 @@
+#include "program/progress_bar.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace percale::program {
+
+namespace {
+
+std::string eta_text(double done, double total, double elapsed) {
+    if (done <= 0.0) return "ETA -";
+    const long seconds = std::lround(std::max(0.0, elapsed * (total - done) / done));
+    char text[48];
+    if (seconds >= 3600)
+        std::snprintf(text, sizeof text, "ETA %ld:%02ld:%02ld", seconds / 3600, seconds / 60 % 60, seconds % 60);
+    else
+        std::snprintf(text, sizeof text, "ETA %ld:%02ld", seconds / 60, seconds % 60);
+    return text;
+}
+
+double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+std::string progress_text(double done, double total, double elapsed) {
+    constexpr int width = 30;
+    // A part that is whole up to rounding (0.1 * 30 = 2.9999...) counts as whole.
+    const double part = total > 0.0 ? std::clamp(done / total + 1e-9, 0.0, 1.0) : 1.0;
+    const int filled = static_cast<int>(part * width);
+    char text[96];
+    std::snprintf(text, sizeof text, "] %3d %%  %.2f of %.2f s  ", static_cast<int>(100.0 * part), done, total);
+    return "[" + std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.') +
+           text + eta_text(done, total, elapsed);
+}
+
+ProgressBar::ProgressBar(bool wanted, double total)
+    : active_(wanted && isatty(STDERR_FILENO) == 1), total_(total), start_(std::chrono::steady_clock::now()), last_(start_) {}
+
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::show(double done) {
+    if (!active_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (drawn_ && seconds_between(last_, now) < 0.1) return;
+    last_ = now;
+    drawn_ = true;
+    std::fprintf(stderr, "\r%s\033[K", progress_text(done, total_, seconds_between(start_, now)).c_str());
+    std::fflush(stderr);
+}
+
+void ProgressBar::clear() {
+    if (!drawn_) return;
+    drawn_ = false;
+    std::fputs("\r\033[K", stderr);
+    std::fflush(stderr);
+}
+
+}  // namespace percale::program

@@ -1,0 +1,107 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "expectations.h"
+#include "export/run_folder.h"
+#include "percale/error.h"
+#include "program/commands.h"
+#include "program/common_options.h"
+#include "program/exit_codes.h"
+#include "program/progress_bar.h"
+#include "program/stop_signals.h"
+
+namespace percale::program {
+
+namespace {
+
+using namespace percale::scenes;
+
+struct RunOptions {
+    CommonOptions common;
+    std::string scene, folder;
+};
+
+std::string default_folder(const std::string& scene) {
+    const std::string stem = std::filesystem::path(scene).stem().string();
+    if (stem.empty()) throw SceneError(scene + ": no folder can be named after this; name one with -o");
+    return stem;
+}
+
+void print_start(const RunOptions& options, const Scene& scene) {
+    const StepCount count = count_steps(scene.duration, scene.step.time_step);
+    std::printf("%s: %ld steps of %.6g s into %s\n", options.scene.c_str(), count.steps, scene.step.time_step,
+                options.folder.c_str());
+    std::fflush(stdout);
+}
+
+void print_summary(const RunOptions& options, const BuiltScene& built, const RunResult& result,
+                   std::span<const ExpectationResult> expectations) {
+    const Measures& m = result.measures;
+    std::printf("%s: %d steps, %.6g s simulated in %.3g s (CPU %.3g s), largest strain %.3g, speed at end %.3g m/s",
+                status_word(result.status), result.totals.steps, result.totals.simulated_s, result.totals.wall_s,
+                result.totals.cpu_s, m.largest_strain, m.speed_at_end);
+    if (!built.scene.obstacles.empty())
+        std::printf(", %d intersecting pairs, smallest distance %.3g m", m.intersections, m.smallest_distance);
+    std::printf("; %s/report.json\n", options.folder.c_str());
+    for (const ExpectationResult& expectation : expectations) std::printf("  %s\n", expectation.text.c_str());
+}
+
+/// One message on stderr for whatever is not well, and the exit code.
+int verdict(const RunOptions& options, const RunResult& result, std::span<const ExpectationResult> expectations) {
+    if (result.status == RunStatus::failed) {
+        std::fprintf(stderr, "percale: %s: the run failed: %s\n", options.scene.c_str(), result.reason.c_str());
+        return not_as_expected;
+    }
+    if (result.status == RunStatus::stopped) {
+        std::fprintf(stderr, "percale: %s: %s; the report is written\n", options.scene.c_str(), result.reason.c_str());
+        return stopped_by_signal;
+    }
+    std::string failed;
+    for (const ExpectationResult& expectation : expectations)
+        if (!expectation.passed) failed += (failed.empty() ? "" : "; ") + expectation.text;
+    if (failed.empty()) return all_well;
+    std::fprintf(stderr, "percale: %s: not as expected: %s\n", options.scene.c_str(), failed.c_str());
+    return not_as_expected;
+}
+
+int run(RunOptions options) {
+    check_common_options(options.common);
+    if (options.folder.empty()) options.folder = default_folder(options.scene);
+    BuiltScene built = build_scene(load_scene(options.scene, scene_overrides(options.common)));
+    RunFolder folder(options.folder, built.scene, options.common.replay_hash);
+    const StopSignals signals;
+    ProgressBar bar(!options.common.quiet, built.scene.duration);
+    RunHooks hooks;
+    hooks.begin = [&] {
+        folder.begin();
+        if (!options.common.quiet) print_start(options, built.scene);
+    };
+    hooks.frame = [&](const Frame& frame) { folder.add(frame); };
+    hooks.step = [&](const StepReport& report, const Simulation& simulation) {
+        folder.add(report, simulation);
+        bar.show(simulation.time());
+    };
+    hooks.stop_asked = [&] { return signals.asked(); };
+    const RunResult result = run_scene(built, hooks);
+    bar.clear();
+    const std::vector<ExpectationResult> expectations = judge(built.scene.expectations, measure_values(result.measures));
+    folder.finish(built, result, expectations);
+    if (!options.common.quiet) print_summary(options, built, result, expectations);
+    return verdict(options, result, expectations);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, Action& action) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command = program.add_subcommand("run", "Simulate a scene; write frames, report.json and steps.csv");
+    command->footer("Example: percale run data/scenes/hang.toml -o out --set duration=1");
+    command->add_option("SCENE", options->scene, "Scene file (TOML)")->required();
+    command->add_option("-o", options->folder, "Output folder (default: the scene's name)")->type_name("DIR");
+    add_common_options(*command, options->common);
+    command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace percale::program

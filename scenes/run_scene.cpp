@@ -1,0 +1,195 @@
+#include "run_scene.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "mesh_import.h"
+#include "scene_text.h"
+#include "timeline.h"
+
+namespace percale::scenes {
+
+const char* status_word(RunStatus status) {
+    switch (status) {
+        case RunStatus::finished:
+            return "finished";
+        case RunStatus::failed:
+            return "failed";
+        case RunStatus::stopped:
+            return "stopped";
+    }
+    return "unknown";
+}
+
+StepCount count_steps(double duration, double time_step) {
+    // A duration written with 16 digits is a multiple of a step written with 16 digits only up to rounding.
+    const double ratio = duration / time_step;
+    const double whole = std::round(ratio);
+    if (whole >= 1.0 && std::abs(ratio - whole) <= 1e-9 * whole) return {static_cast<long>(whole), time_step};
+    const double full = std::floor(ratio);
+    return {static_cast<long>(full) + 1, duration - full * time_step};
+}
+
+namespace {
+
+double thread_cpu_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The vertices of the file that `matches` names, if the scene expects that.
+std::optional<std::vector<Vec3>> read_reference(const BuiltScene& built) {
+    for (const Expectation& expectation : built.scene.expectations) {
+        if (expectation.measure != "matches") continue;
+        const std::string file = path_beside(built.scene, expectation.file);
+        std::vector<Vec3> vertices = import_mesh(file).vertices;
+        std::size_t expected = 0;
+        for (const TriangleMesh& mesh : built.cloth_meshes) expected += mesh.vertices.size();
+        if (vertices.size() != expected)
+            fail_at(expectation.place, "matches: " + file + " has " + std::to_string(vertices.size()) +
+                                           " vertices, the cloth has " + std::to_string(expected));
+        return vertices;
+    }
+    return std::nullopt;
+}
+
+/// Beyond this the certificate need not say how far apart the surfaces are.
+double distance_limit(const BuiltScene& built, std::size_t cloth) {
+    const auto fabric = built.scene.fabrics.find(built.scene.cloths[cloth].fabric);
+    return fabric == built.scene.fabrics.end() ? std::numeric_limits<double>::infinity() : 4.0 * fabric->second.thickness;
+}
+
+Frame first_frame(const BuiltScene& built) {
+    Frame frame;
+    frame.cloths = built.cloth_meshes;
+    frame.obstacles = built.obstacle_meshes;
+    return frame;
+}
+
+void place_and_certify(const BuiltScene& built, Frame& frame) {
+    const Simulation& simulation = built.simulation;
+    frame.time = simulation.time();
+    frame.check = {};
+    for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
+        const std::span<const Vec3> positions = simulation.positions(built.cloths[i]);
+        frame.cloths[i].vertices.assign(positions.begin(), positions.end());
+    }
+    for (std::size_t i = 0; i < frame.obstacles.size(); ++i)
+        frame.obstacles[i].vertices =
+            transform(simulation.obstacle_pose(built.obstacles[i]), std::span<const Vec3>(built.obstacle_meshes[i].vertices));
+    for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth)
+        for (const TriangleMesh& obstacle : frame.obstacles)
+            add_certificate(frame.check, certify(frame.cloths[cloth], obstacle, distance_limit(built, cloth)));
+}
+
+/// Frames due by now; several where the frame rate is higher than the step rate.
+void make_due_frames(const BuiltScene& built, const RunHooks& hooks, double slack, Frame& frame, Measures& measures) {
+    const double fps = built.scene.output.fps;
+    bool placed = false;
+    while (static_cast<double>(frame.index) / fps <= built.simulation.time() + slack) {
+        if (!placed) place_and_certify(built, frame);
+        placed = true;
+        add_frame(measures, frame.index, frame.check);
+        if (hooks.frame) hooks.frame(frame);
+        ++frame.index;
+    }
+}
+
+void add_stages(StageTimes& sum, const StageTimes& stages) {
+    sum.refresh += stages.refresh;
+    sum.evaluate += stages.evaluate;
+    sum.force += stages.force;
+    sum.setup += stages.setup;
+    sum.solve += stages.solve;
+    sum.cut += stages.cut;
+    sum.measure += stages.measure;
+}
+
+void add_cost(RunTotals& totals, const StepReport& report) {
+    totals.newton_iterations += report.newton_iterations;
+    totals.linear_iterations += report.linear_iterations;
+    totals.rejected_steps += report.halvings;
+    totals.contacts_most = std::max(totals.contacts_most, report.contacts);
+    totals.contact_stiffness = std::max(totals.contact_stiffness, report.contact_stiffness);
+    add_stages(totals.stages, report.stages);
+}
+
+void add_accepted(RunTotals& totals, const StepReport& report) {
+    ++totals.steps;
+    totals.smallest_step_s = std::min(totals.smallest_step_s, report.dt);
+    totals.largest_step_s = std::max(totals.largest_step_s, report.dt);
+    totals.largest_residual = std::max(totals.largest_residual, report.residual);
+    const double work = totals.energy.work + report.energy.work;
+    totals.energy = report.energy;
+    totals.energy.work = work;
+}
+
+bool changes_gravity(const Scene& scene) {
+    return std::any_of(scene.events.begin(), scene.events.end(),
+                       [](const EventSpec& event) { return std::holds_alternative<GravityEvent>(event.what); });
+}
+
+/// One step: script, simulation, figures. False if it failed.
+bool make_step(BuiltScene& built, const RunHooks& hooks, Timeline& timeline, double dt, RunResult& result) {
+    RunTotals& totals = result.totals;
+    timeline.apply(built, built.simulation.time(), dt);
+    // A gravity event changes the potential energy without any work, so the energy before the step is taken after it.
+    const double before = changes_gravity(built.scene) ? built.simulation.energy().total() : totals.energy.total();
+    const double cpu_start = thread_cpu_seconds();
+    const StepReport report = built.simulation.step();
+    totals.cpu_s += thread_cpu_seconds() - cpu_start;
+    add_cost(totals, report);
+    if (hooks.step) hooks.step(report, built.simulation);
+    if (!report.ok()) {
+        result.status = RunStatus::failed;
+        result.reason = report.explanation();
+        return false;
+    }
+    add_step(result.measures, report, before);
+    add_accepted(totals, report);
+    return true;
+}
+
+void run_steps(BuiltScene& built, const RunHooks& hooks, RunResult& result) {
+    const double time_step = built.scene.step.time_step;
+    const double slack = 1e-6 * time_step;  // accumulated rounding of the time
+    const StepCount count = count_steps(built.scene.duration, time_step);
+    Timeline timeline(built);
+    Frame frame = first_frame(built);
+    make_due_frames(built, hooks, slack, frame, result.measures);
+    for (long i = 0; i < count.steps; ++i) {
+        const bool last = i + 1 == count.steps;
+        if (last && count.last_dt != time_step) built.simulation.set_time_step(count.last_dt);
+        if (!make_step(built, hooks, timeline, last ? count.last_dt : time_step, result)) return;
+        make_due_frames(built, hooks, slack, frame, result.measures);
+        if (!last && hooks.stop_asked && hooks.stop_asked()) {
+            result.status = RunStatus::stopped;
+            result.reason = "stopped after " + std::to_string(i + 1) + " of " + std::to_string(count.steps) + " steps";
+            return;
+        }
+    }
+}
+
+}  // namespace
+
+RunResult run_scene(BuiltScene& built, const RunHooks& hooks) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::optional<std::vector<Vec3>> reference = read_reference(built);
+    if (hooks.begin) hooks.begin();
+    RunResult result;
+    result.totals.energy = built.simulation.energy();
+    run_steps(built, hooks, result);
+    add_end(result.measures, built.simulation, built.cloths);
+    if (reference) result.measures.matches = largest_vertex_distance(built.simulation, built.cloths, *reference);
+    result.totals.simulated_s = built.simulation.time();
+    result.totals.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+}  // namespace percale::scenes

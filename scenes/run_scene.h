@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "measures.h"
+#include "scene_build.h"
+
+// Runs a scene from its start to its end: steps, output frames, certificates, measures. Writes and prints nothing.
+namespace percale::scenes {
+
+enum class RunStatus { finished, failed, stopped };
+const char* status_word(RunStatus status);
+
+/// Cloth and obstacles at one output time in world coordinates: what is certified and what is written are these same numbers.
+struct Frame {
+    int index = 0;
+    double time = 0.0;                    // s, of the state shown
+    std::vector<TriangleMesh> cloths;     // in the order of the scene
+    std::vector<TriangleMesh> obstacles;  // in the order of the scene
+    FrameCheck check;
+};
+
+/// Sums and extremes over the steps of a run.
+struct RunTotals {
+    int steps = 0;           // accepted
+    int rejected_steps = 0;  // steps that were redone as shorter ones
+    double simulated_s = 0.0;
+    double smallest_step_s = std::numeric_limits<double>::infinity();  // of the steps asked for; infinity if none was accepted
+    double largest_step_s = 0.0;
+    long newton_iterations = 0;
+    long linear_iterations = 0;
+    double largest_residual = 0.0;
+    int contacts_most = 0;
+    double contact_stiffness = 0.0;  // N/m, largest
+    StageTimes stages;               // CPU seconds
+    double cpu_s = 0.0;              // CPU seconds of the calling thread inside steps only
+    double wall_s = 0.0;             // whole run, output included
+    StepEnergy energy;               // J, at the end; work is the sum over the run
+};
+
+struct RunResult {
+    RunStatus status = RunStatus::finished;
+    std::string reason;  // why it failed or was stopped
+    RunTotals totals;
+    Measures measures;
+};
+
+/// What the caller does meanwhile; each may be empty.
+struct RunHooks {
+    std::function<void()> begin;                                     // once, when nothing that was given can be wrong any more
+    std::function<void(const Frame&)> frame;                         // each output frame, after it was certified
+    std::function<void(const StepReport&, const Simulation&)> step;  // each step, a failed one too
+    std::function<bool()> stop_asked;                                // asked after each step
+};
+
+/// Steps until the scene's duration is over (the last step is shorter where the duration is no multiple of the time step), a step
+/// fails or a stop is asked for. Frame k follows the first step that ends at or after k / fps; frame 0 is the start. Every
+/// frame is certified against every obstacle, also when nothing is written.
+/// Throws SceneError if the reference of a `matches` expectation cannot be read or has another number of vertices, before the
+/// first step; what a hook throws passes through.
+RunResult run_scene(BuiltScene& built, const RunHooks& hooks = {});
+
+/// Steps that a run of this scene takes, and the length of the last one, s.
+struct StepCount {
+    long steps = 0;
+    double last_dt = 0.0;
+};
+StepCount count_steps(double duration, double time_step);
+
+}  // namespace percale::scenes

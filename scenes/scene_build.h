@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "percale/simulation.h"
+#include "scene.h"
+
+namespace percale::scenes {
+
+/// A scene with its meshes read and its simulation made.
+struct BuiltScene {
+    Scene scene;
+    Simulation simulation;
+    std::vector<ClothId> cloths;                // in the order of scene.cloths
+    std::vector<TriangleMesh> cloth_meshes;     // rest meshes in world coordinates
+    std::vector<ObstacleId> obstacles;          // in the order of scene.obstacles
+    std::vector<TriangleMesh> obstacle_meshes;  // in their own coordinates, unit applied, pose not
+};
+
+/// Reads meshes, selects pins, makes the detector and the simulation, and checks the start (Simulation::prepare). Throws
+/// SceneError with the place in the scene file.
+BuiltScene build_scene(const Scene& scene);
+
+/// A path of the scene file as the program can open it: relative ones start at the scene file's folder.
+std::string path_beside(const Scene& scene, const std::string& path);
+
+}  // namespace percale::scenes

@@ -1,0 +1,160 @@
+#include "scene_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "nearest_name.h"
+#include "overrides.h"
+#include "percale/error.h"
+#include "percale/options.h"
+#include "scene_check.h"
+#include "scene_keys.h"
+#include "scene_parts.h"
+#include "scene_text.h"
+#include "toml_values.h"
+
+namespace percale::scenes {
+namespace {
+
+int choice_index(std::span<const std::string> choices, const std::string& word) {
+    return static_cast<int>(std::find(choices.begin(), choices.end(), word) - choices.begin());
+}
+
+template <class Owner>
+void read_option(const TomlNode& table, const Option<Owner>& option, Owner& owner) {
+    const TomlNode* node = find_value(table, option.key);
+    if (node == nullptr) return;
+    if (option.number) {
+        *option.number(owner) = node->number;
+    } else if (option.integer) {
+        *option.integer(owner) = static_cast<int>(node->integer);
+    } else if (option.number_or_auto) {
+        *option.number_or_auto(owner) = node->is_number() ? std::optional(node->number) : std::nullopt;
+    } else {
+        const auto found = std::find(option.choices.begin(), option.choices.end(), node->text);
+        option.set_choice(owner, static_cast<int>(found - option.choices.begin()));
+    }
+}
+
+void read_step(const TomlNode& document, Scene& scene) {
+    read_value(document, "gravity", scene.step.gravity);
+    const TomlNode* step = document.find("step");
+    if (step == nullptr) return;
+    for (const auto& option : step_options()) read_option(*step, option, scene.step);
+    if (const TomlNode* detector = step->find("detector"))
+        scene.detector = static_cast<Detector>(choice_index(find_scene_key("step.detector")->choices, detector->text));
+}
+
+void read_fabrics(const TomlNode& document, Scene& scene) {
+    const TomlNode* fabrics = document.find("fabric");
+    if (fabrics == nullptr) return;
+    for (const TomlNode& table : fabrics->entries)
+        for (const auto& option : fabric_options()) read_option(table, option, scene.fabrics[table.key]);
+}
+
+template <class Part>
+void read_list(const TomlNode& document, std::string_view key, Part (*read)(const TomlNode&), std::vector<Part>& parts) {
+    const TomlNode* list = document.find(key);
+    if (list == nullptr) return;
+    for (const TomlNode& item : list->items) parts.push_back(read(item));
+}
+
+void read_output(const TomlNode& document, OutputSpec& output) {
+    if (const TomlNode* frames = find_value(document, "output.frames"))
+        output.frames = static_cast<FrameFormat>(choice_index(find_scene_key("output.frames")->choices, frames->text));
+    read_value(document, "output.fps", output.fps);
+}
+
+template <class Part>
+std::vector<std::string> checked_names(const std::vector<Part>& parts, const std::string& what) {
+    std::vector<std::string> names;
+    for (const Part& part : parts) {
+        for (const Part& earlier : parts) {
+            if (&earlier == &part) break;
+            if (earlier.name == part.name)
+                fail_at(part.place, "a second " + what + " '" + part.name + "'; the first is at " + place_text(earlier.place));
+        }
+        names.push_back(part.name);
+    }
+    return names;
+}
+
+std::string cloth_of(const EventSpec& event) {
+    return std::visit(
+        [](const auto& what) -> std::string {
+            if constexpr (requires { what.cloth; }) return what.cloth;
+            return "";
+        },
+        event.what);
+}
+
+void check_references(const Scene& scene) {
+    const std::vector<std::string> cloths = checked_names(scene.cloths, "cloth");
+    checked_names(scene.obstacles, "obstacle");
+    std::vector<std::string> fabrics;
+    for (const auto& [name, fabric] : scene.fabrics) fabrics.push_back(name);
+    for (const ClothSpec& cloth : scene.cloths)
+        if (!scene.fabrics.contains(cloth.fabric))
+            fail_at(cloth.place,
+                    "cloth '" + cloth.name + "': no fabric '" + cloth.fabric + "'" + suggestion(cloth.fabric, fabrics));
+    for (const EventSpec& event : scene.events) {
+        const std::string name = cloth_of(event);
+        if (!name.empty() && std::find(cloths.begin(), cloths.end(), name) == cloths.end())
+            fail_at(event.place, "event: no cloth '" + name + "'" + suggestion(name, cloths));
+    }
+}
+
+Scene scene_of(const TomlNode& document, const std::string& name) {
+    Scene scene;
+    scene.file = name;
+    read_value(document, "title", scene.title);
+    read_value(document, "duration", scene.duration);
+    read_step(document, scene);
+    read_fabrics(document, scene);
+    read_list(document, "cloth", read_cloth, scene.cloths);
+    read_list(document, "obstacle", read_obstacle, scene.obstacles);
+    read_list(document, "event", read_event, scene.events);
+    if (const TomlNode* expect = document.find("expect")) scene.expectations = read_expectations(*expect);
+    read_output(document, scene.output);
+    return scene;
+}
+
+void sort_events(std::vector<EventSpec>& events) {
+    std::stable_sort(events.begin(), events.end(), [](const EventSpec& a, const EventSpec& b) { return a.time < b.time; });
+}
+
+std::string file_text(const std::string& file) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) throw SceneError(file + ": is a folder, not a scene file");
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw SceneError(file + ": cannot be read: " + std::strerror(errno));
+    std::ostringstream text;
+    text << in.rdbuf();
+    if (in.bad()) throw SceneError(file + ": cannot be read: " + std::strerror(errno));
+    return text.str();
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& file, std::span<const Override> overrides) {
+    return parse_scene(file_text(file), file, overrides);
+}
+
+Scene parse_scene(const std::string& text, const std::string& name, std::span<const Override> overrides) {
+    TomlNode document = parse_toml(text, name);
+    document.place = {.file = name};
+    if (document.entries.empty()) fail_at(document.place, "is empty; a scene needs at least one [fabric.NAME] and one [[cloth]]");
+    for (const Override& override : overrides) apply_override(document, override);
+    check_document(document);
+    Scene scene = scene_of(document, name);
+    if (scene.cloths.empty()) fail_at(document.place, "has no cloth; a scene needs at least one [[cloth]]");
+    check_references(scene);
+    sort_events(scene.events);
+    return scene;
+}
+
+}  // namespace percale::scenes

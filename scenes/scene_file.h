@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "scene.h"
+
+namespace percale::scenes {
+
+/// One `--set KEY=VALUE`: a dotted key of the scene file and a TOML value (a bare word is taken as a string).
+struct Override {
+    std::string key;
+    std::string value;
+};
+
+/// Reads a TOML scene file, overrides applied before anything is checked. Throws SceneError with "file:line:column: what",
+/// the allowed range or the nearest valid key. Keys and ranges: scene_keys.h.
+Scene load_scene(const std::string& file, std::span<const Override> overrides = {});
+
+/// The same from text; `name` stands for the file in messages and relative paths are relative to its folder.
+Scene parse_scene(const std::string& text, const std::string& name, std::span<const Override> overrides = {});
+
+}  // namespace percale::scenes

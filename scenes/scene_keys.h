@@ -1,0 +1,56 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace percale::scenes {
+
+enum class KeyKind {
+    text,
+    word,            // one of `choices`
+    number,          // in [lowest, highest]
+    integer,         // in [lowest, highest]
+    number_or_auto,  // or the word "auto"
+    numbers,         // a list of `count`, each in [lowest, highest]
+    integers,        // a list of `count`, each in [lowest, highest]
+    box,             // [[x, y, z], [x, y, z]], each in [lowest, highest], the first nowhere above the second
+    vertices,        // a list of indices, { box = ... } or "boundary"
+    limit,           // a number, { below = }, { above = } or { between = [a, b] }
+    table,
+    table_list,   // [[...]]
+    named_tables  // [... .NAME]
+};
+
+/// One key of a scene file, described once: the loader checks with this list, `percale explain` and the table of README.md
+/// print it. Fields of Fabric and StepSettings come from percale/options.h, measures of [expect] from expectations.h.
+struct SceneKey {
+    std::string path;  // dotted from the top of the file, names of fabrics left out: "fabric.springs.bend"
+    KeyKind kind = KeyKind::text;
+    std::string sentence;
+    std::string unit = {};
+    double lowest = -std::numeric_limits<double>::infinity();  // allowed range of numbers, both ends included
+    double highest = std::numeric_limits<double>::infinity();
+    int count = 0;
+    std::vector<std::string> choices = {};
+    std::string default_text = {};  // "" if there is none
+    bool required = false;          // in its table
+};
+
+/// All keys, every table directly before what it holds.
+const std::vector<SceneKey>& scene_keys();
+
+/// The key with this path, or null.
+const SceneKey* find_scene_key(std::string_view path);
+
+/// The keys directly inside a table ("" = the top of the file), without the table's own path.
+std::vector<std::string> keys_inside(std::string_view path);
+
+/// "a number", "a list of 3 numbers", "one of fcl, bullet"; what a value must be.
+std::string kind_text(const SceneKey& key);
+
+/// "0 ... 10 m", ">= 0", "" if nothing is excluded.
+std::string range_text(const SceneKey& key);
+
+}  // namespace percale::scenes

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "scene.h"
+
+// How places and numbers are written in messages and tables.
+namespace percale::scenes {
+
+/// The shortest text that reads back as the same number: 0.3, 1e-6, inf.
+std::string number_text(double value);
+
+/// "file:line:column", or only the file where the line is unknown.
+std::string place_text(const SourcePlace& place);
+
+/// Throws SceneError "place: what".
+[[noreturn]] void fail_at(const SourcePlace& place, const std::string& what);
+
+/// "a, b, c".
+std::string joined(std::span<const std::string> words);
+
+}  // namespace percale::scenes

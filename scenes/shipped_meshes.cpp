@@ -1,0 +1,29 @@
+#include "shipped_meshes.h"
+
+#include <cmath>
+
+#include "mannequin.h"
+#include "poncho.h"
+#include "spikes.h"
+
+namespace percale::scenes {
+
+namespace {
+
+/// Short numbers keep the files small, and hide the last bits, in which compilers may differ.
+TriangleMesh rounded(TriangleMesh mesh) {
+    for (Vec3& x : mesh.vertices)
+        for (double& coordinate : x) coordinate = std::round(coordinate * 1e6) / 1e6 + 0.0;
+    return mesh;
+}
+
+}  // namespace
+
+std::vector<ShippedMesh> make_shipped_meshes() {
+    return {{"mannequin.obj", rounded(make_mannequin(0.02))},
+            {"poncho.obj", rounded(make_poncho())},
+            {"sphere.obj", rounded(make_sphere(0.25, 4))},
+            {"spikes.obj", rounded(make_spikes())}};
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "percale/error.h"
+
+// The pieces that the readers of text mesh files share.
+namespace percale::scenes {
+
+/// A line of a text file, for messages.
+struct TextPlace {
+    const std::string& name;
+    std::size_t line = 0;
+};
+
+[[noreturn]] inline void fail_at(const TextPlace& place, const std::string& message) {
+    throw SceneError(place.name + ":" + std::to_string(place.line) + ": " + message);
+}
+
+/// A word as it may stand in a message: cut to 40 characters, unprintable ones replaced.
+inline std::string shown(std::string_view word) {
+    std::string text(word.substr(0, 40));
+    for (char& letter : text) letter = letter < ' ' || letter > '~' ? '?' : letter;
+    return "\"" + text + (word.size() > 40 ? "...\"" : "\"");
+}
+
+/// Takes the next word off the front of a line; empty at its end.
+inline std::string_view next_word(std::string_view& line) {
+    constexpr std::string_view blank = " \t\r\f\v";
+    const std::size_t start = line.find_first_not_of(blank);
+    if (start == std::string_view::npos) return line = {};
+    const std::size_t end = std::min(line.find_first_of(blank, start), line.size());
+    const std::string_view word = line.substr(start, end - start);
+    line.remove_prefix(end);
+    return word;
+}
+
+/// A finite double; anything else throws with `what` naming the number.
+inline double to_double(std::string_view word, const TextPlace& place, const char* what) {
+    const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+    const char* end = word.data() + word.size();
+    double value = 0.0;
+    const auto [stop, status] = std::from_chars(word.data() + (plus ? 1 : 0), end, value);
+    if (word.empty()) fail_at(place, std::string(what) + " is missing");
+    if (status == std::errc::result_out_of_range) fail_at(place, std::string(what) + " is beyond a double: " + shown(word));
+    if (status != std::errc() || stop != end) fail_at(place, std::string(what) + " is not a number: " + shown(word));
+    if (!std::isfinite(value)) fail_at(place, std::string(what) + " is not finite: " + shown(word));
+    return value;
+}
+
+/// A whole number; anything else throws with `what` naming the number.
+inline long long to_integer(std::string_view word, const TextPlace& place, const char* what) {
+    const char* end = word.data() + word.size();
+    long long value = 0;
+    const auto [stop, status] = std::from_chars(word.data(), end, value);
+    if (word.empty()) fail_at(place, std::string(what) + " is missing");
+    if (status != std::errc() || stop != end) fail_at(place, std::string(what) + " is not a whole number: " + shown(word));
+    return value;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,103 @@
+#include "export/run_folder.h"
+
+#include "percale/error.h"
+#include "scene_file.h"
+#include "tests/scenes/small_scenes.h"
+#include "tests/scenes/test_folder.h"
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::scenes;
+using namespace percale::scenes::test;
+
+namespace {
+
+void run_into(const std::string& path, const std::vector<Override>& overrides = {}, bool with_state_hash = false) {
+    BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml", overrides));
+    RunFolder folder(path, built.scene, with_state_hash);
+    RunHooks hooks;
+    hooks.begin = [&] { folder.begin(); };
+    hooks.frame = [&](const Frame& frame) { folder.add(frame); };
+    hooks.step = [&](const StepReport& report, const Simulation& simulation) { folder.add(report, simulation); };
+    const RunResult result = run_scene(built, hooks);
+    folder.finish(built, result, {});
+}
+
+}  // namespace
+
+TEST_CASE("a run leaves its frames, its steps and its report, and no more") {
+    const TestFolder folder;
+    run_into(folder.path("a/b"));
+    CHECK(folder.holds("a/b/report.json"));
+    CHECK(folder.holds("a/b/steps.csv"));
+    CHECK(folder.holds("a/b/frames/sheet_00000.obj"));
+    CHECK(folder.holds("a/b/frames/sheet_00005.obj"));
+    CHECK(folder.file_count() == 8);
+    CHECK(read_frame_records(folder.path("a/b")).size() == 6);
+}
+
+TEST_CASE("without frames on disk the report still lists what was certified") {
+    const TestFolder folder;
+    run_into(folder.path(), {{"output.frames", "none"}});
+    CHECK(folder.file_count() == 2);
+    const std::vector<FrameRecord> frames = read_frame_records(folder.path());
+    REQUIRE(frames.size() == 6);
+    CHECK(frames[5].cloths.empty());
+}
+
+TEST_CASE("state hashes are in the steps only when asked for") {
+    const TestFolder folder;
+    run_into(folder.path("plain"));
+    run_into(folder.path("hashed"), {}, true);
+    const std::string plain = folder.read("plain/steps.csv"), hashed = folder.read("hashed/steps.csv");
+    CHECK(plain.substr(plain.size() - 2) == ",\n");
+    CHECK(hashed.size() == plain.size() + 10 * 16);
+}
+
+TEST_CASE("a shorter run into the same folder leaves no frame of the longer one, and nothing else is touched") {
+    const TestFolder folder;
+    run_into(folder.path());
+    folder.write("frames/mine.obj", "mine");
+    folder.write("notes.txt", "mine");
+    run_into(folder.path(), {{"duration", "0.04"}});
+    CHECK(folder.holds("frames/sheet_00002.obj"));
+    CHECK_FALSE(folder.holds("frames/sheet_00003.obj"));
+    CHECK(folder.read("frames/mine.obj") == "mine");
+    CHECK(folder.file_count() == 7);
+}
+
+TEST_CASE("from the beginning to the end of a run there is no report") {
+    const TestFolder folder;
+    run_into(folder.path());
+    const BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml"));
+    {
+        RunFolder second(folder.path(), built.scene, false);
+        CHECK(folder.holds("report.json"));
+        second.begin();
+        CHECK_FALSE(folder.holds("report.json"));
+        CHECK_FALSE(folder.holds("steps.csv"));
+    }
+    CHECK(folder.file_count() == 0);
+}
+
+TEST_CASE("a report that lists files elsewhere does not get them removed") {
+    const TestFolder folder;
+    folder.write("precious.obj", "mine");
+    std::filesystem::create_directories(folder.path("out/frames"));
+    folder.write("out/keep.obj", "mine");
+    folder.write("out/report.json",
+                 R"({"frames": [{"index": 0, "time": 0, "intersections": 0, "deepest_penetration": 0, "smallest_distance": null,)"
+                 R"( "cloths": ["../precious.obj", "keep.obj", "frames/../keep.obj", "/etc/x.obj"], "obstacles": []}]})");
+    run_into(folder.path("out"));
+    CHECK(folder.holds("precious.obj"));
+    CHECK(folder.holds("out/keep.obj"));
+}
+
+TEST_CASE("a folder that holds another report, or is a file, is refused and left alone") {
+    const TestFolder folder;
+    folder.write("report.json", "not ours");
+    CHECK_THROWS_WITH(run_into(folder.path()), Catch::Contains("-o"));
+    CHECK(folder.read("report.json") == "not ours");
+    CHECK(folder.file_count() == 1);
+    CHECK_THROWS_AS(run_into(folder.path("report.json")), SceneError);
+}

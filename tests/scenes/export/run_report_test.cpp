@@ -1,0 +1,170 @@
+#include "export/run_report.h"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "percale/error.h"
+#include "scene_file.h"
+#include "tests/scenes/small_scenes.h"
+#include "tests/scenes/test_folder.h"
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::scenes;
+using namespace percale::scenes::test;
+using nlohmann::ordered_json;
+
+namespace {
+
+BuiltScene built(const std::string& text, const std::vector<Override>& overrides = {}) {
+    return build_scene(parse_scene(text, "test.toml", overrides));
+}
+
+ordered_json report_of(const BuiltScene& scene, const RunResult& result, const std::vector<FrameRecord>& frames = {},
+                       const std::vector<ExpectationResult>& expectations = {}) {
+    return ordered_json::parse(run_report_text(scene, result, frames, expectations));
+}
+
+bool skips(const BuiltScene& scene, const std::string& what) {
+    for (const SkippedPart& part : skipped_parts(scene))
+        if (part.what == what) return !part.why.empty();
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("a report holds every entry that users may rely on") {
+    BuiltScene scene = built(sheet_on_box());
+    const RunResult result = run_scene(scene);
+    const ordered_json json = report_of(scene, result);
+    for (const char* key : {"status",
+                            "simulated_s",
+                            "steps",
+                            "rejected_steps",
+                            "smallest_step_s",
+                            "largest_step_s",
+                            "newton_iterations",
+                            "linear_iterations",
+                            "largest_residual",
+                            "linear_solver",
+                            "cpu_s",
+                            "wall_s",
+                            "peak_memory_bytes",
+                            "stages",
+                            "skipped",
+                            "contacts_most",
+                            "contact_stiffness",
+                            "energy",
+                            "expectations",
+                            "settings",
+                            "version",
+                            "intersections",
+                            "deepest_penetration",
+                            "smallest_distance",
+                            "worst_frame",
+                            "largest_strain",
+                            "speed_at_end",
+                            "rms_speed_at_end",
+                            "energy_gain",
+                            "lowest_vertex",
+                            "frames"}) {
+        INFO(key);
+        CHECK(json.contains(key));
+    }
+    for (const char* key : {"refresh", "evaluate", "force", "setup", "solve", "cut", "measure"})
+        CHECK(json.at("stages").at(key).is_number());
+    CHECK(json.at("status") == "finished");
+    CHECK_FALSE(json.contains("reason"));
+    CHECK(json.at("title") == "sheet on a box");
+    CHECK(json.at("steps") == result.totals.steps);
+    CHECK(json.at("cpu_s").get<double>() == result.totals.cpu_s);
+    CHECK(json.at("energy").at("elastic").get<double>() == result.totals.energy.elastic);
+    CHECK(json.at("lowest_vertex").get<double>() == result.measures.lowest_vertex);
+    CHECK(json.at("peak_memory_bytes").get<double>() > 1e5);
+    CHECK(json.at("linear_solver") == "cg");
+}
+
+TEST_CASE("what was not computed is left out, and infinity is null") {
+    const BuiltScene scene = built(falling_sheet());
+    const ordered_json json = report_of(scene, RunResult{});
+    CHECK(json.at("smallest_distance").is_null());
+    CHECK(json.at("worst_frame").is_null());
+    CHECK_FALSE(json.contains("matches"));
+    CHECK_FALSE(json.at("energy").contains("closure"));
+    CHECK(json.at("linear_solver") == "none");
+}
+
+TEST_CASE("a failed run carries its reason") {
+    RunResult result;
+    result.status = RunStatus::failed;
+    result.reason = "vertex 3 was blocked";
+    const ordered_json json = report_of(built(falling_sheet()), result);
+    CHECK(json.at("status") == "failed");
+    CHECK(json.at("reason") == "vertex 3 was blocked");
+}
+
+TEST_CASE("expectations are listed with measure, value, limit and outcome") {
+    ExpectationResult good, unmeasured;
+    good.expectation = {.measure = "largest_strain",
+                        .lowest = -std::numeric_limits<double>::infinity(),
+                        .highest = 0.3,
+                        .lowest_included = true,
+                        .highest_included = false,
+                        .file = {},
+                        .place = {}};
+    good.value = 0.25;
+    good.passed = true;
+    unmeasured.expectation.measure = "matches";
+    const ordered_json list = report_of(built(falling_sheet()), RunResult{}, {}, {good, unmeasured}).at("expectations");
+    REQUIRE(list.size() == 2);
+    CHECK(list[0] == ordered_json{{"measure", "largest_strain"}, {"value", 0.25}, {"limit", "< 0.3"}, {"passed", true}});
+    CHECK(list[1].at("value").is_null());
+    CHECK(list[1].at("passed") == false);
+}
+
+TEST_CASE("what a scene does not need is listed as skipped, what it needs is not") {
+    const BuiltScene plain = built(sheet_on_box());
+    CHECK_FALSE(skips(plain, "contact"));
+    CHECK_FALSE(skips(plain, "linear solver"));
+    CHECK_FALSE(skips(plain, "shear springs of sheet"));
+    CHECK_FALSE(skips(plain, "damping of sheet"));
+    const BuiltScene bare = built(falling_sheet(), {{"fabric.sheet.springs.shear", "0"}, {"fabric.sheet.springs.bend", "0"}});
+    CHECK(skips(bare, "contact"));
+    CHECK(skips(bare, "linear solver"));
+    CHECK(skips(bare, "shear springs of sheet"));
+    CHECK(skips(bare, "bending springs of sheet"));
+    CHECK(skips(bare, "damping of sheet"));
+}
+
+TEST_CASE("frames read back from a report are those that were listed") {
+    const TestFolder folder;
+    FrameRecord near, far;
+    near.index = 0;
+    near.cloths = {"frames/a_00000.obj", "frames/b_00000.obj"};
+    near.obstacles = {"obstacles/ball_00000.obj"};
+    near.check.intersections = 2;
+    near.check.deepest_penetration = 1.0 / 3.0;
+    near.check.smallest_distance = 0.0;
+    far.index = 1;
+    far.time = 1.0 / 30.0;
+    const std::vector<FrameRecord> frames = {near, far};
+    folder.write("report.json", run_report_text(built(falling_sheet()), RunResult{}, frames, {}));
+    const std::vector<FrameRecord> read = read_frame_records(folder.path());
+    REQUIRE(read.size() == 2);
+    CHECK(read[0].cloths == near.cloths);
+    CHECK(read[0].obstacles == near.obstacles);
+    CHECK(read[0].check.intersections == 2);
+    CHECK(read[0].check.deepest_penetration == near.check.deepest_penetration);
+    CHECK(read[1].time == far.time);
+    CHECK(read[1].check.smallest_distance == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("a report that is missing, cut off or of another shape is refused by name") {
+    const TestFolder folder;
+    CHECK_THROWS_WITH(read_frame_records(folder.path()), Catch::Contains("report.json"));
+    for (const char* text : {"", "{", "[]", "{}", "{\"frames\": 3}", "{\"frames\": [{\"index\": \"x\"}]}"}) {
+        INFO(text);
+        folder.write("report.json", text);
+        CHECK_THROWS_AS(read_frame_records(folder.path()), SceneError);
+    }
+}

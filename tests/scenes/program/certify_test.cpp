@@ -1,0 +1,121 @@
+#include <nlohmann/json.hpp>
+
+#include "obj_file.h"
+#include "percale/mesh.h"
+#include "tests/scenes/program/run_program.h"
+#include "tests/scenes/small_scenes.h"
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::program::test;
+using percale::scenes::test::falling_sheet;
+using percale::scenes::test::sheet_on_box;
+
+namespace {
+
+/// A 0.2 m sheet at a height, as a file; the box below it is 1 m wide and ends at height 0.
+void write_sheet(const TestFolder& folder, const std::string& name, double height) {
+    TriangleMesh sheet = make_grid(0.2, 0.2, 3, 3);
+    for (Vec3& x : sheet.vertices) x.y() += height;
+    scenes::write_obj(folder.path(name), sheet.vertices, sheet.triangles);
+}
+
+void write_box(const TestFolder& folder) {
+    TriangleMesh box = make_box(Vec3(1.0, 1.0, 1.0));
+    for (Vec3& x : box.vertices) x.y() -= 0.5;
+    scenes::write_obj(folder.path("box.obj"), box.vertices, box.triangles);
+}
+
+/// The same sheet turned upright: half of it is in the box.
+void write_crossing_sheet(const TestFolder& folder) {
+    TriangleMesh sheet = make_grid(0.2, 0.2, 3, 3);
+    for (Vec3& x : sheet.vertices) x = Vec3(x.x(), x.z() - 0.013, 0.03);
+    scenes::write_obj(folder.path("crossing.obj"), sheet.vertices, sheet.triangles);
+}
+
+}  // namespace
+
+TEST_CASE("a sheet above a box is clean, with its distance") {
+    const TestFolder folder;
+    write_box(folder);
+    write_sheet(folder, "sheet.obj", 0.015625);
+    const ProgramRun run = run_program({"certify", "box.obj", "sheet.obj", "--json"}, folder.path());
+    CHECK(run.exit_code == 0);
+    const auto json = nlohmann::json::parse(run.out);
+    CHECK(json.at("clean") == true);
+    CHECK(json.at("intersections") == 0);
+    CHECK(json.at("smallest_distance").get<double>() == Approx(0.015625));
+    CHECK(json.at("worst_frame") == 0);
+}
+
+TEST_CASE("a sheet through a box is exit code 1, with pairs, vertices and depth") {
+    const TestFolder folder;
+    write_box(folder);
+    write_sheet(folder, "sheet.obj", 0.5);
+    write_crossing_sheet(folder);
+    const ProgramRun run = run_program({"certify", "box.obj", "sheet.obj", "crossing.obj", "--json"}, folder.path());
+    CHECK(run.exit_code == 1);
+    const auto json = nlohmann::json::parse(run.out);
+    CHECK(json.at("clean") == false);
+    CHECK(json.at("intersections").get<int>() > 0);
+    CHECK(json.at("deepest_penetration").get<double>() == Approx(0.113));
+    CHECK(json.at("worst_frame") == 1);
+    CHECK(json.at("frames")[0].at("smallest_distance").is_null());
+    CHECK(json.at("frames")[1].at("vertices_inside") == 6);
+    CHECK(run_program({"certify", "box.obj", "crossing.obj"}, folder.path()).out.find("NOT clean") != std::string::npos);
+}
+
+TEST_CASE("a sheet wholly inside crosses nothing and still is not clean") {
+    const TestFolder folder;
+    write_box(folder);
+    write_sheet(folder, "sheet.obj", -0.25);
+    const ProgramRun run = run_program({"certify", "box.obj", "sheet.obj", "--json"}, folder.path());
+    CHECK(run.exit_code == 1);
+    const auto json = nlohmann::json::parse(run.out);
+    CHECK(json.at("intersections") == 0);
+    CHECK(json.at("deepest_penetration").get<double>() == Approx(0.25));
+}
+
+TEST_CASE("the frames of a run are certified from its folder, and agree with its report") {
+    const TestFolder folder;
+    folder.write("box.toml", sheet_on_box());
+    REQUIRE(run_program({"run", "box.toml", "-o", "out"}, folder.path()).exit_code == 0);
+    const ProgramRun run = run_program({"certify", "out", "--json"}, folder.path());
+    CHECK(run.exit_code == 0);
+    const auto json = nlohmann::json::parse(run.out);
+    const auto report = nlohmann::json::parse(folder.read("out/report.json"));
+    REQUIRE(json.at("frames").size() == report.at("frames").size());
+    for (std::size_t i = 0; i < json.at("frames").size(); ++i)
+        CHECK(json.at("frames")[i].at("smallest_distance") == report.at("frames")[i].at("smallest_distance"));
+    CHECK(line_count(run_program({"certify", "out"}, folder.path()).out) == 8);
+}
+
+TEST_CASE("a frame that was changed after the run is found out") {
+    const TestFolder folder;
+    folder.write("box.toml", sheet_on_box());
+    REQUIRE(run_program({"run", "box.toml", "-o", "out"}, folder.path()).exit_code == 0);
+    write_sheet(folder, "out/frames/sheet_00003.obj", -0.1);
+    const ProgramRun run = run_program({"certify", "out"}, folder.path());
+    CHECK(run.exit_code == 1);
+    CHECK(run.out.find("NOT clean") != std::string::npos);
+}
+
+TEST_CASE("what cannot be read is exit code 2 with one message") {
+    const TestFolder folder;
+    write_box(folder);
+    const auto certified = [&](const std::vector<std::string>& paths) {
+        std::vector<std::string> arguments = {"certify"};
+        arguments.insert(arguments.end(), paths.begin(), paths.end());
+        return run_program(arguments, folder.path());
+    };
+    CHECK(refused(certified({"."}), "report.json"));
+    CHECK(refused(certified({"box.obj"}), "box.obj"));
+    CHECK(refused(certified({".", "box.obj"}), "folder"));
+    CHECK(refused(certified({"box.obj", "absent.obj"}), "absent.obj"));
+    folder.write("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK(refused(certified({"box.obj", "nan.obj"}), "nan.obj"));
+    CHECK(refused(certified({"box.obj", "box.obj", "--distance-limit", "-1"}), "--distance-limit"));
+    folder.write("sheet.toml", falling_sheet());
+    REQUIRE(run_program({"run", "sheet.toml", "-o", "out", "--frames", "none"}, folder.path()).exit_code == 0);
+    CHECK(refused(certified({"out"}), "no frames"));
+}

@@ -1,0 +1,89 @@
+#include "tests/scenes/program/run_program.h"
+#include "tests/scenes/small_scenes.h"
+#include "tests/support/catch.h"
+
+using namespace percale::program::test;
+using percale::scenes::test::falling_sheet;
+using percale::scenes::test::sheet_on_box;
+
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("check says of every expectation whether it passed, and writes nothing") {
+    const TestFolder folder;
+    folder.write("good.toml", sheet_on_box() + "[expect]\nintersections = 0\nlargest_strain = { below = 0.5 }\n");
+    const ProgramRun run = run_program({"check", "good.toml"}, folder.path());
+    CHECK(run.exit_code == 0);
+    CHECK(run.error.empty());
+    CHECK(run.out.find("intersections 0") != std::string::npos);
+    CHECK(run.out.find("< 0.5") != std::string::npos);
+    CHECK(ends_with(run.out, "2 passed, 0 failed\n"));
+    CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("one failed expectation among many is exit code 1") {
+    const TestFolder folder;
+    folder.write("good.toml", falling_sheet() + "[expect]\nintersections = 0\n");
+    folder.write("bad.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 0.05 }\nlowest_vertex = { above = 0.0 }\n");
+    const ProgramRun run = run_program({"check", "good.toml", "bad.toml", "good.toml"}, folder.path());
+    CHECK(run.exit_code == 1);
+    CHECK(ends_with(run.out, "3 passed, 1 failed\n"));
+}
+
+TEST_CASE("a wrong scene does not keep the others from running, but decides the exit code") {
+    const TestFolder folder;
+    folder.write("good.toml", falling_sheet() + "[expect]\nintersections = 0\n");
+    folder.write("bad.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 0.05 }\n");
+    const ProgramRun run = run_program({"check", "absent.toml", "bad.toml", "good.toml"}, folder.path());
+    CHECK(run.exit_code == 2);
+    CHECK(run.error.find("absent.toml") != std::string::npos);
+    CHECK(run.out.find("good.toml") != std::string::npos);
+    CHECK(ends_with(run.out, "1 passed, 2 failed\n"));
+}
+
+TEST_CASE("scenes that run side by side are printed in their order, with the same figures") {
+    const TestFolder folder;
+    std::vector<std::string> arguments = {"check", "--replay-hash"};
+    for (int i = 0; i < 5; ++i) {
+        const std::string name = "scene" + std::to_string(i) + ".toml";
+        folder.write(name, sheet_on_box() + "[expect]\nintersections = 0\n");
+        arguments.push_back(name);
+    }
+    const ProgramRun one = run_program(arguments, folder.path());
+    arguments.insert(arguments.end(), {"--jobs", "3"});
+    const ProgramRun three = run_program(arguments, folder.path());
+    CHECK(one.exit_code == 0);
+    CHECK(one.out == three.out);
+    CHECK(one.out.find("state_hash ") != std::string::npos);
+}
+
+TEST_CASE("--set and --fps reach every scene") {
+    const TestFolder folder;
+    folder.write("a.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 0.2 }\n");
+    folder.write("b.toml", folder.read("a.toml"));
+    CHECK(run_program({"check", "a.toml", "b.toml"}, folder.path()).exit_code == 1);
+    CHECK(run_program({"check", "a.toml", "b.toml", "--set", "duration=0.02", "--fps", "10"}, folder.path()).exit_code == 0);
+}
+
+TEST_CASE("--junit tells the same to machines") {
+    const TestFolder folder;
+    folder.write("bad.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 0.05 }\nintersections = 0\n");
+    CHECK(run_program({"check", "bad.toml", "absent.toml", "--junit", "junit.xml", "--quiet"}, folder.path()).exit_code == 2);
+    const std::string text = folder.read("junit.xml");
+    CHECK(text.find("<testsuite name=\"bad.toml\" tests=\"3\" failures=\"1\" errors=\"0\"") != std::string::npos);
+    CHECK(text.find("<testsuite name=\"absent.toml\" tests=\"1\" failures=\"0\" errors=\"1\"") != std::string::npos);
+}
+
+TEST_CASE("what check cannot do is refused") {
+    const TestFolder folder;
+    folder.write("a.toml", falling_sheet());
+    CHECK(refused(run_program({"check", "a.toml", "--jobs", "0"}, folder.path()), "1 ... 256"));
+    CHECK(refused(run_program({"check", "a.toml", "--frames", "obj"}, folder.path()), "check writes no frames"));
+    CHECK(refused(run_program({"check", "a.toml", "--threads", "3"}, folder.path()), "--threads"));
+    CHECK(run_program({"check", "a.toml", "--frames", "none"}, folder.path()).exit_code == 0);
+}

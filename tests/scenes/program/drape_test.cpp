@@ -1,0 +1,102 @@
+#include <fstream>
+
+#include "obj_file.h"
+#include "percale/certify.h"
+#include "percale/mesh.h"
+#include "tests/scenes/program/run_program.h"
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::program::test;
+
+namespace {
+
+/// A small sheet 2 cm above a block that it overhangs on all sides, in units of 1/scale metres.
+void write_pair(const TestFolder& folder, double scale) {
+    TriangleMesh sheet = make_grid(0.2, 0.2, 9, 9), block = make_box(Vec3(0.1, 0.2, 0.1));
+    for (Vec3& x : sheet.vertices) x = (x + Vec3(0.0, 0.12, 0.0)) * scale;
+    for (Vec3& x : block.vertices) x *= scale;
+    scenes::write_obj(folder.path("sheet.obj"), sheet.vertices, sheet.triangles);
+    scenes::write_obj(folder.path("block.obj"), block.vertices, block.triangles);
+}
+
+TriangleMesh read(const TestFolder& folder, const std::string& name) {
+    std::ifstream in(folder.path(name));
+    return scenes::read_obj(in, name);
+}
+
+}  // namespace
+
+TEST_CASE("a garment that settles is written at rest and clean") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    const ProgramRun run =
+        run_program({"drape", "sheet.obj", "block.obj", "-o", "draped.obj", "--friction", "0.8"}, folder.path());
+    CAPTURE(run.out, run.error);
+    CHECK(run.exit_code == 0);
+    const TriangleMesh draped = read(folder, "draped.obj"), sheet = read(folder, "sheet.obj");
+    CHECK(draped.triangles == sheet.triangles);
+    CHECK(certify(draped, read(folder, "block.obj")).clean());
+    CHECK(draped.vertices[0].y() < sheet.vertices[0].y() - 0.02);
+    CHECK(folder.file_count() == 3);
+}
+
+TEST_CASE("when the time is up the garment is written all the same, and the speed named") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    const ProgramRun run =
+        run_program({"drape", "sheet.obj", "block.obj", "-o", "draped.obj", "--seconds", "0.05"}, folder.path());
+    CHECK(run.exit_code == 1);
+    CHECK(run.error.find("m/s") != std::string::npos);
+    CHECK(folder.holds("draped.obj"));
+}
+
+TEST_CASE("files in millimetres drape as the same files in metres do") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    CHECK(run_program({"drape", "sheet.obj", "block.obj", "-o", "metres.obj", "--seconds", "0.1"}, folder.path()).exit_code == 1);
+    write_pair(folder, 1000.0);
+    CHECK(run_program({"drape", "sheet.obj", "block.obj", "-o", "millimetres.obj", "--seconds", "0.1", "--garment-unit", "mm",
+                       "--body-unit", "mm"},
+                      folder.path())
+              .exit_code == 1);
+    const TriangleMesh a = read(folder, "metres.obj"), b = read(folder, "millimetres.obj");
+    REQUIRE(a.vertices.size() == b.vertices.size());
+    for (std::size_t i = 0; i < a.vertices.size(); ++i) CHECK((a.vertices[i] - b.vertices[i]).norm() < 1e-6);
+}
+
+TEST_CASE("what cannot be draped is refused before anything is written") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    const auto draped = [&](std::vector<std::string> options) {
+        std::vector<std::string> arguments = {"drape", "sheet.obj", "block.obj", "-o", "out.obj"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run_program(arguments, folder.path());
+    };
+    CHECK(refused(draped({"--seconds", "0"}), "--seconds"));
+    CHECK(refused(draped({"--thickness", "-1"}), "thickness"));
+    CHECK(refused(draped({"--friction", "-1"}), "friction"));
+    CHECK(refused(draped({"--body-unit", "inch"}), "mm, cm or m"));
+    CHECK(refused(run_program({"drape", "sheet.obj", "absent.obj", "-o", "out.obj"}, folder.path()), "absent.obj"));
+    CHECK(refused(run_program({"drape", "sheet.obj", "block.obj", "-o", "out.ply"}, folder.path()), ".obj"));
+    CHECK(refused(run_program({"drape", "sheet.obj", "block.obj", "-o", "absent/out.obj"}, folder.path()), "absent/out.obj"));
+    CHECK(refused(run_program({"drape", "block.obj", "block.obj", "-o", "out.obj"}, folder.path()), "body"));
+    CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("a garment that is moved first falls as one that was there from the start") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    TriangleMesh moved = read(folder, "sheet.obj");
+    for (Vec3& x : moved.vertices) x += Vec3(0.25, 0.5, 0.125);
+    scenes::write_obj(folder.path("moved.obj"), moved.vertices, moved.triangles);
+    const std::vector<std::string> rest = {"block.obj", "--seconds", "0.1", "-o"};
+    const auto draped = [&](std::vector<std::string> first, const std::string& out) {
+        first.insert(first.begin(), "drape");
+        first.insert(first.end(), rest.begin(), rest.end());
+        first.push_back(out);
+        CHECK(run_program(first, folder.path()).exit_code == 1);
+        return read(folder, out).vertices;
+    };
+    CHECK(draped({"--move", "0.25", "0.5", "0.125", "sheet.obj"}, "a.obj") == draped({"moved.obj"}, "b.obj"));
+}

@@ -1,0 +1,17 @@
+#include "tests/scenes/program/run_program.h"
+#include "tests/support/catch.h"
+
+using namespace percale::program::test;
+
+TEST_CASE("explain lists all keys, or one topic") {
+    const ProgramRun all = run_program({"explain"});
+    CHECK(all.exit_code == 0);
+    CHECK(all.out.find("time_step") != std::string::npos);
+    CHECK(all.out.find("area_density") != std::string::npos);
+    const ProgramRun one = run_program({"explain", "step.time_step"});
+    CHECK(one.exit_code == 0);
+    CHECK(one.out.find("time_step") != std::string::npos);
+    CHECK(one.out.find("area_density") == std::string::npos);
+}
+
+TEST_CASE("an unknown topic is refused with the nearest") { CHECK(refused(run_program({"explain", "tiem_step"}), "time_step")); }

@@ -1,0 +1,38 @@
+#include "tests/scenes/program/run_program.h"
+#include "tests/support/catch.h"
+
+using namespace percale::program::test;
+
+TEST_CASE("the program says its version and its commands") {
+    const ProgramRun version = run_program({"--version"});
+    CHECK(version.exit_code == 0);
+    CHECK(version.out.rfind("percale ", 0) == 0);
+    const ProgramRun help = run_program({"--help"});
+    CHECK(help.exit_code == 0);
+    for (const char* command : {"run", "check", "explain", "certify", "drape"})
+        CHECK(help.out.find(command) != std::string::npos);
+    CHECK(help.error.empty());
+}
+
+TEST_CASE("the help of every command shows an example of it") {
+    for (const std::string command : {"run", "check", "explain", "certify", "drape"}) {
+        const ProgramRun help = run_program({command, "--help"});
+        INFO(command);
+        CHECK(help.exit_code == 0);
+        CHECK(help.out.find(": percale " + command + " ") != std::string::npos);
+    }
+}
+
+TEST_CASE("a command that this build lacks is told from one that does not exist") {
+    for (const char* command : {"plan", "doctor", "compare", "stress", "report", "render"})
+        CHECK(refused(run_program({command}), "lacks"));
+    CHECK(refused(run_program({"chek", "a.toml"}), "check"));
+}
+
+TEST_CASE("a command line that cannot be read ends with exit code 2 and one message") {
+    CHECK(refused(run_program({}), "subcommand"));
+    CHECK(refused(run_program({"run"}), "SCENE"));
+    CHECK(refused(run_program({"run", "a.toml", "--no-such-option"}), "--no-such-option"));
+    CHECK(refused(run_program({"check", "a.toml", "--jobs", "many"}), "many"));
+    CHECK(refused(run_program({"drape", "a.obj"}), "BODY"));
+}

@@ -1,0 +1,71 @@
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "tests/scenes/program/run_program.h"
+#include "tests/scenes/small_scenes.h"
+#include "tests/support/catch.h"
+
+using namespace percale::program::test;
+using percale::scenes::test::falling_sheet;
+
+namespace {
+
+struct TerminalRun {
+    int exit_code = -1;
+    std::string text;
+};
+
+/// Runs the program with a terminal as its output.
+TerminalRun run_on_terminal(const TestFolder& folder, const char* option) {
+    int terminal = -1;
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (child == 0) {
+        if (chdir(folder.path().c_str()) == 0)
+            execl(PERCALE_PROGRAM, PERCALE_PROGRAM, "run", "sheet.toml", "-o", "out", option, nullptr);
+        _exit(99);
+    }
+    TerminalRun run;
+    char buffer[4096];
+    for (ssize_t size = read(terminal, buffer, sizeof buffer); size > 0; size = read(terminal, buffer, sizeof buffer))
+        run.text.append(buffer, static_cast<std::size_t>(size));
+    int status = 0;
+    waitpid(child, &status, 0);
+    close(terminal);
+    run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return run;
+}
+
+}  // namespace
+
+TEST_CASE("on a terminal a bar shows the part that is done and the time that is left, and is wiped at the end") {
+    const TestFolder folder;
+    folder.write("sheet.toml", falling_sheet());
+    const TerminalRun run = run_on_terminal(folder, "--replay-hash");
+    CHECK(run.exit_code == 0);
+    // The first of ten steps: 10 % of 30 marks are 3.
+    CHECK(run.text.find("[###...........................]  10 %  0.01 of 0.10 s  ETA 0:0") != std::string::npos);
+    const std::size_t wiped = run.text.rfind("\r\033[K");
+    REQUIRE(wiped != std::string::npos);
+    CHECK(run.text.find("finished", wiped) != std::string::npos);
+    CHECK(run.text.find("ETA", wiped) == std::string::npos);
+}
+
+TEST_CASE("a quiet run draws no bar on a terminal") {
+    const TestFolder folder;
+    folder.write("sheet.toml", falling_sheet());
+    const TerminalRun run = run_on_terminal(folder, "--quiet");
+    CHECK(run.exit_code == 0);
+    CHECK(run.text.empty());
+}
+
+TEST_CASE("without a terminal there is no bar") {
+    const TestFolder folder;
+    folder.write("sheet.toml", falling_sheet());
+    const ProgramRun run = run_program({"run", "sheet.toml", "-o", "out"}, folder.path());
+    CHECK(run.error.empty());
+    CHECK(run.out.find("ETA") == std::string::npos);
+    CHECK(line_count(run.out) == 2);
+}

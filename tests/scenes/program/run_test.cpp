@@ -1,0 +1,120 @@
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/scenes/program/run_program.h"
+#include "tests/scenes/small_scenes.h"
+#include "tests/support/catch.h"
+
+using namespace percale::program::test;
+using percale::scenes::test::falling_sheet;
+using percale::scenes::test::sheet_on_box;
+
+namespace {
+
+nlohmann::json report_in(const TestFolder& folder, const std::string& name) {
+    return nlohmann::json::parse(folder.read(name + "/report.json"));
+}
+
+/// The last two columns of steps.csv: contact and state hash.
+std::vector<std::string> hashes_in(const TestFolder& folder, const std::string& name) {
+    std::istringstream table(folder.read(name + "/steps.csv"));
+    std::vector<std::string> hashes;
+    for (std::string line; std::getline(table, line);) hashes.push_back(line.substr(line.rfind(',', line.rfind(',') - 1)));
+    return hashes;
+}
+
+}  // namespace
+
+TEST_CASE("run writes into a folder of the scene's name where it is called") {
+    const TestFolder folder;
+    std::filesystem::create_directories(folder.path("scenes"));
+    folder.write("scenes/sheet on box.toml", sheet_on_box());
+    const ProgramRun run = run_program({"run", "scenes/sheet on box.toml"}, folder.path());
+    CHECK(run.exit_code == 0);
+    CHECK(run.error.empty());
+    CHECK(line_count(run.out) == 2);
+    const auto report = report_in(folder, "sheet on box");
+    CHECK(report.at("status") == "finished");
+    CHECK(report.at("intersections") == 0);
+    CHECK(folder.holds("sheet on box/frames/sheet_00006.obj"));
+    CHECK(folder.holds("sheet on box/obstacles/box_00000.obj"));
+    CHECK_FALSE(folder.holds("sheet on box/obstacles/box_00001.obj"));
+}
+
+TEST_CASE("a failed expectation is exit code 1, the run still finished and every file there") {
+    const TestFolder folder;
+    folder.write("sheet.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 0.05 }\nintersections = 0\n");
+    const ProgramRun run = run_program({"run", "sheet.toml", "-o", "out"}, folder.path());
+    CHECK(run.exit_code == 1);
+    CHECK(line_count(run.error) == 1);
+    CHECK(run.error.find("speed_at_end") != std::string::npos);
+    const auto report = report_in(folder, "out");
+    CHECK(report.at("status") == "finished");
+    REQUIRE(report.at("expectations").size() == 2);
+    for (const auto& expectation : report.at("expectations"))
+        CHECK(expectation.at("passed") == (expectation.at("measure") == "intersections"));
+}
+
+TEST_CASE("a step that ends badly is exit code 1, status failed and a reason") {
+    const TestFolder folder;
+    std::string text = sheet_on_box();
+    text.insert(text.find("[[obstacle]]"), "pin = [0]\n");
+    text += "\n[[event]]\ntime = 0.0\nmove = { cloth = \"sheet\", vertices = [0], to = [0.0, -0.2, 0.0], over = 0.1 }\n";
+    folder.write("drag.toml", text);
+    const ProgramRun run = run_program({"run", "drag.toml", "-o", "out"}, folder.path());
+    CHECK(run.exit_code == 1);
+    const auto report = report_in(folder, "out");
+    CHECK(report.at("status") == "failed");
+    CHECK(run.error.find(report.at("reason").get<std::string>()) != std::string::npos);
+    CHECK(report.at("intersections") == 0);
+}
+
+TEST_CASE("wrong input is exit code 2, and no folder is made") {
+    const TestFolder folder;
+    CHECK(refused(run_program({"run", "absent.toml", "-o", "out"}, folder.path()), "absent.toml"));
+    folder.write("empty.toml", "");
+    CHECK(run_program({"run", "empty.toml", "-o", "out"}, folder.path()).exit_code == 2);
+    folder.write("unknown.toml", falling_sheet() + "[expect]\nlargest_strian = 3\n");
+    CHECK(refused(run_program({"run", "unknown.toml", "-o", "out"}, folder.path()), "largest_strain"));
+    std::string inside = sheet_on_box();
+    inside.replace(inside.find("0.015"), 5, "-0.01");
+    folder.write("inside.toml", inside);
+    CHECK(refused(run_program({"run", "inside.toml", "-o", "out"}, folder.path()), "box"));
+    folder.write("reference.toml", falling_sheet() + "[expect]\nmatches = { file = \"absent.obj\", within = 1e-3 }\n");
+    CHECK(refused(run_program({"run", "reference.toml", "-o", "out"}, folder.path()), "absent.obj"));
+    CHECK_FALSE(folder.holds("out"));
+    CHECK(folder.file_count() == 4);
+}
+
+TEST_CASE("an output folder that cannot be made is wrong input") {
+    const TestFolder folder;
+    folder.write("sheet.toml", falling_sheet());
+    CHECK(refused(run_program({"run", "sheet.toml", "-o", "sheet.toml"}, folder.path()), "sheet.toml"));
+    CHECK(folder.read("sheet.toml") == falling_sheet());
+}
+
+TEST_CASE("state hashes repeat from run to run and are left out unless asked for") {
+    const TestFolder folder;
+    folder.write("box.toml", sheet_on_box());
+    CHECK(run_program({"run", "box.toml", "-o", "a", "--replay-hash"}, folder.path()).exit_code == 0);
+    CHECK(run_program({"run", "box.toml", "-o", "b", "--replay-hash"}, folder.path()).exit_code == 0);
+    CHECK(run_program({"run", "box.toml", "-o", "c"}, folder.path()).exit_code == 0);
+    const std::vector<std::string> a = hashes_in(folder, "a"), c = hashes_in(folder, "c");
+    REQUIRE(a.size() == 13);
+    CHECK(a == hashes_in(folder, "b"));
+    for (std::size_t i = 1; i < a.size(); ++i) {
+        CHECK(a[i].substr(0, 18) == c[i]);
+        CHECK(a[i].size() == 34);
+    }
+}
+
+TEST_CASE("the tree that finds contacts changes no bit of a run") {
+    const TestFolder folder;
+    folder.write("box.toml", sheet_on_box());
+    for (const std::string detector : {"fcl", "brute_force", "bullet"})
+        CHECK(
+            run_program({"run", "box.toml", "-o", detector, "--replay-hash", "--set", "step.detector=" + detector}, folder.path())
+                .exit_code == 0);
+    CHECK(hashes_in(folder, "fcl") == hashes_in(folder, "brute_force"));
+    CHECK(hashes_in(folder, "fcl") == hashes_in(folder, "bullet"));
+}

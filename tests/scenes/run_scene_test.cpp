@@ -1,0 +1,236 @@
+#include "run_scene.h"
+
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include "obj_file.h"
+#include "percale/certify.h"
+#include "percale/error.h"
+#include "scene_file.h"
+#include "tests/scenes/small_scenes.h"
+#include "tests/scenes/test_folder.h"
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::scenes;
+using namespace percale::scenes::test;
+
+namespace {
+
+constexpr double g = 9.81;
+
+Scene scene_of(const std::string& text, const std::vector<Override>& overrides = {}) {
+    return parse_scene(text, "test.toml", overrides);
+}
+
+struct Recorded {
+    RunResult result;
+    std::vector<Frame> frames;
+    std::vector<StepReport> steps;
+    std::vector<std::uint64_t> hashes;
+};
+
+Recorded record(const Scene& scene) {
+    Recorded recorded;
+    BuiltScene built = build_scene(scene);
+    RunHooks hooks;
+    hooks.frame = [&](const Frame& frame) { recorded.frames.push_back(frame); };
+    hooks.step = [&](const StepReport& report, const Simulation& simulation) {
+        recorded.steps.push_back(report);
+        recorded.hashes.push_back(simulation.state_hash());
+    };
+    recorded.result = run_scene(built, hooks);
+    return recorded;
+}
+
+}  // namespace
+
+TEST_CASE("a duration that is a multiple of the step up to rounding takes only full steps") {
+    CHECK(count_steps(2.0, 1.0 / 60.0).steps == 120);
+    CHECK(count_steps(2.0, 0.016666666666666666).last_dt == 0.016666666666666666);
+    CHECK(count_steps(0.3, 0.1).steps == 3);
+    CHECK(count_steps(0.3, 0.1).last_dt == 0.1);
+    CHECK(count_steps(1e4, 1e-3).steps == 10000000);
+}
+
+TEST_CASE("otherwise the last step is what is left") {
+    CHECK(count_steps(1.0, 0.3).steps == 4);
+    CHECK(count_steps(1.0, 0.3).last_dt == Approx(0.1));
+    CHECK(count_steps(0.004, 0.01).steps == 1);
+    CHECK(count_steps(0.004, 0.01).last_dt == Approx(0.004));
+}
+
+TEST_CASE("a run covers its duration, the last step shortened") {
+    const Recorded recorded = record(scene_of(falling_sheet(), {{"step.time_step", "0.03"}}));
+    REQUIRE(recorded.steps.size() == 4);
+    CHECK(recorded.steps[2].dt == Approx(0.03));
+    CHECK(recorded.steps[3].dt == Approx(0.01));
+    CHECK(recorded.result.status == RunStatus::finished);
+    CHECK(recorded.result.totals.steps == 4);
+    CHECK(recorded.result.totals.simulated_s == Approx(0.1));
+    CHECK(recorded.result.totals.smallest_step_s == Approx(0.01));
+    CHECK(recorded.result.totals.largest_step_s == Approx(0.03));
+}
+
+TEST_CASE("a falling sheet shows the sums that symplectic Euler gives in every frame") {
+    // v_n = -n g dt, y_n = y_0 - g dt^2 n (n + 1)/2
+    const double dt = 0.01;
+    const Recorded recorded = record(scene_of(falling_sheet()));
+    REQUIRE(recorded.frames.size() == 6);
+    for (const Frame& frame : recorded.frames) {
+        const double n = 2.0 * frame.index;
+        CHECK(frame.time == Approx(n * dt));
+        for (const Vec3& x : frame.cloths[0].vertices) CHECK(x.y() == Approx(2.0 - g * dt * dt * n * (n + 1.0) / 2.0));
+    }
+    CHECK(recorded.result.measures.speed_at_end == Approx(10.0 * g * dt));
+    CHECK(recorded.result.measures.rms_speed_at_end == Approx(10.0 * g * dt));
+    CHECK(recorded.result.measures.lowest_vertex == Approx(2.0 - 55.0 * g * dt * dt));
+    CHECK(recorded.result.measures.energy_gain < 1e-12);
+    const double mass = 0.2 * 0.3 * 0.3;
+    CHECK(recorded.result.totals.energy.kinetic == Approx(0.5 * mass * 100.0 * g * g * dt * dt));
+}
+
+TEST_CASE("frame k follows the first step that ends at or after k / fps") {
+    const Recorded recorded = record(scene_of(falling_sheet(), {{"output.fps", "30"}}));
+    REQUIRE(recorded.frames.size() == 4);
+    CHECK(recorded.frames[1].time == Approx(0.04));
+    CHECK(recorded.frames[2].time == Approx(0.07));
+    CHECK(recorded.frames[3].time == Approx(0.10));
+}
+
+TEST_CASE("where frames come faster than steps a state is shown several times") {
+    const Recorded recorded = record(scene_of(falling_sheet(), {{"output.fps", "200"}}));
+    REQUIRE(recorded.frames.size() == 21);
+    for (std::size_t i = 0; i < recorded.frames.size(); ++i) CHECK(recorded.frames[i].index == static_cast<int>(i));
+    CHECK(recorded.frames[1].cloths[0].vertices == recorded.frames[2].cloths[0].vertices);
+    CHECK(recorded.frames[2].cloths[0].vertices != recorded.frames[3].cloths[0].vertices);
+}
+
+TEST_CASE("an event that turns gravity round is no energy gain") {
+    const std::string event = "\n[[event]]\ntime = 0.05\ngravity = [0.0, 90.0, 0.0]\n";
+    const Recorded recorded = record(scene_of(falling_sheet() + event));
+    CHECK(recorded.result.measures.energy_gain < 1e-9);
+    CHECK(recorded.steps.back().energy.gravity < recorded.steps.front().energy.gravity);
+}
+
+TEST_CASE("totals are the sums and extremes of the steps") {
+    const Recorded recorded = record(scene_of(sheet_on_box()));
+    long newton = 0, linear = 0;
+    int most = 0;
+    double work = 0.0;
+    for (const StepReport& report : recorded.steps) {
+        newton += report.newton_iterations;
+        linear += report.linear_iterations;
+        most = std::max(most, report.contacts);
+        work += report.energy.work;
+    }
+    const RunTotals& totals = recorded.result.totals;
+    CHECK(totals.newton_iterations == newton);
+    CHECK(totals.linear_iterations == linear);
+    CHECK(totals.contacts_most == most);
+    CHECK(most > 0);
+    CHECK(totals.energy.work == Approx(work));
+    CHECK(totals.energy.kinetic == recorded.steps.back().energy.kinetic);
+    CHECK(totals.cpu_s > 0.0);
+    CHECK(totals.wall_s >= 0.5 * totals.cpu_s);
+}
+
+TEST_CASE("each frame carries the certificate of exactly the meshes it shows") {
+    const Recorded recorded = record(scene_of(sheet_on_box()));
+    REQUIRE(recorded.frames.size() == 7);
+    for (const Frame& frame : recorded.frames) {
+        const Certificate certificate = certify(frame.cloths[0], frame.obstacles[0], 0.02);
+        CHECK(frame.check.intersections == static_cast<int>(certificate.pairs.size()));
+        CHECK(frame.check.smallest_distance == certificate.smallest_distance);
+        CHECK(frame.check.clean());
+    }
+    CHECK(recorded.result.measures.intersections == 0);
+    CHECK(recorded.frames[0].check.smallest_distance == Approx(0.015));
+    CHECK(recorded.result.measures.smallest_distance < 0.006);
+    CHECK(recorded.result.measures.smallest_distance > 0.0);
+    CHECK(recorded.result.measures.worst_frame > 0);
+}
+
+TEST_CASE("an obstacle is shown where the simulation has it") {
+    const std::string motion =
+        "motion = [ { time = 0.0, translation = [0.0, -0.25, 0.0] }, { time = 0.2, translation = [0.1, -0.25, 0.0] } ]\n[output]";
+    std::string text = sheet_on_box();
+    text.replace(text.find("[output]"), 8, motion);
+    const Recorded recorded = record(scene_of(text));
+    REQUIRE(recorded.frames.size() == 7);
+    const auto x = [&](std::size_t frame) { return recorded.frames[frame].obstacles[0].vertices[0].x(); };
+    CHECK(x(3) - x(0) == Approx(0.05));
+    CHECK(x(6) - x(0) == Approx(0.1));
+}
+
+TEST_CASE("without an obstacle nothing is certified and nothing is near") {
+    const Recorded recorded = record(scene_of(falling_sheet()));
+    CHECK(recorded.result.measures.intersections == 0);
+    CHECK(recorded.result.measures.worst_frame == -1);
+    CHECK(std::isinf(recorded.result.measures.smallest_distance));
+}
+
+TEST_CASE("a stop is heard after a step, and the run says how far it came") {
+    BuiltScene built = build_scene(scene_of(falling_sheet()));
+    int steps = 0;
+    RunHooks hooks;
+    hooks.step = [&](const StepReport&, const Simulation&) { ++steps; };
+    hooks.stop_asked = [&] { return steps == 3; };
+    const RunResult result = run_scene(built, hooks);
+    CHECK(result.status == RunStatus::stopped);
+    CHECK(steps == 3);
+    CHECK(result.totals.steps == 3);
+    CHECK(result.totals.simulated_s == Approx(0.03));
+    CHECK(result.reason.find("3 of 10") != std::string::npos);
+}
+
+TEST_CASE("a pin that is dragged through an obstacle ends the run as failed, with the reason") {
+    std::string text = sheet_on_box();
+    text.insert(text.find("[[obstacle]]"), "pin = [0]\n");
+    text += "\n[[event]]\ntime = 0.0\nmove = { cloth = \"sheet\", vertices = [0], to = [0.0, -0.2, 0.0], over = 0.1 }\n";
+    const Recorded recorded = record(scene_of(text));
+    CHECK(recorded.result.status == RunStatus::failed);
+    CHECK_FALSE(recorded.result.reason.empty());
+    CHECK(recorded.result.reason == recorded.steps.back().explanation());
+    CHECK(recorded.result.totals.steps == static_cast<int>(recorded.steps.size()) - 1);
+    CHECK(recorded.result.measures.intersections == 0);
+}
+
+TEST_CASE("the same scene gives the same bits in every step") {
+    const Recorded first = record(scene_of(sheet_on_box())), second = record(scene_of(sheet_on_box()));
+    CHECK(first.hashes == second.hashes);
+    CHECK(first.hashes.front() != first.hashes.back());
+}
+
+TEST_CASE("a run matches the frame it ended with, and differs from the start by its fall") {
+    const TestFolder folder;
+    const std::string expect = "\n[expect]\nmatches = { file = \"reference.obj\", within = 1e-3 }\n";
+    const Recorded first = record(scene_of(falling_sheet()));
+    const auto matched = [&](const TriangleMesh& reference) {
+        write_obj(folder.path("reference.obj"), reference.vertices, reference.triangles);
+        return record(parse_scene(falling_sheet() + expect, folder.path("test.toml"))).result.measures.matches;
+    };
+    CHECK(matched(first.frames.back().cloths[0]) == 0.0);
+    CHECK(matched(first.frames.front().cloths[0]).value() == Approx(55.0 * g * 1e-4));
+}
+
+TEST_CASE("a reference that is missing or of another size is refused before anything begins") {
+    const TestFolder folder;
+    const std::string expect = "\n[expect]\nmatches = { file = \"reference.obj\", within = 1e-3 }\n";
+    BuiltScene built = build_scene(parse_scene(falling_sheet() + expect, folder.path("test.toml")));
+    bool begun = false;
+    RunHooks hooks;
+    hooks.begin = [&] { begun = true; };
+    CHECK_THROWS_AS(run_scene(built, hooks), SceneError);
+    const TriangleMesh small = make_grid(1.0, 1.0, 3, 3);
+    write_obj(folder.path("reference.obj"), small.vertices, small.triangles);
+    CHECK_THROWS_WITH(run_scene(built, hooks), Catch::Contains("has 9 vertices") && Catch::Contains("16"));
+    CHECK_FALSE(begun);
+}
+
+TEST_CASE("statuses have the words of the report") {
+    CHECK(std::string(status_word(RunStatus::finished)) == "finished");
+    CHECK(std::string(status_word(RunStatus::failed)) == "failed");
+    CHECK(std::string(status_word(RunStatus::stopped)) == "stopped");
+}

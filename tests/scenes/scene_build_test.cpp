@@ -1,0 +1,196 @@
+#include "scenes/scene_build.h"
+
+#include <cmath>
+
+#include "scene_texts.h"
+#include "scenes/scene_file.h"
+#include "test_folder.h"
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::scenes;
+
+namespace {
+
+BuiltScene built(const std::string& text) { return build_scene(parse_scene(text, "t")); }
+
+std::string fault(const std::string& text) {
+    return error_of([&] { built(text); });
+}
+
+// Below the sheet of small_scene(), far enough away.
+std::string body(const std::string& shape) {
+    return "[[obstacle]]\nname = \"body\"\nshape = { " + shape + " }\npose = { translation = [0, -5, 0] }\n";
+}
+
+Vec3 extent(const TriangleMesh& mesh) {
+    Vec3 lowest = mesh.vertices.front(), highest = lowest;
+    for (const Vec3& x : mesh.vertices) {
+        lowest = lowest.cwiseMin(x);
+        highest = highest.cwiseMax(x);
+    }
+    return highest - lowest;
+}
+
+// A scene beside a mesh file `cloth.obj` with this text.
+std::string mesh_scene(const test::TestFolder& folder, const std::string& obj, const std::string& more = "",
+                       const std::string& fabric = "springs = { structural = 100.0, bend = 1.0 }") {
+    folder.write("cloth.obj", obj);
+    return folder.write("scene.toml",
+                        "[fabric.f]\n" + fabric + "\n[[cloth]]\nname = \"flag\"\nfabric = \"f\"\nmesh = \"cloth.obj\"\n" + more);
+}
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 3 2\nf 1 4 3\n";
+
+}  // namespace
+
+TEST_CASE("a grid is built at its pose, and its rest mesh is where the simulation starts") {
+    const BuiltScene scene =
+        built(small_scene() +
+              "pose = { translation = [1, 2, 3], rotation = [0.7071067811865476, 0.7071067811865476, 0, 0], scale = 2 }\n");
+    const TriangleMesh& mesh = scene.cloth_meshes.at(0);
+    CHECK(mesh.is_grid());
+    CHECK((extent(mesh) - Vec3(0.8, 0.6, 0.0)).norm() < 1e-12);
+    const auto positions = scene.simulation.positions(scene.cloths.at(0));
+    REQUIRE(positions.size() == 20);
+    for (std::size_t i = 0; i < 20; ++i) CHECK(positions[i] == mesh.vertices[i]);
+    CHECK(scene.scene.cloths.at(0).name == "flag");
+}
+
+TEST_CASE("pinned vertices stay and the others fall") {
+    BuiltScene scene = built(small_scene() + "pin = { box = [[0, 0, 0], [0, 1, 1]] }\n");
+    const std::vector<Vec3> start = scene.cloth_meshes.at(0).vertices;
+    REQUIRE(scene.simulation.step().ok());
+    const auto positions = scene.simulation.positions(scene.cloths.at(0));
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        CAPTURE(i);
+        CHECK((positions[i] == start[i]) == (i % 5 == 0));
+    }
+}
+
+TEST_CASE("several cloths and obstacles keep the order of the file") {
+    const std::string second =
+        "[[cloth]]\nname = \"big\"\nfabric = \"sheet\"\ngrid = { size = [1, 1], vertices = [3, 3] }\n"
+        "pose = { translation = [0, 1, 0] }\n";
+    const std::string other =
+        "[[obstacle]]\nname = \"other\"\nshape = { box = { size = [1, 1, 1] } }\npose = { translation = [9, 0, 0] }\n";
+    const BuiltScene scene = built(small_scene() + second + body("sphere = { radius = 0.5 }") + other);
+    REQUIRE(scene.cloths.size() == 2);
+    CHECK(scene.simulation.positions(scene.cloths[0]).size() == 20);
+    CHECK(scene.simulation.positions(scene.cloths[1]).size() == 9);
+    REQUIRE(scene.obstacles.size() == 2);
+    CHECK(scene.simulation.obstacle_pose(scene.obstacles[1]).translation == Vec3(9, 0, 0));
+    CHECK(scene.obstacle_meshes[1].triangles.size() == 12);
+}
+
+TEST_CASE("shapes have the asked sizes, in their own coordinates") {
+    const auto mesh = [](const std::string& shape) { return built(small_scene() + body(shape)).obstacle_meshes.at(0); };
+    const TriangleMesh sphere = mesh("sphere = { radius = 0.25 }");
+    CHECK(sphere.triangles.size() == 5120);
+    for (const Vec3& x : sphere.vertices) REQUIRE(x.norm() == Approx(0.25).epsilon(1e-12));
+    CHECK((extent(mesh("box = { size = [1, 2, 3] }")) - Vec3(1, 2, 3)).norm() < 1e-12);
+    CHECK((extent(mesh("cylinder = { radius = 0.5, height = 3 }")) - Vec3(1, 3, 1)).norm() < 1e-12);
+    CHECK((extent(mesh("capsule = { radius = 0.5, height = 2 }")) - Vec3(1, 3, 1)).norm() < 1e-12);
+    CHECK((extent(mesh("plane = {}")) - Vec3(20, 0, 20)).norm() < 1e-12);
+    CHECK((extent(mesh("plane = { half_size = 2 }")) - Vec3(4, 0, 4)).norm() < 1e-12);
+}
+
+TEST_CASE("a mesh is found beside the scene file and scaled by its unit") {
+    const test::TestFolder folder;
+    const BuiltScene scene = build_scene(load_scene(mesh_scene(folder, square, "unit = \"cm\"\n")));
+    CHECK((extent(scene.cloth_meshes.at(0)) - Vec3(0.01, 0, 0.01)).norm() < 1e-15);
+    CHECK_FALSE(scene.cloth_meshes.at(0).is_grid());
+}
+
+TEST_CASE("a relative path starts at the scene file's folder, an absolute one stays") {
+    Scene scene;
+    scene.file = "some/folder/scene.toml";
+    CHECK(path_beside(scene, "a.obj") == "some/folder/a.obj");
+    CHECK(path_beside(scene, "../a.obj") == "some/folder/../a.obj");
+    CHECK(path_beside(scene, "/folder/a.obj") == "/folder/a.obj");
+    scene.file = "scene.toml";
+    CHECK(path_beside(scene, "a.obj") == "a.obj");
+}
+
+TEST_CASE("a missing mesh is told with the place of its cloth and its path") {
+    const test::TestFolder folder;
+    const std::string file = mesh_scene(folder, square);
+    std::filesystem::remove(folder.path("cloth.obj"));
+    const std::string message = error_of([&] { build_scene(load_scene(file)); });
+    CHECK(message.starts_with(file + ":3:1: "));
+    CHECK(message.find("'flag'") != std::string::npos);
+    CHECK(message.find("cloth.obj") != std::string::npos);
+}
+
+TEST_CASE("a mesh that no cloth can be made of is told with the place of its cloth") {
+    const test::TestFolder folder;
+    const auto message = [&](const std::string& obj) {
+        const std::string file = mesh_scene(folder, obj);
+        const std::string text = error_of([&] { build_scene(load_scene(file)); });
+        CHECK(text.starts_with(file + ":3:1: "));
+        return text;
+    };
+    CHECK(message("v 0 0 0\nv 1 0 0\nv nan 0 1\nf 1 2 3\n") != "nothing was thrown");
+    CHECK(message("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n").find("edge") != std::string::npos);
+    CHECK(message("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n") != "nothing was thrown");
+    CHECK(message("") != "nothing was thrown");
+}
+
+TEST_CASE("shear springs on a free mesh are refused at the cloth") {
+    const test::TestFolder folder;
+    const std::string file = mesh_scene(folder, square, "", "springs = { structural = 100.0, shear = 5.0 }");
+    const std::string message = error_of([&] { build_scene(load_scene(file)); });
+    CHECK(message.starts_with(file + ":3:1: "));
+    CHECK(message.find("shear") != std::string::npos);
+}
+
+TEST_CASE("a pin out of range is refused at the cloth") {
+    CHECK(fault(small_scene() + "pin = [20]\n") ==
+          "t:4:1: vertices of cloth 'flag': vertex 20 is out of range; allowed: 0 ... 19");
+}
+
+TEST_CASE("events are checked before anything runs") {
+    CHECK(fault(small_scene() + "[[event]]\ntime = 0.5\nunpin = { cloth = \"flag\", vertices = [20] }\n")
+              .starts_with("t:8:1: event: "));
+}
+
+TEST_CASE("obstacles need a detector; a scene without obstacles needs none") {
+    const std::string none = "[step]\ndetector = \"none\"\n";
+    CHECK(fault(none + small_scene() + body("plane = {}")) ==
+          "t:10:1: obstacle 'body' needs a detector, but step.detector is none; valid: fcl, bullet, brute_force");
+    CHECK(fault(none + small_scene()) == "nothing was thrown");
+}
+
+TEST_CASE("a cloth that starts through an obstacle is refused with the file's name") {
+    const std::string through = "[[obstacle]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\n";
+    const std::string message = fault(small_scene() + through);
+    CHECK(message.starts_with("t: "));
+    CHECK(message.find("ball") != std::string::npos);
+    CHECK(message.find("flag") != std::string::npos);
+}
+
+TEST_CASE("every detector carries the same scene through the same states") {
+    const std::string near =
+        "[[obstacle]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\npose = { translation = [0, -0.107, 0] }\n";
+    const auto hash_with = [&](const std::string& detector) {
+        const Override setting{"step.detector", detector};
+        BuiltScene scene = build_scene(parse_scene(small_scene() + near, "t", {&setting, 1}));
+        for (int i = 0; i < 3; ++i) {
+            const StepReport report = scene.simulation.step();
+            REQUIRE(report.ok());
+            CHECK(report.contacts > 0);
+        }
+        return scene.simulation.state_hash();
+    };
+    const std::uint64_t expected = hash_with("brute_force");
+    CHECK(hash_with("fcl") == expected);
+    CHECK(hash_with("bullet") == expected);
+}
+
+TEST_CASE("an obstacle starts where its motion begins") {
+    const std::string moving =
+        "[[obstacle]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\n"
+        "motion = [ { time = 0.5, translation = [0, -2, 0] }, { time = 1, translation = [0, -3, 0] } ]\n";
+    const BuiltScene scene = built(small_scene() + moving);
+    CHECK(scene.simulation.obstacle_pose(scene.obstacles[0]).translation == Vec3(0, -2, 0));
+}
