@@ -116,7 +116,8 @@ void CandidateLists::add_pairs(std::size_t cluster, int obstacle_number, std::sp
     const double thickness = lists_[cluster].thickness;
     for (const int vertex : features.vertices) {
         for (const int triangle : close_to({&vertex, 1}, near, thickness, obstacle)) {
-            collector.consider({.kind = PairKind::vertex_face, .cloth = {vertex, -1, -1}, .feature = triangle}, room_[vertex], thickness);
+            collector.consider({.kind = PairKind::vertex_face, .cloth = {vertex, -1, -1}, .feature = triangle}, room_[vertex],
+                               thickness);
         }
     }
     for (const std::array<int, 2>& ends : features.edges) {
@@ -124,7 +125,8 @@ void CandidateLists::add_pairs(std::size_t cluster, int obstacle_number, std::sp
         for (const int triangle : close_to(ends, near, thickness, obstacle)) {
             for (const int edge : surface.triangle_edges[triangle]) {
                 if (surface.edges[edge].owner != triangle || !surface.edges[edge].can_touch) continue;
-                collector.consider({.kind = PairKind::edge_edge, .cloth = {ends[0], ends[1], -1}, .feature = edge}, room, thickness);
+                collector.consider({.kind = PairKind::edge_edge, .cloth = {ends[0], ends[1], -1}, .feature = edge}, room,
+                                   thickness);
             }
         }
     }
@@ -134,8 +136,9 @@ void CandidateLists::add_pairs(std::size_t cluster, int obstacle_number, std::sp
         for (const int triangle : close_to(t, near, thickness, obstacle)) {
             for (const int vertex : surface.triangles[triangle]) {
                 if (surface.vertex_owner[vertex] != triangle || !surface.vertex_can_touch[vertex]) continue;
-                collector.consider({.kind = PairKind::face_vertex, .cloth = t, .edge_bits = clusters_.edge_owner_bits[face], .feature = vertex},
-                                   room, thickness);
+                collector.consider(
+                    {.kind = PairKind::face_vertex, .cloth = t, .edge_bits = clusters_.edge_owner_bits[face], .feature = vertex},
+                    room, thickness);
             }
         }
     }

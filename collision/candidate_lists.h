@@ -25,7 +25,8 @@ struct ClusterList {
 /// Verlet lists: candidate pairs of all cloth, rebuilt only where the cloth left its boxes or an obstacle moves.
 class CandidateLists {
 public:
-    CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, std::span<const Vec3> positions);
+    CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
+                   std::span<const Vec3> positions);
 
     /// Makes every list good for all states between two, and moves the lists' time to `move.from`.
     void cover(const ClothMove& move, const Obstacles& obstacles);
@@ -51,10 +52,10 @@ private:
     std::vector<double> thickness_;
     ClothClusters clusters_;
     std::vector<ClusterList> lists_;
-    std::vector<Vec3> seen_;        // positions at the last advance
-    std::vector<double> room_;      // m, how far a vertex can get from `from` inside its box; valid while a cluster is built
-    std::vector<Box> vertex_boxes_; // likewise
-    std::vector<int> close_;        // triangles near the feature being paired
+    std::vector<Vec3> seen_;         // positions at the last advance
+    std::vector<double> room_;       // m, how far a vertex can get from `from` inside its box; valid while a cluster is built
+    std::vector<Box> vertex_boxes_;  // likewise
+    std::vector<int> close_;         // triangles near the feature being paired
     std::vector<std::size_t> dirty_;
     std::vector<Box> asked_;
     TriangleLists found_;

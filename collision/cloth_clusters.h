@@ -10,10 +10,10 @@ namespace percale {
 
 /// A few neighbouring cloth triangles with the vertices and edges they own (each belongs to exactly one cluster).
 struct ClothCluster {
-    std::vector<int> triangles;        // indices
-    std::vector<int> vertices;         // owned
+    std::vector<int> triangles;             // indices
+    std::vector<int> vertices;              // owned
     std::vector<std::array<int, 2>> edges;  // owned
-    std::vector<int> all_vertices;     // of its triangles, owned or not
+    std::vector<int> all_vertices;          // of its triangles, owned or not
 };
 
 /// Cloth features grouped by nearness along the order of the triangles' centres on a space-filling (Morton) curve of `positions`.

@@ -23,7 +23,8 @@ PointTriangle vertex_on_face(const ContactPair& pair, std::span<const Vec3> clot
 }
 
 PointTriangle vertex_on_cloth(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {
-    return closest_on_triangle(obstacle.at(pair.feature, fraction), cloth[pair.cloth[0]], cloth[pair.cloth[1]], cloth[pair.cloth[2]]);
+    return closest_on_triangle(obstacle.at(pair.feature, fraction), cloth[pair.cloth[0]], cloth[pair.cloth[1]],
+                               cloth[pair.cloth[2]]);
 }
 
 EdgeEdge edges(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {

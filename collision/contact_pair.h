@@ -14,24 +14,24 @@ enum class PairKind : unsigned char { vertex_face, edge_edge, face_vertex };  //
 struct ContactPair {
     PairKind kind = PairKind::vertex_face;
     std::array<int, 3> cloth{-1, -1, -1};  // vertices: 1, 2 or 3
-    unsigned char edge_bits = 7;          // face_vertex: which edges of the cloth triangle it owns
+    unsigned char edge_bits = 7;           // face_vertex: which edges of the cloth triangle it owns
     int obstacle = 0;
-    int feature = 0;                      // obstacle triangle, edge or vertex
-    bool held = false;                    // has been a contact since the last refresh: stays one while it is near
-    double reach = 0.0;                   // distance + cluster travel when last measured: reach - travel bounds the distance from below
+    int feature = 0;     // obstacle triangle, edge or vertex
+    bool held = false;   // has been a contact since the last refresh: stays one while it is near
+    double reach = 0.0;  // distance + cluster travel when last measured: reach - travel bounds the distance from below
 
     int cloth_count() const { return static_cast<int>(kind) + 1; }
 };
 
 /// The exact closest points of a pair.
 struct PairContact {
-    double distance = 0.0;                 // m
-    std::array<double, 4> weight{};        // of the cloth vertices
+    double distance = 0.0;           // m
+    std::array<double, 4> weight{};  // of the cloth vertices
     Vec3 cloth_point = Vec3::Zero();
     Vec3 obstacle_point = Vec3::Zero();
-    Vec3 direction = Vec3::Zero();         // unit, obstacle towards cloth; zero if the distance is
+    Vec3 direction = Vec3::Zero();  // unit, obstacle towards cloth; zero if the distance is
     Vec3 obstacle_displacement = Vec3::Zero();
-    bool local_minimum = false;            // no neighbouring pair stands for the same contact better
+    bool local_minimum = false;  // no neighbouring pair stands for the same contact better
 };
 
 /// Distance only, m.
@@ -49,6 +49,8 @@ struct ClothMove {
 };
 MovingFour moving_pair(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle);
 
-inline PairShape shape_of(PairKind kind) { return kind == PairKind::edge_edge ? PairShape::edge_edge : PairShape::point_triangle; }
+inline PairShape shape_of(PairKind kind) {
+    return kind == PairKind::edge_edge ? PairShape::edge_edge : PairShape::point_triangle;
+}
 
 }  // namespace percale

@@ -10,8 +10,9 @@
 namespace percale {
 namespace {
 
-/// The distance a cut leaves of a distance d, m: a fifth of the thickness h for d above 0.4 h, half of d below, but never less than h/1000
-/// unless d itself is there. Without a floor distances collapse to rounding, where directions are lost; a fixed floor would lock vertices.
+/// The distance a cut leaves of a distance d, m: a fifth of the thickness h for d above 0.4 h, half of d below, but never less
+/// than h/1000 unless d itself is there. Without a floor distances collapse to rounding, where directions are lost; a fixed floor
+/// would lock vertices.
 double floor_below(double d, double h) {
     if (d > 0.4 * h) return 0.2 * h;
     return d > 1e-3 * h ? std::max(0.5 * d, 1e-3 * h) : 0.999 * d;
@@ -104,8 +105,8 @@ private:
                 const PairContact contact = pair_contact(pair, positions, *obstacles_[pair.obstacle], fraction);
                 pair.reach = contact.distance + list.travel;
                 smallest_distance_ = std::min(smallest_distance_, contact.distance);
-                // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so that the
-                // force is continuous where closest points pass from one feature to the next.
+                // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
+                // that the force is continuous where closest points pass from one feature to the next.
                 pair.held = pair.held || (contact.distance < thickness && contact.local_minimum);
                 if (pair.held && contact.distance < thickness) add_row(pair, contact, thickness, rows);
             }
@@ -128,7 +129,9 @@ private:
 
     /// `way`: how much any distance of the cluster can shrink during the whole move. Lowers `safe` where a pair needs it.
     double cut_cluster(const ClothMove& move, double way, ClusterList& list, double safe) {
-        const auto far = [&](double distance, double thickness) { return distance - floor_below(distance, thickness) > way * safe; };
+        const auto far = [&](double distance, double thickness) {
+            return distance - floor_below(distance, thickness) > way * safe;
+        };
         if (far(list.least_reach - list.travel, list.thickness)) return safe;
         for (ContactPair& pair : list.pairs) {
             const double thickness = thickness_[pair.cloth[0]];

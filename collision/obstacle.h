@@ -41,18 +41,18 @@ private:
     void set_world_boxes();
 
     TriangleMesh mesh_;
-    ObstacleSurface surface_;         // vertices where the tree was built
-    std::vector<Vec3> local_;         // cleaned vertices before the pose
-    std::vector<Vec3> start_, end_;   // m, world
-    std::vector<Box> world_boxes_;    // of the triangles during the step
-    std::vector<Box> boxes_;          // of the triangles where the tree was built
+    ObstacleSurface surface_;        // vertices where the tree was built
+    std::vector<Vec3> local_;        // cleaned vertices before the pose
+    std::vector<Vec3> start_, end_;  // m, world
+    std::vector<Box> world_boxes_;   // of the triangles during the step
+    std::vector<Box> boxes_;         // of the triangles where the tree was built
     std::unique_ptr<ObstacleTree> tree_;
     Pose built_, start_pose_, end_pose_;
     double friction_ = 0.0;
     double longest_way_ = 0.0;
     int version_ = 0;
     bool moves_ = false;
-    bool away_ = false;               // not where the tree was built
+    bool away_ = false;  // not where the tree was built
 };
 
 }  // namespace percale

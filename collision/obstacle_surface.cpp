@@ -11,9 +11,7 @@ namespace percale {
 namespace {
 
 struct ByPlace {
-    bool operator()(const Vec3& a, const Vec3& b) const {
-        return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
-    }
+    bool operator()(const Vec3& a, const Vec3& b) const { return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z()); }
 };
 
 /// For each vertex the first one at the same place.
@@ -68,7 +66,8 @@ void drop_unused_vertices(std::span<const Vec3> vertices, ObstacleSurface& surfa
     for (Triangle& t : surface.triangles) {
         for (int& vertex : t) vertex = number[vertex];
     }
-    surface.cleaning.unreferenced_vertices = static_cast<int>(vertices.size() - surface.vertices.size()) - surface.cleaning.merged_vertices;
+    surface.cleaning.unreferenced_vertices =
+        static_cast<int>(vertices.size() - surface.vertices.size()) - surface.cleaning.merged_vertices;
 }
 
 /// A half edge of a triangle, to be sorted by its vertices.
@@ -167,7 +166,8 @@ ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Tri
     ObstacleSurface surface;
     keep_good_triangles(vertices, triangles, surface);
     if (surface.triangles.empty()) {
-        throw SceneError("the obstacle has no triangle with an area (" + std::to_string(triangles.size()) + " given, all degenerate)");
+        throw SceneError("the obstacle has no triangle with an area (" + std::to_string(triangles.size()) +
+                         " given, all degenerate)");
     }
     drop_unused_vertices(vertices, surface);
     connect_edges(surface);

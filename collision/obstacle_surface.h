@@ -12,8 +12,8 @@ namespace percale {
 
 struct SurfaceEdge {
     std::array<int, 2> vertex;
-    int owner = -1;          // the first triangle that has it
-    bool can_touch = true;   // false for flat edges, and for concave ones of a watertight surface: cloth meets the faces first
+    int owner = -1;         // the first triangle that has it
+    bool can_touch = true;  // false for flat edges, and for concave ones of a watertight surface: cloth meets the faces first
 };
 
 /// What cleaning dropped.
@@ -32,12 +32,14 @@ struct ObstacleSurface {
     std::vector<std::array<int, 3>> triangle_edges;  // edge k joins corners k and k + 1
     std::vector<int> vertex_owner;                   // the first triangle of each vertex
     std::vector<bool> vertex_can_touch;              // some edge at it can touch
-    std::vector<int> ring_start, ring;               // neighbours of vertex v: ring[ring_start[v]] ... ring[ring_start[v + 1] - 1]
-    std::vector<int> opposite_start, opposite;       // vertices opposite edge e in its triangles, likewise
-    bool watertight = false;                         // every edge in exactly two triangles, which agree on its direction
+    std::vector<int> ring_start, ring;          // neighbours of vertex v: ring[ring_start[v]] ... ring[ring_start[v + 1] - 1]
+    std::vector<int> opposite_start, opposite;  // vertices opposite edge e in its triangles, likewise
+    bool watertight = false;                    // every edge in exactly two triangles, which agree on its direction
     CleaningReport cleaning;
 
-    std::span<const int> neighbours(int v) const { return std::span(ring).subspan(ring_start[v], ring_start[v + 1] - ring_start[v]); }
+    std::span<const int> neighbours(int v) const {
+        return std::span(ring).subspan(ring_start[v], ring_start[v + 1] - ring_start[v]);
+    }
     std::span<const int> opposites(int e) const {
         return std::span(opposite).subspan(opposite_start[e], opposite_start[e + 1] - opposite_start[e]);
     }

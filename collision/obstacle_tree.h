@@ -28,7 +28,8 @@ struct Box {
     bool contains(const Vec3& x) const { return (low.array() <= x.array()).all() && (x.array() <= high.array()).all(); }
 };
 
-/// Triangles found near each box of a batch, one list after the other: those of box i are ids[start[i]] ... ids[start[i + 1] - 1].
+/// Triangles found near each box of a batch, one list after the other: those of box i are ids[start[i]] ... ids[start[i + 1] -
+/// 1].
 struct TriangleLists {
     std::vector<int> start;
     std::vector<int> ids;

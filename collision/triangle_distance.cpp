@@ -6,14 +6,16 @@ namespace percale {
 namespace {
 
 PointTriangle at_vertex(const Vec3& p, const Vec3& x, int corner) {
-    PointTriangle result{.distance_squared = (p - x).squaredNorm(), .weight = {}, .region = TriangleRegion::vertex, .corner = corner, .point = x};
+    PointTriangle result{
+        .distance_squared = (p - x).squaredNorm(), .weight = {}, .region = TriangleRegion::vertex, .corner = corner, .point = x};
     result.weight[corner] = 1.0;
     return result;
 }
 
 PointTriangle at_edge(const Vec3& p, const Vec3& from, const Vec3& to, double fraction, int corner) {
     const Vec3 x = from + fraction * (to - from);
-    PointTriangle result{.distance_squared = (p - x).squaredNorm(), .weight = {}, .region = TriangleRegion::edge, .corner = corner, .point = x};
+    PointTriangle result{
+        .distance_squared = (p - x).squaredNorm(), .weight = {}, .region = TriangleRegion::edge, .corner = corner, .point = x};
     result.weight[corner] = 1.0 - fraction;
     result.weight[(corner + 1) % 3] = fraction;
     return result;
@@ -39,7 +41,11 @@ PointTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
     if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return at_edge(p, b, c, (d4 - d3) / ((d4 - d3) + (d5 - d6)), 1);
     const double scale = 1.0 / (va + vb + vc), v = vb * scale, w = vc * scale;
     const Vec3 x = a + v * ab + w * ac;
-    return {.distance_squared = (p - x).squaredNorm(), .weight = {1.0 - v - w, v, w}, .region = TriangleRegion::face, .corner = 0, .point = x};
+    return {.distance_squared = (p - x).squaredNorm(),
+            .weight = {1.0 - v - w, v, w},
+            .region = TriangleRegion::face,
+            .corner = 0,
+            .point = x};
 }
 
 EdgeEdge closest_on_edges(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {

@@ -10,11 +10,11 @@ namespace percale {
 enum class TriangleRegion { face, vertex, edge };
 
 struct PointTriangle {
-    double distance_squared = 0.0;              // m^2
-    std::array<double, 3> weight{};             // barycentric, sums to 1
+    double distance_squared = 0.0;   // m^2
+    std::array<double, 3> weight{};  // barycentric, sums to 1
     TriangleRegion region = TriangleRegion::face;
-    int corner = 0;                             // which vertex, or the first vertex of which edge (corner, corner + 1)
-    Vec3 point = Vec3::Zero();                  // on the triangle
+    int corner = 0;             // which vertex, or the first vertex of which edge (corner, corner + 1)
+    Vec3 point = Vec3::Zero();  // on the triangle
 };
 
 /// Closest point of triangle abc to p, by Voronoi regions (Ericson, Real-Time Collision Detection, 5.1.5).

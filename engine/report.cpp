@@ -51,8 +51,8 @@ std::string StepReport::explanation() const {
     std::ostringstream text;
     text << "step from t = " << (ok() ? time - dt : time) << " s over " << dt << " s: " << status_word(status);
     if (!ok()) text << ", " << failure_text(*this);
-    text << " (" << newton_iterations << " Newton and " << linear_iterations << " linear iterations, relative residual " << residual
-         << ", " << halvings << " halvings)";
+    text << " (" << newton_iterations << " Newton and " << linear_iterations << " linear iterations, relative residual "
+         << residual << ", " << halvings << " halvings)";
     return text.str();
 }
 

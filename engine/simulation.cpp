@@ -23,7 +23,8 @@ void check_pose(const Pose& pose, const std::string& name) {
     const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     if (!pose.translation.allFinite()) throw SceneError(name + ": the translation of its pose is not finite");
     if (!(std::abs(norm - 1.0) <= 1e-6)) {
-        throw SceneError(name + ": the rotation of its pose has length " + number_text(norm) + ", a rotation is a unit quaternion (w, x, y, z)");
+        throw SceneError(name + ": the rotation of its pose has length " + number_text(norm) +
+                         ", a rotation is a unit quaternion (w, x, y, z)");
     }
     if (!(pose.scale > 0.0) || !std::isfinite(pose.scale)) {
         throw SceneError(name + ": the scale of its pose is " + number_text(pose.scale) + ", it must be above 0");
@@ -98,7 +99,8 @@ struct Simulation::Implementation {
         }
         if (fault.vertices_inside > 0) {
             throw SceneError("the cloth starts inside " + obstacle_name + ": " + std::to_string(fault.vertices_inside) +
-                             " vertices, one of them " + vertex_name(fault.inside_vertex) + "; move the cloth or the obstacle apart");
+                             " vertices, one of them " + vertex_name(fault.inside_vertex) +
+                             "; move the cloth or the obstacle apart");
         }
         throw SceneError("the cloth starts touching " + obstacle_name + "; leave some distance");
     }
@@ -158,7 +160,8 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
     World& world = implementation_->world;
     if (!world.detector) throw SceneError(settings.name + ": an obstacle needs a contact detector, give one to the simulation");
     if (!(settings.friction >= 0.0 && settings.friction <= 10.0)) {
-        throw SceneError(settings.name + ": friction = " + number_text(settings.friction) + " is outside the allowed range 0 ... 10");
+        throw SceneError(settings.name + ": friction = " + number_text(settings.friction) +
+                         " is outside the allowed range 0 ... 10");
     }
     check_pose(pose, settings.name);
     check_mesh(mesh, settings.name, false);

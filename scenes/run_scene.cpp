@@ -122,7 +122,7 @@ void add_cost(RunTotals& totals, const StepReport& report) {
 
 void add_accepted(RunTotals& totals, const StepReport& report) {
     ++totals.steps;
-    totals.smallest_step_s = std::min(totals.smallest_step_s, report.dt);
+    totals.smallest_step_s = std::min(totals.smallest_step_s, report.smallest_dt);
     totals.largest_step_s = std::max(totals.largest_step_s, report.dt);
     totals.largest_residual = std::max(totals.largest_residual, report.residual);
     const double work = totals.energy.work + report.energy.work;

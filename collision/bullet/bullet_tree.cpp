@@ -30,8 +30,9 @@ public:
         static_assert(sizeof(Triangle) == 3 * sizeof(int) && sizeof(Vec3) == 3 * sizeof(double));
         for (const Vec3& x : vertices) bounds_.add(x);
         // Bullet's interface asks for mutable pointers and only reads.
-        btTriangleIndexVertexArray mesh(static_cast<int>(triangles.size()), const_cast<int*>(triangles[0].data()), sizeof(Triangle),
-                                        static_cast<int>(vertices.size()), const_cast<double*>(vertices[0].data()), sizeof(Vec3));
+        btTriangleIndexVertexArray mesh(static_cast<int>(triangles.size()), const_cast<int*>(triangles[0].data()),
+                                        sizeof(Triangle), static_cast<int>(vertices.size()),
+                                        const_cast<double*>(vertices[0].data()), sizeof(Vec3));
         const double margin = 1e-6 * (bounds_.high - bounds_.low).norm();
         bounds_.grow(margin);
         tree_.build(&mesh, true, to_bullet(bounds_.low), to_bullet(bounds_.high));

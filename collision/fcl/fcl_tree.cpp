@@ -1,8 +1,8 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/AABB.h>
 
-#include "fcl/fcl_tree.h"
 #include "detector.h"
+#include "fcl/fcl_tree.h"
 #include "percale/detectors.h"
 
 namespace percale {
@@ -11,8 +11,8 @@ namespace {
 // -march=native would change the size of FCL's types against those in its library.
 static_assert(sizeof(fcl::AABBd) == 6 * sizeof(double), "FCL must be compiled with baseline instruction-set flags");
 
-/// FCL's tree of axis-parallel boxes over a mesh, walked by ourselves: FCL's own queries copy the tree at each call and return wrong
-/// signs (collision/README.md).
+/// FCL's tree of axis-parallel boxes over a mesh, walked by ourselves: FCL's own queries copy the tree at each call and return
+/// wrong signs (collision/README.md).
 class FclTree : public ObstacleTree {
 public:
     FclTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {

@@ -7,6 +7,8 @@ namespace percale {
 namespace {
 
 constexpr double stick_speed = 1e-3;  // m/s, below it friction is a damper
+constexpr double share_of_matrix =
+    0.5;  // of the step matrix that the contact stiffness takes: softer sinks, stiffer takes Newton longer
 
 double quadratic_form(const DiagonalBlocks& a, int i, const Vec3& n) {
     return n.x() * (a[0][i] * n.x() + 2.0 * a[1][i] * n.y() + 2.0 * a[2][i] * n.z()) +
@@ -20,7 +22,7 @@ double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep
         inertia += rows.weight[row][k] * quadratic_form(*step.diagonal, vertex, rows.direction[row]);
         mass += rows.weight[row][k] * (*step.mass)[vertex];
     }
-    return std::max(inertia / (step.dt * step.dt), 4.0 * mass * step.gravity.norm() / rows.thickness[row]);
+    return std::max(share_of_matrix * inertia / (step.dt * step.dt), 4.0 * mass * step.gravity.norm() / rows.thickness[row]);
 }
 
 Vec3 row_velocity(const ContactRows& rows, std::size_t row, const Vectors& velocities) {
@@ -85,7 +87,8 @@ ContactPotential contact_potential(double distance, double thickness, double sti
     return {0.5 * scale + scale * std::log(half / distance), scale / distance, scale / (distance * distance)};
 }
 
-void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& velocities, Vectors& forces, ContactTerms& terms) {
+void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& velocities, Vectors& forces,
+                 ContactTerms& terms) {
     terms.blocks.clear();
     terms.energy = terms.largest_stiffness = terms.obstacle_power = 0.0;
     for (std::size_t row = 0; row < rows.size(); ++row) {

@@ -21,33 +21,34 @@ using DiagonalBlocks = std::array<std::vector<double>, 6>;
 
 /// What the contact term needs of the step it is in.
 struct ContactStep {
-    double dt = 0.0;                  // s, of the part of the step being solved
-    double obstacle_rate = 0.0;       // 1/s, obstacle velocity / obstacle_displacement
-    Vec3 gravity = Vec3::Zero();      // m/s^2
-    const std::vector<double>* mass = nullptr;      // kg, of each vertex
-    const DiagonalBlocks* diagonal = nullptr;       // of the elastic step matrix when the step began; frozen
-    bool first_evaluation = false;    // stick or slide is then decided by where gravity will push
+    double dt = 0.0;                            // s, of the part of the step being solved
+    double obstacle_rate = 0.0;                 // 1/s, obstacle velocity / obstacle_displacement
+    Vec3 gravity = Vec3::Zero();                // m/s^2
+    const std::vector<double>* mass = nullptr;  // kg, of each vertex
+    const DiagonalBlocks* diagonal = nullptr;   // of the elastic step matrix when the step began; frozen
+    bool first_evaluation = false;              // stick or slide is then decided by where gravity will push
 };
 
 /// One row's part of the step matrix: weight w_k w_l K between its vertices, K symmetric, kg.
 struct ContactBlock {
-    std::array<int, 4> vertex;     // -1 = unused
+    std::array<int, 4> vertex;  // -1 = unused
     std::array<double, 4> weight;
-    std::array<double, 6> k;       // xx xy xz yy yz zz
+    std::array<double, 6> k;  // xx xy xz yy yz zz
 };
 
 struct ContactTerms {
     std::vector<ContactBlock> blocks;
-    double energy = 0.0;            // J
-    double largest_stiffness = 0.0; // N/m
-    double obstacle_power = 0.0;    // W, of the obstacles on the cloth
+    double energy = 0.0;             // J
+    double largest_stiffness = 0.0;  // N/m
+    double obstacle_power = 0.0;     // W, of the obstacles on the cloth
 };
 
 /// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`.
-/// Stiffness of a row: n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks, but at least four times
-/// (static weight on the row)/thickness, so that slack cloth rests at no less than 3/4 of the thickness.
-/// Friction acts against the tangential velocity relative to the obstacle, mu N at most; below 1e-3 m/s it grows linearly.
-/// A sliding row is a constant force whose matrix leaves the sliding direction free; a sticking one a stiff damper.
-void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& velocities, Vectors& forces, ContactTerms& terms);
+/// Stiffness of a row: half of n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks, but at least four
+/// times (static weight on the row)/thickness, so that slack cloth rests at no less than 3/4 of the thickness. Friction acts
+/// against the tangential velocity relative to the obstacle, mu N at most; below 1e-3 m/s it grows linearly. A sliding row is a
+/// constant force whose matrix leaves the sliding direction free; a sticking one a stiff damper.
+void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& velocities, Vectors& forces,
+                 ContactTerms& terms);
 
 }  // namespace percale

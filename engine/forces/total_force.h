@@ -21,11 +21,11 @@ struct ForceInput {
 
 /// Forces of one state and what the step matrix is made of.
 struct Forces {
-    Vectors total;             // N
+    Vectors total;  // N
     SpringTerms spring_terms;
-    ContactRows rows;          // set by whoever evaluates contacts; empty without obstacles
+    ContactRows rows;  // set by whoever evaluates contacts; empty without obstacles
     ContactTerms contact;
-    double potential = 0.0;    // J, of springs (with their damping potential), gravity and contact
+    double potential = 0.0;  // J, of springs (with their damping potential), gravity and contact
 };
 
 /// Gravity and springs; contact is added by add_contact_forces.

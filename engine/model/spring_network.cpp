@@ -9,7 +9,8 @@ namespace {
 /// Adds the springs of one cloth.
 class SpringWriter {
 public:
-    SpringWriter(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex, const std::string& name)
+    SpringWriter(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex,
+                 const std::string& name)
         : network_(network), rest_(rest), fabric_(fabric), first_vertex_(first_vertex), name_(name) {}
 
     void add(int a, int b, SpringKind kind) {

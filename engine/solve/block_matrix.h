@@ -14,10 +14,10 @@ namespace percale {
 /// place, plus contact rows kept apart. A block between two vertices is -(a I + w w^T).
 struct BlockMatrix {
     const Adjacency* pattern = nullptr;
-    std::vector<double> a, wx, wy, wz;     // one an entry of the pattern
-    DiagonalBlocks diagonal;               // mass and springs
-    DiagonalBlocks inverse;                // of the whole diagonal blocks, contact included: block Jacobi
-    std::vector<double> free;              // 1, or 0 for a vertex whose motion is prescribed; padding counts as prescribed
+    std::vector<double> a, wx, wy, wz;  // one an entry of the pattern
+    DiagonalBlocks diagonal;            // mass and springs
+    DiagonalBlocks inverse;             // of the whole diagonal blocks, contact included: block Jacobi
+    std::vector<double> free;           // 1, or 0 for a vertex whose motion is prescribed; padding counts as prescribed
     std::span<const ContactBlock> contacts;
 };
 

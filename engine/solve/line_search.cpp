@@ -8,8 +8,8 @@ namespace percale {
 bool accept_trial(double fraction, const LineTrial& trial) {
     if (!std::isfinite(trial.objective) || !std::isfinite(trial.slope)) return false;
     const bool gentle = trial.slope <= 0.9 * std::abs(trial.start_slope);
-    if (!trial.objective_known) return gentle;
     if (trial.objective <= trial.start_objective + 1e-4 * fraction * trial.start_slope) return true;
+    if (!trial.objective_known) return gentle;
     const bool flat = trial.objective <= trial.start_objective + 1e-9 * std::abs(trial.start_objective);
     return flat && gentle;
 }

@@ -8,11 +8,11 @@ struct LineTrial {
     double start_slope = 0.0;      // J, < 0 for a descent direction
     double objective = 0.0;
     double slope = 0.0;
-    bool objective_known = true;   // false with contact: friction has no potential, rows come and go
+    bool objective_known = true;  // false with contact: friction has no potential, rows come and go
 };
 
-/// Whether a trial is good enough: Armijo's rule on the objective, or, where that is flat to rounding or not known, a slope that has not
-/// turned up to 0.9 of the first one's size.
+/// Whether a trial is good enough: Armijo's rule on the objective, or, where that is flat to rounding or not known, a slope that
+/// has not turned up to 0.9 of the first one's size.
 bool accept_trial(double fraction, const LineTrial& trial);
 
 /// The factor for the next trial: the zero of the slope by the secant, kept within 0.15 ... 0.6.

@@ -12,6 +12,7 @@ namespace {
 constexpr double energy_accuracy = 0.05;      // of the linear solve, in the energy norm
 constexpr double share_of_time_error = 0.25;  // solver error over time error
 constexpr double smallest_change = 1e-7;      // m, below it iterations are pointless
+constexpr double smallest_share = 2e-4;       // likewise in contact, of the thickness
 constexpr int most_trials = 10;               // of one line search
 
 /// The solve of one part: functions that share the part, its work space and what is reported.
@@ -51,8 +52,8 @@ private:
     bool moves_are_scripted() const { return part_.plan->obstacles_move || part_.plan->pins_move; }
     bool arrived() const { return space_.current.fraction >= part_.span.to; }
 
-    /// Free vertices go to q_n + dt v_n (without gravity: in the prediction it would press into the contact, and friction would then
-    /// freeze everything), prescribed ones and obstacles to their ends, all cut where something would cross.
+    /// Free vertices go to q_n + dt v_n (without gravity: in the prediction it would press into the contact, and friction would
+    /// then freeze everything), prescribed ones and obstacles to their ends, all cut where something would cross.
     void predict(const ClothState& state) {
         for (int i = 0; i < model_.vertex_count(); ++i) {
             const bool free = (*part_.free)[i] > 0.0;
@@ -166,7 +167,7 @@ private:
         double first_norm = 0.0, last_norm = 0.0;
         for (int iteration = 0;; ++iteration) {
             const double norm = residual_norm();
-            if (iteration == 0) first_norm = std::max(norm, part_.settings->newton_tolerance ? gravity_norm() : 0.0);
+            if (iteration == 0) first_norm = std::max(norm, gravity_norm());
             report_.residual = first_norm > 0.0 ? norm / first_norm : 0.0;
             if (norm == 0.0 || !std::isfinite(norm)) return end_here(norm == 0.0);
             if (arrived() && part_.settings->newton_tolerance && report_.residual <= *part_.settings->newton_tolerance) return;
@@ -211,8 +212,7 @@ private:
         }
         StageTimer timer(stages_.solve);
         const SolveTarget target = solve_target(iteration, norm, last_norm);
-        report_.linear_iterations +=
-            solve_cg(matrix, space_.right_side, target, space_.solve, space_.direction).iterations;
+        report_.linear_iterations += solve_cg(matrix, space_.right_side, target, space_.solve, space_.direction).iterations;
     }
 
     void set_prescribed_direction() {
@@ -230,8 +230,8 @@ private:
         }
     }
 
-    /// With a residual to reach, the linear residual follows the Newton residual (Eisenstat and Walker 1996, choice 2); else the energy
-    /// gained per iteration decides, which bounds the smooth error that a loose residual leaves behind.
+    /// With a residual to reach, the linear residual follows the Newton residual (Eisenstat and Walker 1996, choice 2); else the
+    /// energy gained per iteration decides, which bounds the smooth error that a loose residual leaves behind.
     SolveTarget solve_target(int iteration, double norm, double last_norm) const {
         if (part_.settings->newton_tolerance) {
             const double ratio = iteration > 0 ? norm / last_norm : 1.0;
@@ -274,7 +274,8 @@ private:
             evaluate(space_.trial);
             line.objective = space_.trial.objective;
             line.slope = dot(space_.trial.residual, space_.direction);
-            line.objective_known = !part_.plan->contacts || (space_.current.forces.rows.size() + space_.trial.forces.rows.size() == 0);
+            line.objective_known =
+                !part_.plan->contacts || (space_.current.forces.rows.size() + space_.trial.forces.rows.size() == 0);
             // While pins or obstacles are on their way, the objective may have to rise.
             accepted = !part_.options.line_search || !was_arrived || accept_trial(fraction * kept, line);
             if (accepted) break;
@@ -282,7 +283,8 @@ private:
             ++report_.line_search_cuts;
         }
         std::swap(space_.current, space_.trial);
-        const bool by_change = small && fraction * kept == 1.0 && !part_.settings->newton_tolerance && report_.newton_iterations > 1;
+        const bool by_change =
+            small && fraction * kept == 1.0 && !part_.settings->newton_tolerance && report_.newton_iterations > 1;
         const bool by_rounding = !accepted && -slope <= 1e-12 * std::abs(line.start_objective);
         converged_ = was_arrived && (by_change || by_rounding);
         return !converged_;
@@ -301,8 +303,10 @@ private:
             }
             const double change = part_.dt * std::sqrt(std::max(gain, 0.0) / cloth.mass);
             const double time_error = 0.5 * part_.dt * std::sqrt(velocity_change(cloth, ahead) / cloth.mass);
-            return change <= share_of_time_error * time_error + smallest_change &&
-                   part_.dt * worst <= 0.5 * part_.dt * worst_error + 10.0 * smallest_change;
+            const double floor =
+                space_.current.forces.rows.size() > 0 ? smallest_share * model_.thickness[cloth.first] : smallest_change;
+            return change <= share_of_time_error * time_error + floor &&
+                   part_.dt * worst <= 0.5 * part_.dt * worst_error + 10.0 * floor;
         });
     }
 

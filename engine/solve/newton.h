@@ -14,9 +14,9 @@ namespace percale {
 
 /// What a test may switch off to reduce backward Euler to a simpler scheme.
 struct NewtonOptions {
-    bool jacobians = true;    // false: the matrix is the mass alone (Jq = Jv = 0)
+    bool jacobians = true;  // false: the matrix is the mass alone (Jq = Jv = 0)
     bool line_search = true;
-    bool predict = true;      // start at q_n + dt v_n; false: at q_n
+    bool predict = true;  // start at q_n + dt v_n; false: at q_n
 };
 
 /// One part of a step, to be solved by backward Euler:
@@ -25,12 +25,12 @@ struct ImplicitPart {
     const ClothModel* model = nullptr;
     const StepSettings* settings = nullptr;
     const StepPlan* plan = nullptr;
-    ContactDetector* detector = nullptr;   // used if the plan has contacts
-    const Vectors* targets = nullptr;      // m, where prescribed vertices are at the end of the part
+    ContactDetector* detector = nullptr;        // used if the plan has contacts
+    const Vectors* targets = nullptr;           // m, where prescribed vertices are at the end of the part
     const std::vector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
-    double dt = 0.0;                       // s, length of this part
-    double full_step = 0.0;                // s, of the whole step, over which obstacles move
-    StepFraction span;                     // of the whole step
+    double dt = 0.0;                            // s, length of this part
+    double full_step = 0.0;                     // s, of the whole step, over which obstacles move
+    StepFraction span;                          // of the whole step
     NewtonOptions options;
 };
 
@@ -46,7 +46,7 @@ struct NewtonReport {
     int newton_iterations = 0;
     int linear_iterations = 0;
     int line_search_cuts = 0;
-    double residual = 0.0;           // relative to the first
+    double residual = 0.0;  // relative to the first, or to gravity's impulse where that is larger
     double smallest_fraction = 1.0;
     double largest_stiffness = 0.0;  // N/m, of contact
 };
@@ -57,8 +57,8 @@ struct NewtonPoint {
     std::vector<Vec3> points;
     double fraction = 0.0;  // of the whole step
     Forces forces;
-    Vectors residual;       // M (v - v_n) - dt f, kg m/s; 0 at prescribed vertices
-    double objective = 0.0; // J: 1/2 |v - v_n|_M^2 + potential
+    Vectors residual;        // M (v - v_n) - dt f, kg m/s; 0 at prescribed vertices
+    double objective = 0.0;  // J: 1/2 |v - v_n|_M^2 + potential
 };
 
 /// Work space of the solve, kept from step to step so that nothing is allocated once sizes are known.
@@ -73,9 +73,9 @@ struct NewtonSpace {
 };
 
 /// Solves one part from `state`, leaving the result there; a blocked or not finite part leaves `state` as it was.
-/// Newton with the positive definite matrix of spring_force.h, conjugate gradient, every move cut to what the detector proves free of crossing,
-/// and a line search. Stops by settings.newton_tolerance, or (auto) when what the last iteration changed, in metres,
-/// dt sqrt(dv . b / m), is at most a quarter of the step's time error, estimated as dt/2 |v - v_n|, in every cloth.
+/// Newton with the positive definite matrix of spring_force.h, conjugate gradient, every move cut to what the detector proves
+/// free of crossing, and a line search. Stops by settings.newton_tolerance, or (auto) when what the last iteration changed, in
+/// metres, dt sqrt(dv . b / m), is at most a quarter of the step's time error, estimated as dt/2 |v - v_n|, in every cloth.
 NewtonReport solve_implicit(const ImplicitPart& part, NewtonSpace& space, ClothState& state, StageTimes& stages);
 
 }  // namespace percale

@@ -10,8 +10,8 @@ namespace percale {
 /// What is known of a scheme. Oscillator of angular frequency w, a = w dt.
 struct SchemeFacts {
     Scheme scheme;
-    std::string_view word;       // as in a scene file
-    int order;                   // of the error in dt
+    std::string_view word;  // as in a scene file
+    int order;              // of the error in dt
     bool implicit;
     double stable_up_to;         // largest a without growth; infinity for unconditionally stable schemes
     int force_evaluations;       // a step; 0 = as many as Newton needs

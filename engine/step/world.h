@@ -21,8 +21,8 @@ struct ObstacleState {
 
 /// What the script says about the coming step.
 struct Script {
-    std::vector<double> free;     // 1, or 0 where pinned and in the padding
-    Vectors pin_targets;          // m, at the end of the coming step; meaningful where pinned
+    std::vector<double> free;  // 1, or 0 where pinned and in the padding
+    Vectors pin_targets;       // m, at the end of the coming step; meaningful where pinned
     std::vector<ObstacleState> obstacles;
 };
 
@@ -34,13 +34,13 @@ struct World {
     Script script;
     StepPlan plan;
     std::unique_ptr<ContactDetector> detector;
-    double time = 0.0;       // s
-    bool changed = true;     // cloth or obstacles were added since the last preparation
+    double time = 0.0;    // s
+    bool changed = true;  // cloth or obstacles were added since the last preparation
 
     // Work space and what the running step found so far.
     NewtonSpace newton;
     ExplicitSpace explicit_space;
-    ClothState before;       // the state at the start of the running step
+    ClothState before;  // the state at the start of the running step
     Vectors part_targets;
     std::vector<Vec3> velocity_points;  // velocities one after the other, for callers
     StepReport report;

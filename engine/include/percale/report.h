@@ -31,13 +31,14 @@ struct StepEnergy {
 /// What one step did. A failed step leaves positions and velocities as they were.
 struct StepReport {
     StepStatus status = StepStatus::ok;
-    double time = 0.0;  // s, at the end of the step
-    double dt = 0.0;    // s
+    double time = 0.0;         // s, at the end of the step
+    double dt = 0.0;           // s
+    double smallest_dt = 0.0;  // s, of the parts the step was solved in
     int newton_iterations = 0;
     int linear_iterations = 0;
     int line_search_cuts = 0;
     int halvings = 0;                // how often the step was redone shorter
-    double residual = 0.0;           // relative to the first of the step
+    double residual = 0.0;           // relative to the first of the step, or to gravity's impulse where that is larger
     double smallest_fraction = 1.0;  // smallest part of a move that was free of crossing
     int contacts = 0;                // contact rows at the end
     double smallest_distance = 0.0;  // m; infinity if nothing was near

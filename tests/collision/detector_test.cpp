@@ -1,0 +1,538 @@
+#include "collision/detector.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "tests/support/catch.h"
+#include "tests/support/collision_backends.h"
+#include "tests/support/collision_pairs.h"
+#include "tests/support/collision_random.h"
+#include "tests/support/collision_shapes.h"
+#include "tests/support/collision_steps.h"
+#include "tests/support/collision_truth.h"
+
+using namespace percale;
+using namespace percale::test;
+
+namespace {
+
+constexpr double thickness = 0.03;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+enum class Scene { ball, box, spiky, two, single_triangle, plane };
+
+std::vector<TriangleMesh> meshes(Scene scene) {
+    switch (scene) {
+        case Scene::ball:
+            return {make_sphere(0.25, 2)};
+        case Scene::box:
+            return {make_box({0.4, 0.3, 0.35})};
+        case Scene::spiky:
+            return {spiky_ball(0.25, 1, 0.5, 17)};
+        case Scene::two:
+            return {make_box({0.2, 0.4, 0.2}), moved(make_sphere(0.15, 1), {0.4, 0, 0})};
+        case Scene::single_triangle:
+            return {{.vertices = {{-0.3, 0, -0.2}, {0.3, 0, -0.2}, {0, 0, 0.4}}, .triangles = {{0, 2, 1}}}};
+        default:
+            return {make_plane(0.5)};
+    }
+}
+
+Pose turned_further(const Pose& pose, double way, Random& random) {
+    Pose next = pose;
+    next.translation += random.point(way);
+    next.rotation = random.rotation();
+    return next;
+}
+
+/// Poses of the coming step: at rest every other one unless `moving`, in which case shifted and turned.
+void set_poses(Steps& steps, bool moving, Random& random) {
+    for (MovingMesh& o : steps.obstacles) {
+        o.start = random.pose(0.05);
+        o.end = moving ? turned_further(o.start, 0.05, random) : o.start;
+    }
+    if (steps.detector) steps.tell_poses();
+}
+
+Steps make_steps(Scene scene, const TriangleMesh& cloth, const Backend& backend) {
+    Steps steps{.cloth = cloth, .obstacles = {}, .detector = nullptr};
+    for (TriangleMesh& mesh : meshes(scene)) steps.obstacles.push_back({.mesh = mesh, .start = {}, .end = {}});
+    steps.start(backend.make_detector(), thickness);
+    return steps;
+}
+
+std::vector<Vec3> shifted(const TriangleMesh& cloth, const Vec3& by, double noise, Random& random) {
+    std::vector<Vec3> x;
+    for (const Vec3& p : cloth.vertices) x.push_back(p + by + random.point(noise));
+    return x;
+}
+
+/// The same scene with every backend of the build.
+std::vector<Steps> with_all_backends(Scene scene, const TriangleMesh& cloth) {
+    std::vector<Steps> all;
+    for (const Backend& backend : backends()) all.push_back(make_steps(scene, cloth, backend));
+    return all;
+}
+
+void give_poses(std::vector<Steps>& all, bool moving, Random& random) {
+    set_poses(all[0], moving, random);
+    for (Steps& steps : all) {
+        steps.obstacles = all[0].obstacles;
+        steps.tell_poses();
+    }
+}
+
+/// A clean place for the cloth at the start of the step: far outside, or wherever chance puts it.
+std::vector<Vec3> clean_start(const Steps& steps, Random& random) {
+    for (int attempt = 0; attempt < 20; ++attempt) {
+        TriangleMesh here = placed(steps.cloth, random.pose(0.0));
+        const std::vector<Vec3> x = shifted(here, random.number(0.1, 0.6) * random.unit(), 0.01, random);
+        if (steps.clean(x, 0.0)) return x;
+    }
+    return shifted(steps.cloth, {0.0, 2.0, 0.0}, 0.0, random);
+}
+
+struct CutOutcome {
+    int moves = 0, cut = 0, bad = 0;
+};
+
+/// One move, cut; certified at several times on the way and at its end. Returns where it ended.
+std::vector<Vec3> cut_move(Steps& steps, std::span<const Vec3> from, std::span<const Vec3> to, StepFraction& part,
+                           CutOutcome& outcome) {
+    const double safe = steps.detector->largest_safe_fraction(from, to, part);
+    ++outcome.moves;
+    outcome.cut += safe < 1.0 ? 1 : 0;
+    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+        const double f = share * safe, fraction = part.from + f * (part.to - part.from);
+        outcome.bad += steps.clean(between(from, to, f), fraction) ? 0 : 1;
+    }
+    part.from += safe * (part.to - part.from);
+    return between(from, to, safe);
+}
+
+/// A step as a solver does it: a prediction, then corrections from where the cut left it while the obstacles are at the end or
+/// move on.
+void random_step(Steps& steps, std::vector<Vec3>& x, double speed, Random& random, CutOutcome& outcome) {
+    const auto aim = [&] { return shifted({.vertices = x, .triangles = {}}, random.point(speed), 0.2 * speed, random); };
+    StepFraction part{0.0, 1.0};
+    std::vector<Vec3> to = aim();
+    steps.detector->refresh(x, to);
+    for (int k = 0; k < 4; ++k) {
+        x = cut_move(steps, x, to, part, outcome);
+        to = aim();
+    }
+}
+
+TriangleMesh small_sheet() { return make_grid(0.4, 0.4, 5, 5); }
+
+}  // namespace
+
+TEST_CASE("all backends give the same rows to the last bit and the same cuts") {
+    const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::plane);
+    const bool moving = GENERATE(false, true);
+    Random random(300 + static_cast<int>(scene));
+    const TriangleMesh sheet = make_grid(0.5, 0.5, 7, 7);
+    std::vector<Steps> all = with_all_backends(scene, sheet);
+    int with_rows = 0, differing = 0;
+    for (int state = 0; state < 60; ++state) {
+        if (moving || state % 10 == 0) give_poses(all, moving, random);
+        const auto x = shifted(placed(sheet, random.pose(0.0)), random.point(0.3), 0.03, random);
+        const auto to = shifted({.vertices = x, .triangles = {}}, random.point(0.1), 0.03, random);
+        const double fraction = random.number(0.0, 1.0);
+        std::vector<ContactRows> rows(all.size());
+        std::vector<double> cuts, nearest;
+        for (std::size_t b = 0; b < all.size(); ++b) {
+            if (state % 2 == 0) all[b].detector->refresh(x, to);
+            all[b].detector->evaluate(x, fraction, rows[b]);
+            nearest.push_back(all[b].detector->smallest_distance());
+            cuts.push_back(all[b].detector->largest_safe_fraction(x, to, {fraction, 1.0}));
+        }
+        with_rows += rows[0].size() > 0 ? 1 : 0;
+        for (std::size_t b = 1; b < all.size(); ++b) {
+            differing += same_rows(rows[b], rows[0]) && cuts[b] == cuts[0] && nearest[b] == nearest[0] ? 0 : 1;
+        }
+    }
+    CHECK(with_rows > 25);
+    CHECK(differing == 0);
+}
+
+TEST_CASE("rows are those of all pairs of features that are near and local minima, at any fraction of the step") {
+    const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::single_triangle);
+    const bool moving = GENERATE(false, true);
+    Random random(320 + static_cast<int>(scene));
+    const TriangleMesh sheet = make_grid(0.4, 0.4, 3, 3);
+    Steps steps = make_steps(scene, sheet, backends()[0]);
+    long expected_rows = 0;
+    for (int state = 0; state < 6; ++state) {
+        if (moving) set_poses(steps, true, random);
+        const double fraction = random.number(0.0, 1.0);
+        const auto x = shifted(placed(sheet, random.pose(0.0)), random.point(0.25), 0.03, random);
+        std::multiset<std::tuple<int, int, double>> expected, found;
+        for (int o = 0; o < int(steps.obstacles.size()); ++o) {
+            Obstacle obstacle(steps.obstacles[o].mesh, {}, 0.0, make_brute_force_tree);
+            obstacle.move(steps.obstacles[o].start, steps.obstacles[o].end);
+            for (const ContactPair& pair : all_pairs(sheet, obstacle, true)) {
+                if (pair.kind == PairKind::face_vertex) continue;  // which triangle owns an edge is the lists' choice
+                const PairContact contact = pair_contact(pair, x, obstacle, fraction);
+                if (contact.distance < thickness && contact.local_minimum) expected.insert({o, pair.feature, contact.distance});
+            }
+        }
+        ContactRows rows;
+        steps.detector->refresh(x, x);
+        steps.detector->evaluate(x, fraction, rows);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows.vertex[i][2] < 0) found.insert({rows.obstacle[i], rows.feature[i], rows.distance[i]});
+        }
+        CHECK(found.size() == expected.size());
+        // An edge may be named the other way round, which costs a rounding.
+        const bool equal = found.size() == expected.size() &&
+                           std::equal(found.begin(), found.end(), expected.begin(), [](const auto& a, const auto& b) {
+                               return std::get<0>(a) == std::get<0>(b) && std::get<1>(a) == std::get<1>(b) &&
+                                      std::abs(std::get<2>(a) - std::get<2>(b)) < 1e-14;
+                           });
+        CHECK(equal);
+        expected_rows += static_cast<long>(expected.size());
+    }
+    CHECK(expected_rows > 0);
+}
+
+TEST_CASE("every row keeps the promise of its header, and the nearest of them is the smallest distance of the meshes") {
+    const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::single_triangle);
+    Random random(340 + static_cast<int>(scene));
+    Steps steps = make_steps(scene, small_sheet(), backends().back());
+    int near = 0;
+    for (int state = 0; state < 25; ++state) {
+        set_poses(steps, true, random);
+        std::vector<Vec3> x = clean_start(steps, random);
+        StepFraction part{0.0, 1.0};
+        CutOutcome outcome;
+        x = cut_move(steps, x, shifted({.vertices = x, .triangles = {}}, -1.5 * x[12], 0.02, random), part, outcome);
+        ContactRows rows;
+        steps.detector->evaluate(x, part.from, rows);
+        double least = infinity, worst = 0.0, off_point = 0.0;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            Vec3 point = Vec3::Zero();
+            double sum = 0.0;
+            for (int k = 0; k < 4 && rows.vertex[i][k] >= 0; ++k) {
+                point += rows.weight[i][k] * x[rows.vertex[i][k]];
+                sum += rows.weight[i][k];
+            }
+            worst = std::max(worst, std::abs(rows.direction[i].dot(point - rows.obstacle_point[i]) - rows.distance[i]));
+            worst = std::max({worst, std::abs(sum - 1.0), std::abs(rows.direction[i].norm() - 1.0)});
+            off_point =
+                std::max(off_point,
+                         true_mesh_distance({.vertices = std::vector<Vec3>(3, rows.obstacle_point[i]), .triangles = {{0, 1, 2}}},
+                                            steps.obstacles[rows.obstacle[i]].at(part.from)));
+            CHECK(rows.friction[i] == 0.1 * rows.obstacle[i]);
+            CHECK(rows.thickness[i] == thickness);
+            CHECK(rows.distance[i] > 0.0);
+            CHECK(rows.distance[i] < thickness);
+            least = std::min(least, rows.distance[i]);
+        }
+        CHECK(worst < 1e-14);
+        CHECK(off_point < 1e-14);
+        TriangleMesh here = steps.cloth;
+        here.vertices = x;
+        double truth = infinity;
+        for (const MovingMesh& o : steps.obstacles) truth = std::min(truth, true_mesh_distance(here, o.at(part.from)));
+        if (truth < thickness) {
+            ++near;
+            CHECK(least == Approx(truth).margin(1e-13));
+            CHECK(steps.detector->smallest_distance() == Approx(truth).margin(1e-13));
+        } else {
+            CHECK(rows.size() == 0);
+            CHECK(steps.detector->smallest_distance() >= thickness);
+        }
+    }
+    CHECK(near > 5);
+}
+
+TEST_CASE("after a cut nothing crosses, on thousands of random moves through resting and moving obstacles") {
+    const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::single_triangle, Scene::plane);
+    const bool moving = GENERATE(false, true);
+    Random random(360 + static_cast<int>(scene));
+    Steps steps = make_steps(scene, small_sheet(), backends().back());
+    CutOutcome outcome;
+    for (int run = 0; run < 25; ++run) {
+        set_poses(steps, moving, random);
+        std::vector<Vec3> x = clean_start(steps, random);
+        if (!steps.clean(x, 0.0)) continue;
+        for (int step = 0; step < 3; ++step) {
+            random_step(steps, x, random.decades(0.01, 1.0), random, outcome);
+            if (!moving) continue;
+            // The next step starts where the obstacle was left: only a whole step may be followed by another one.
+            break;
+        }
+    }
+    CHECK(outcome.moves >= 100);
+    CHECK(outcome.cut > 30);
+    CHECK(outcome.bad == 0);
+}
+
+TEST_CASE("steps follow each other: obstacles that sweep through a sheet over many steps never cross it") {
+    const Scene scene = GENERATE(Scene::ball, Scene::spiky, Scene::single_triangle);
+    Random random(380 + static_cast<int>(scene));
+    Steps steps = make_steps(scene, small_sheet(), backends().back());
+    set_poses(steps, false, random);
+    std::vector<Vec3> x = clean_start(steps, random);
+    CutOutcome outcome;
+    int finished = 0;
+    for (int step = 0; step < 60; ++step) {
+        for (MovingMesh& o : steps.obstacles) o.start = o.end, o.end = turned_further(o.start, 0.02, random);
+        for (MovingMesh& o : steps.obstacles) o.end.rotation = o.start.rotation;
+        steps.tell_poses();
+        const auto to = shifted({.vertices = x, .triangles = {}},
+                                steps.obstacles[0].end.translation - steps.obstacles[0].start.translation, 0.003, random);
+        steps.detector->refresh(x, to);
+        StepFraction part{0.0, 1.0};
+        for (int k = 0; k < 60 && part.from < 1.0; ++k) x = cut_move(steps, x, to, part, outcome);
+        if (part.from < 1.0) break;  // the cloth cannot follow: a solver would move it aside
+        ++finished;
+    }
+    CHECK(finished > 0);
+    CHECK(outcome.bad == 0);
+}
+
+TEST_CASE("a vertex at 100 m a step never gets through a single triangle, nor does one that the triangle outruns") {
+    Random random(400);
+    const TriangleMesh cloth{.vertices = {{0, 0, 0}, {0.01, 0, 0}, {0, 0, 0.01}}, .triangles = {{0, 1, 2}}};
+    Steps steps = make_steps(Scene::single_triangle, cloth, backends().back());
+    int through = 0, hits = 0, free = 0;
+    for (int i = 0; i < 1500; ++i) {
+        const bool obstacle_moves = i % 3 == 0;
+        const Vec3 way = 100.0 * random.unit(), aim(random.number(-0.3, 0.3), 0.0, random.number(-0.2, 0.4));
+        if (std::abs(way.y()) < 1.0) continue;
+        const double meet = random.number(0.1, 0.9);
+        const Pose pose = steps.obstacles[0].start;
+        Pose end = pose;
+        if (obstacle_moves) end.translation -= way;
+        steps.obstacles[0].end = end;
+        steps.tell_poses();
+        const auto start = shifted(cloth, aim - meet * way, 0.0, random);
+        const auto to = obstacle_moves ? start : shifted({.vertices = start, .triangles = {}}, way, 0.0, random);
+        const double safe = steps.detector->largest_safe_fraction(start, to, {0.0, 1.0});
+        // The plane of the triangle is y = 0, in its own frame.
+        bool crossing = false;
+        for (int v = 0; v < 3; ++v) {
+            const Vec3 x = start[v] + meet * way;
+            crossing = crossing || (x.z() > -0.2 && x.z() < 0.4 - 2.0 * std::abs(x.x()));
+        }
+        if (!crossing) {
+            ++free;
+            continue;
+        }
+        ++hits;
+        through += safe >= meet + 0.02 ? 1 : 0;
+        TriangleMesh here = cloth;
+        here.vertices = between(start, to, safe);
+        through += steps.obstacles[0].free_of(here, safe) ? 0 : 1;
+        // All of the cloth is still on the side it came from.
+        const double side = start[0].y() > 0 ? 1.0 : -1.0;
+        const double plane = safe * (end.translation.y() - pose.translation.y());
+        const bool beyond =
+            std::any_of(here.vertices.begin(), here.vertices.end(), [&](const Vec3& x) { return side * (x.y() - plane) <= 0.0; });
+        through += safe > 0.0 && beyond && safe < meet ? 1 : 0;
+    }
+    CHECK(hits > 400);
+    CHECK(free > 100);
+    CHECK(through == 0);
+}
+
+TEST_CASE("a move that meets nothing is not cut") {
+    Random random(410);
+    Steps steps = make_steps(Scene::ball, small_sheet(), backends().back());
+    for (int i = 0; i < 100; ++i) {
+        const auto x = shifted(steps.cloth, {0.0, 0.5, 0.0}, 0.05, random);
+        CHECK(steps.detector->largest_safe_fraction(x, shifted(steps.cloth, {0.3, 0.45, 0.2}, 0.05, random), {0.0, 1.0}) == 1.0);
+        const auto away = shifted({.vertices = x, .triangles = {}}, {0.0, 90.0, 0.0}, 0.0, random);
+        CHECK(steps.detector->largest_safe_fraction(x, away, {0.0, 1.0}) == 1.0);
+    }
+}
+
+TEST_CASE("cuts leave a fifth of the thickness, half of what was there, and never less than a thousandth of it") {
+    const TriangleMesh cloth{.vertices = {{0, 0, 0}, {0.01, 0, 0}, {0, 0, 0.01}}, .triangles = {{0, 1, 2}}};
+    Steps steps = make_steps(Scene::plane, cloth, backends().back());
+    Random random(420);
+    const auto left_after = [&](double height) {
+        const auto from = shifted(cloth, {0.1, height, 0.13}, 0.0, random), to = shifted(cloth, {0.1, -1.0, 0.13}, 0.0, random);
+        return between(from, to, steps.detector->largest_safe_fraction(from, to, {0.0, 1.0}))[0].y();
+    };
+    for (const double height : {10.0, 1.0, 0.1, 0.5 * thickness}) {
+        CHECK(left_after(height) > 0.2 * thickness);
+        CHECK(left_after(height) < 0.2 * thickness + 0.101 * (height - 0.2 * thickness));
+    }
+    for (const double height : {0.39 * thickness, 0.1 * thickness, 0.01 * thickness}) {
+        CHECK(left_after(height) > 0.5 * height);
+        CHECK(left_after(height) < 0.56 * height);
+    }
+    CHECK(left_after(1.5e-3 * thickness) > 1e-3 * thickness);
+    CHECK(left_after(1e-5 * thickness) > 0.998e-5 * thickness);
+    double height = 1.0;
+    for (int i = 0; i < 50; ++i) height = left_after(height);
+    CHECK(height > 1e-3 * thickness);
+}
+
+TEST_CASE("the lists of a step do not lose contacts when the cloth outruns the prediction") {
+    Random random(430);
+    Steps predicted = make_steps(Scene::spiky, small_sheet(), backends()[0]);
+    for (int i = 0; i < 40; ++i) {
+        const auto x = shifted(predicted.cloth, {0.0, 0.6, 0.0}, 0.02, random);
+        const auto far = shifted(predicted.cloth, random.point(0.3), 0.05, random);
+        Steps fresh = make_steps(Scene::spiky, small_sheet(), backends()[0]);
+        ContactRows a, b;
+        predicted.detector->refresh(x, x);
+        predicted.detector->evaluate(far, 0.5, a);
+        fresh.detector->refresh(far, far);
+        fresh.detector->evaluate(far, 0.5, b);
+        CHECK(a.distance.size() == b.distance.size());
+        std::sort(a.distance.begin(), a.distance.end());
+        std::sort(b.distance.begin(), b.distance.end());
+        if (a.size() == b.size())
+            CHECK(std::equal(a.distance.begin(), a.distance.end(), b.distance.begin(),
+                             [](double p, double q) { return std::abs(p - q) < 1e-14; }));
+    }
+}
+
+namespace {
+
+/// A vertex on the top of a box near its ridge, and round the ridge at its side.
+struct OverTheRidge {
+    Steps steps;
+    ContactRows rows;
+
+    OverTheRidge() : steps(make_steps(Scene::box, triangle(), backends()[0])) {}
+    static TriangleMesh triangle() {
+        return {.vertices = {{0, 0, 0}, {0.02, 0.05, 0.003}, {0.02, 0.05, -0.003}}, .triangles = {{0, 1, 2}}};
+    }
+    /// Place of the first vertex from the ridge (x = 0.2, y = 0.15), in thicknesses.
+    std::vector<Vec3> at(double x, double y) const {
+        std::vector<Vec3> result = steps.cloth.vertices;
+        for (Vec3& p : result) p += Vec3(0.2 + x * thickness, 0.15 + y * thickness, 0.04);
+        return result;
+    }
+    /// Contacts of the first vertex with triangles of the top.
+    int top_rows() const {
+        int count = 0;
+        const Obstacle box(steps.obstacles[0].mesh, {}, 0.0, make_brute_force_tree);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows.vertex[i][0] != 0 || rows.vertex[i][1] >= 0) continue;
+            const Triangle& t = box.surface().triangles[rows.feature[i]];
+            count += std::all_of(t.begin(), t.end(), [&](int v) { return box.at(v, 0).y() > 0.14; }) ? 1 : 0;
+        }
+        return count;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a contact stays one while it is near until the next refresh, even where a neighbour is nearer") {
+    OverTheRidge scene;
+    const auto top = scene.at(-0.02, 0.3), side = scene.at(0.3, -0.02);
+    auto& detector = *scene.steps.detector;
+    detector.refresh(top, top);
+    detector.evaluate(top, 0.0, scene.rows);
+    CHECK(scene.top_rows() == 1);
+    detector.evaluate(side, 0.0, scene.rows);
+    CHECK(scene.top_rows() == 1);
+    const std::size_t held = scene.rows.size();
+    detector.refresh(side, side);
+    detector.evaluate(side, 0.0, scene.rows);
+    CHECK(scene.top_rows() == 0);
+    CHECK(scene.rows.size() < held);
+    // Out of the thickness it is no row, back in it is one again.
+    detector.refresh(top, top);
+    detector.evaluate(top, 0.0, scene.rows);
+    detector.evaluate(scene.at(-0.02, 1.1), 0.0, scene.rows);
+    CHECK(scene.rows.size() == 0);
+}
+
+TEST_CASE("a contact also stays one when the cloth outruns its boxes and lists are made anew") {
+    OverTheRidge scene;
+    const auto top = scene.at(-0.3, 0.3), side = scene.at(0.6, -0.1);  // more than the room around a vertex
+    auto& detector = *scene.steps.detector;
+    detector.refresh(top, top);
+    detector.evaluate(top, 0.0, scene.rows);
+    REQUIRE(scene.top_rows() == 1);
+    detector.evaluate(side, 0.0, scene.rows);
+    CHECK(scene.top_rows() == 1);
+    detector.refresh(side, side);
+    detector.evaluate(side, 0.0, scene.rows);
+    CHECK(scene.top_rows() == 0);
+}
+
+TEST_CASE("a start is checked: clean, through, inside and touching are told apart") {
+    Random random(440);
+    Steps steps = make_steps(Scene::two, small_sheet(), backends().back());
+    const auto fault_at = [&](const Vec3& by) { return steps.detector->check_start(shifted(steps.cloth, by, 0.0, random)); };
+
+    const StartFault clean = fault_at({0.0, 0.5, 0.0});
+    CHECK_FALSE(clean.any());
+    CHECK(clean.obstacle == -1);
+    CHECK_FALSE(fault_at({0.0, 0.2001, 0.0}).any());
+
+    const StartFault through = fault_at({0.0, 0.1, 0.0});  // the box is 0.4 high
+    CHECK(through.any());
+    CHECK(through.obstacle == 0);
+    CHECK(through.intersecting_pairs > 0);
+    CHECK(through.vertices_inside == 1);
+    CHECK(through.inside_vertex == 12);
+    const TriangleMesh box = steps.obstacles[0].mesh;
+    REQUIRE(through.cloth_triangle >= 0);
+    REQUIRE(through.obstacle_triangle >= 0);
+    REQUIRE(through.obstacle_triangle < 12);
+
+    const StartFault second = fault_at({0.45, 0.05, 0.0});
+    CHECK(second.obstacle == 1);
+    CHECK(second.intersecting_pairs > 0);
+
+    const StartFault touching = fault_at({0.0, 0.2, 0.0});
+    CHECK(touching.any());
+    CHECK(touching.obstacle == 0);
+    CHECK(touching.intersecting_pairs == 0);
+    CHECK(touching.smallest_distance == 0.0);
+
+    Steps inner{.cloth = make_grid(0.05, 0.05, 3, 3),
+                .obstacles = {{.mesh = make_box({1, 1, 1}), .start = {}, .end = {}}},
+                .detector = nullptr};
+    inner.start(backends().back().make_detector(), thickness);
+    const StartFault inside = inner.detector->check_start(inner.cloth.vertices);
+    CHECK(inside.any());
+    CHECK(inside.intersecting_pairs == 0);
+    CHECK(inside.vertices_inside == 9);
+    CHECK(inside.inside_vertex >= 0);
+    CHECK(inside.obstacle == 0);
+}
+
+TEST_CASE("a start is checked where the obstacle is at the start of the step, not where it was built") {
+    Steps steps = make_steps(Scene::ball, small_sheet(), backends().back());
+    steps.obstacles[0].start.translation = Vec3(0, -3, 0);
+    steps.obstacles[0].end.translation = Vec3(0, 0, 0);
+    steps.tell_poses();
+    CHECK_FALSE(steps.detector->check_start(steps.cloth.vertices).any());
+    std::swap(steps.obstacles[0].start, steps.obstacles[0].end);
+    steps.tell_poses();
+    CHECK(steps.detector->check_start(steps.cloth.vertices).any());
+}
+
+TEST_CASE("obstacles are numbered in order, and one without any area is refused") {
+    const auto detector = make_detector(make_brute_force_tree);
+    const TriangleMesh cloth = small_sheet();
+    detector->set_cloth(cloth.triangles, std::vector<double>(25, thickness));
+    CHECK(detector->add_obstacle(make_box({1, 1, 1}), {}, 0.2) == 0);
+    CHECK(detector->add_obstacle(make_sphere(1, 1), {}, 0.2) == 1);
+    CHECK_THROWS(detector->add_obstacle({.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, .triangles = {{0, 1, 2}}}, {}, 0.2));
+    CHECK(detector->add_obstacle(make_sphere(1, 1), {}, 0.2) == 2);
+}
+
+TEST_CASE("without obstacles there is no contact, no cut and no fault") {
+    const auto detector = make_detector(make_brute_force_tree);
+    const TriangleMesh cloth = small_sheet();
+    detector->set_cloth(cloth.triangles, std::vector<double>(25, thickness));
+    ContactRows rows;
+    detector->refresh(cloth.vertices, cloth.vertices);
+    detector->evaluate(cloth.vertices, 0.0, rows);
+    CHECK(rows.size() == 0);
+    CHECK(detector->smallest_distance() == infinity);
+    CHECK(detector->largest_safe_fraction(cloth.vertices, cloth.vertices, {}) == 1.0);
+    CHECK_FALSE(detector->check_start(cloth.vertices).any());
+}

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "percale/mesh.h"
+#include "tests/support/collision_random.h"
+
+namespace percale::test {
+
+inline TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
+    for (Vec3& x : mesh.vertices) x += by;
+    return mesh;
+}
+
+inline TriangleMesh placed(TriangleMesh mesh, const Pose& pose) {
+    mesh.vertices = transform(pose, mesh.vertices);
+    return mesh;
+}
+
+inline TriangleMesh inside_out(TriangleMesh mesh) {
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+}
+
+inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
+    const int offset = static_cast<int>(a.vertices.size());
+    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+    for (const Triangle& t : b.triangles) a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+    return a;
+}
+
+/// A ball whose vertices are pulled out and pushed in along their radii: closed, not convex, no self-intersections.
+inline TriangleMesh spiky_ball(double radius, int level, double amplitude, unsigned seed) {
+    TriangleMesh ball = make_sphere(radius, level);
+    Random random(seed);
+    for (Vec3& x : ball.vertices) x *= 1.0 + random.number(-amplitude, amplitude);
+    return ball;
+}
+
+/// Unconnected triangles of very different sizes.
+inline TriangleMesh soup(int count, unsigned seed) {
+    Random random(seed);
+    TriangleMesh mesh;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 centre = random.point(0.5);
+        const double size = random.decades(1e-3, 0.5);
+        for (int k = 0; k < 3; ++k) mesh.vertices.push_back(centre + random.point(size));
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return mesh;
+}
+
+/// An L of height 1 along z: squares of side 1 at (0, 0), (1, 0) and (0, 1). Its valley is the edge at (1, 1), vertices 3 and 9.
+inline TriangleMesh l_solid() {
+    constexpr double outline[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+    TriangleMesh mesh;
+    for (const double z : {0.0, 1.0}) {
+        for (const auto& [x, y] : outline) mesh.vertices.emplace_back(x, y, z);
+    }
+    for (int i = 1; i + 1 < 6; ++i) {
+        mesh.triangles.push_back({6, 6 + i, 7 + i});
+        mesh.triangles.push_back({0, i + 1, i});
+    }
+    for (int i = 0; i < 6; ++i) {
+        const int j = (i + 1) % 6;
+        mesh.triangles.push_back({i, j, 6 + j});
+        mesh.triangles.push_back({i, 6 + j, 6 + i});
+    }
+    return mesh;
+}
+
+/// A square sheet with random bumps.
+inline TriangleMesh crumpled_sheet(double size, int count, double amplitude, Random& random) {
+    TriangleMesh sheet = make_grid(size, size, count, count);
+    for (Vec3& x : sheet.vertices) x += random.point(amplitude);
+    return sheet;
+}
+
+}  // namespace percale::test

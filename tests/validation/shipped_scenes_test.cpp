@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "scenes/expectations.h"
+#include "scenes/run_scene.h"
+#include "scenes/scene_file.h"
+#include "tests/support/catch.h"
+
+namespace percale::scenes {
+namespace {
+
+struct StepHashes {
+    std::uint64_t contact, state;
+    bool operator==(const StepHashes& other) const = default;
+};
+
+struct HashedRun {
+    RunResult result;
+    std::vector<StepHashes> hashes;
+};
+
+HashedRun run_hashed(const std::filesystem::path& file, const std::string& detector) {
+    HashedRun run;
+    const std::vector<Override> overrides{{"step.detector", detector}, {"duration", "1.0"}};
+    RunHooks hooks;
+    hooks.step = [&](const StepReport& report, const Simulation& simulation) {
+        run.hashes.push_back({report.contact_hash, simulation.state_hash()});
+    };
+    BuiltScene built = build_scene(load_scene(file.string(), overrides));
+    run.result = run_scene(built, hooks);
+    return run;
+}
+
+std::vector<std::filesystem::path> shipped_scenes() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(PERCALE_DATA_DIR) / "scenes")) {
+        if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+TEST_CASE("Shipped scenes have the same contacts and states in every step whatever finds the contacts") {
+    const auto file = GENERATE(from_range(shipped_scenes()));
+    CAPTURE(file.string());
+    const HashedRun with_fcl = run_hashed(file, "fcl");
+    REQUIRE(with_fcl.result.status == RunStatus::finished);
+    REQUIRE(with_fcl.hashes.size() == 60);
+    for (const char* detector : {"brute_force", "bullet"}) {
+        CAPTURE(detector);
+        const HashedRun other = run_hashed(file, detector);
+        const auto [differs, there] =
+            std::mismatch(with_fcl.hashes.begin(), with_fcl.hashes.end(), other.hashes.begin(), other.hashes.end());
+        CAPTURE(differs - with_fcl.hashes.begin());
+        CHECK(differs == with_fcl.hashes.end());
+    }
+}
+
+}  // namespace
+}  // namespace percale::scenes
