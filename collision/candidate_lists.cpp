@@ -18,6 +18,10 @@ int total_version(const Obstacles& obstacles) {
     return sum;
 }
 
+bool same_features(const ContactPair& a, const ContactPair& b) {
+    return a.kind == b.kind && a.cloth == b.cloth && a.obstacle == b.obstacle && a.feature == b.feature;
+}
+
 /// Adds those pairs of one cloth feature with the features of nearby triangles that are near enough.
 class PairCollector {
 public:
@@ -149,10 +153,14 @@ void CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
     const int version = total_version(obstacles);
     dirty_.clear();
     asked_.clear();
+    held_.clear();
     for (std::size_t i = 0; i < lists_.size(); ++i) {
         if (covers(i, move, version)) continue;
         dirty_.push_back(i);
         asked_.push_back(set_boxes(i, move));
+        for (const ContactPair& pair : lists_[i].pairs) {
+            if (pair.held) held_.emplace_back(i, pair);
+        }
         lists_[i].pairs.clear();
         lists_[i].version = version;
     }
@@ -167,9 +175,17 @@ void CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
             add_pairs(dirty_[k], static_cast<int>(number), near, move, *obstacles[number]);
         }
     }
+    mark_held();
     for (const std::size_t i : dirty_) {
         lists_[i].least_reach = std::numeric_limits<double>::infinity();
         for (const ContactPair& pair : lists_[i].pairs) lists_[i].least_reach = std::min(lists_[i].least_reach, pair.reach);
+    }
+}
+
+/// What was a contact in a list stays one in the list that replaces it.
+void CandidateLists::mark_held() {
+    for (const auto& [cluster, held] : held_) {
+        for (ContactPair& pair : lists_[cluster].pairs) pair.held = pair.held || same_features(pair, held);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cloth_clusters.h"
@@ -46,6 +47,7 @@ private:
     void set_rooms(std::size_t cluster, const ClothMove& move);
     std::span<const int> close_to(std::span<const int> vertices, std::span<const int> near, double thickness,
                                   const Obstacle& obstacle);
+    void mark_held();
     double shrink_of(std::size_t cluster, std::span<const Vec3> positions) const;
 
     std::vector<Triangle> triangles_;
@@ -58,6 +60,7 @@ private:
     std::vector<int> close_;         // triangles near the feature being paired
     std::vector<std::size_t> dirty_;
     std::vector<Box> asked_;
+    std::vector<std::pair<std::size_t, ContactPair>> held_;  // of the lists being replaced, with their clusters
     TriangleLists found_;
     double seen_fraction_ = 0.0;
     long builds_ = 0;

@@ -59,10 +59,10 @@ public:
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
-        lists_->cover({.from = start, .to = predicted, .part = {0.0, 1.0}}, obstacles_);
         for (ClusterList& list : lists_->lists()) {
             for (ContactPair& pair : list.pairs) pair.held = false;
         }
+        lists_->cover({.from = start, .to = predicted, .part = {0.0, 1.0}}, obstacles_);
     }
 
     void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) override {

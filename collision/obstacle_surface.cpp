@@ -134,26 +134,66 @@ void connect_vertices(ObstacleSurface& surface) {
     }
 }
 
-/// Height of the second opposite vertex over the plane of the edge's owner, relative to its distance: > 0 is a valley.
-double fold(const ObstacleSurface& surface, int edge) {
+/// Unit vector in the plane of a triangle from its edge ab towards its third vertex, square to the edge.
+Vec3 into_triangle(const Vec3& a, const Vec3& b, const Vec3& opposite) {
+    const Vec3 along = (b - a).normalized(), away = opposite - a;
+    return (away - along.dot(away) * along).normalized();
+}
+
+/// How the two triangles of an edge lie to each other.
+struct Fold {
+    bool flat;      // they continue each other
+    double height;  // of the second one over the plane of the first, at distance 1 from the edge: > 0 is a valley
+};
+
+Fold fold(const ObstacleSurface& surface, int edge) {
+    constexpr double flat = 1e-9;
     const SurfaceEdge& e = surface.edges[edge];
     const Triangle& t = surface.triangles[e.owner];
     const auto& x = surface.vertices;
     const Vec3 normal = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).normalized();
-    const std::span<const int> opposite = surface.opposites(edge);
-    const bool own_first = std::find(t.begin(), t.end(), opposite[0]) != t.end();
-    const Vec3 away = x[own_first ? opposite[1] : opposite[0]] - x[e.vertex[0]];
-    return away.dot(normal) / away.norm();
+    const std::span<const int> opposite = surface.opposites(edge);  // the owner's first
+    const Vec3 &a = x[e.vertex[0]], &b = x[e.vertex[1]];
+    const Vec3 first = into_triangle(a, b, x[opposite[0]]), second = into_triangle(a, b, x[opposite[1]]);
+    return {.flat = (first + second).norm() <= flat, .height = second.dot(normal)};
+}
+
+/// Whether the normals of a closed surface point away from what it encloses, in each of its parts: not on parts turned inside out
+/// nor around a cavity, where cloth may be behind a normal (inside is where the winding number is not 0).
+bool faces_outwards(const ObstacleSurface& surface) {
+    std::vector<int> part(surface.vertices.size(), -1);
+    for (std::size_t seed = 0; seed < part.size(); ++seed) {
+        if (part[seed] >= 0) continue;
+        std::vector<int> waiting{static_cast<int>(seed)};
+        part[seed] = static_cast<int>(seed);
+        while (!waiting.empty()) {
+            const int vertex = waiting.back();
+            waiting.pop_back();
+            for (const int other : surface.neighbours(vertex)) {
+                if (part[other] < 0) waiting.push_back(other);
+                part[other] = static_cast<int>(seed);
+            }
+        }
+    }
+    std::vector<double> volume(surface.vertices.size(), 0.0);  // six times, at the first vertex of each part
+    for (const auto& [a, b, c] : surface.triangles) {
+        const auto from_first = [&](int v) -> Vec3 { return surface.vertices[v] - surface.vertices[part[a]]; };
+        volume[part[a]] += from_first(a).dot(from_first(b).cross(from_first(c)));
+    }
+    for (std::size_t vertex = 0; vertex < part.size(); ++vertex) {
+        if (part[vertex] == static_cast<int>(vertex) && !(volume[vertex] > 0.0)) return false;
+    }
+    return true;
 }
 
 void mark_touchable(ObstacleSurface& surface) {
-    constexpr double flat = 1e-9;
+    const bool valleys_are_safe = surface.watertight && faces_outwards(surface);
     surface.vertex_can_touch.assign(surface.vertices.size(), false);
     for (std::size_t i = 0; i < surface.edges.size(); ++i) {
         SurfaceEdge& edge = surface.edges[i];
         if (surface.opposites(static_cast<int>(i)).size() == 2) {
-            const double height = fold(surface, static_cast<int>(i));
-            edge.can_touch = surface.watertight ? height < -flat : std::abs(height) > flat;
+            const auto [flat, height] = fold(surface, static_cast<int>(i));
+            edge.can_touch = !flat && !(valleys_are_safe && height > 0.0);
         }
         if (!edge.can_touch) continue;
         for (const int vertex : edge.vertex) surface.vertex_can_touch[vertex] = true;

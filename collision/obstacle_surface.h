@@ -12,8 +12,9 @@ namespace percale {
 
 struct SurfaceEdge {
     std::array<int, 2> vertex;
-    int owner = -1;         // the first triangle that has it
-    bool can_touch = true;  // false for flat edges, and for concave ones of a watertight surface: cloth meets the faces first
+    int owner = -1;  // the first triangle that has it
+    /// Not flat edges, nor valleys of a closed surface that faces outwards: cloth meets the faces there first.
+    bool can_touch = true;
 };
 
 /// What cleaning dropped.

@@ -113,7 +113,10 @@ std::vector<Vec3> cut_move(Steps& steps, std::span<const Vec3> from, std::span<c
 /// A step as a solver does it: a prediction, then corrections from where the cut left it while the obstacles are at the end or
 /// move on.
 void random_step(Steps& steps, std::vector<Vec3>& x, double speed, Random& random, CutOutcome& outcome) {
-    const auto aim = [&] { return shifted({.vertices = x, .triangles = {}}, random.point(speed), 0.2 * speed, random); };
+    const auto aim = [&] {
+        const Vec3 way = random.index(2) == 0 ? Vec3(-random.number(0.2, 2.0) * x[x.size() / 2]) : random.point(speed);
+        return shifted({.vertices = x, .triangles = {}}, way, 0.2 * speed, random);
+    };
     StepFraction part{0.0, 1.0};
     std::vector<Vec3> to = aim();
     steps.detector->refresh(x, to);
@@ -253,7 +256,7 @@ TEST_CASE("after a cut nothing crosses, on thousands of random moves through res
     Random random(360 + static_cast<int>(scene));
     Steps steps = make_steps(scene, small_sheet(), backends().back());
     CutOutcome outcome;
-    for (int run = 0; run < 25; ++run) {
+    for (int run = 0; run < 60; ++run) {
         set_poses(steps, moving, random);
         std::vector<Vec3> x = clean_start(steps, random);
         if (!steps.clean(x, 0.0)) continue;
@@ -264,8 +267,8 @@ TEST_CASE("after a cut nothing crosses, on thousands of random moves through res
             break;
         }
     }
-    CHECK(outcome.moves >= 100);
-    CHECK(outcome.cut > 30);
+    CHECK(outcome.moves > 200);
+    CHECK(outcome.cut > 70);
     CHECK(outcome.bad == 0);
 }
 
@@ -344,7 +347,7 @@ TEST_CASE("a move that meets nothing is not cut") {
     for (int i = 0; i < 100; ++i) {
         const auto x = shifted(steps.cloth, {0.0, 0.5, 0.0}, 0.05, random);
         CHECK(steps.detector->largest_safe_fraction(x, shifted(steps.cloth, {0.3, 0.45, 0.2}, 0.05, random), {0.0, 1.0}) == 1.0);
-        const auto away = shifted({.vertices = x, .triangles = {}}, {0.0, 90.0, 0.0}, 0.0, random);
+        const auto away = shifted({.vertices = x, .triangles = {}}, {0.0, i == 50 ? 100.0 : 1.0, 0.0}, 0.0, random);
         CHECK(steps.detector->largest_safe_fraction(x, away, {0.0, 1.0}) == 1.0);
     }
 }
@@ -375,22 +378,21 @@ TEST_CASE("cuts leave a fifth of the thickness, half of what was there, and neve
 TEST_CASE("the lists of a step do not lose contacts when the cloth outruns the prediction") {
     Random random(430);
     Steps predicted = make_steps(Scene::spiky, small_sheet(), backends()[0]);
-    for (int i = 0; i < 40; ++i) {
+    Steps fresh = make_steps(Scene::spiky, small_sheet(), backends()[0]);
+    int with_rows = 0, differing = 0;
+    for (int i = 0; i < 60; ++i) {
         const auto x = shifted(predicted.cloth, {0.0, 0.6, 0.0}, 0.02, random);
         const auto far = shifted(predicted.cloth, random.point(0.3), 0.05, random);
-        Steps fresh = make_steps(Scene::spiky, small_sheet(), backends()[0]);
         ContactRows a, b;
-        predicted.detector->refresh(x, x);
+        for (Steps* steps : {&predicted, &fresh}) steps->detector->refresh(x, x);
         predicted.detector->evaluate(far, 0.5, a);
         fresh.detector->refresh(far, far);
         fresh.detector->evaluate(far, 0.5, b);
-        CHECK(a.distance.size() == b.distance.size());
-        std::sort(a.distance.begin(), a.distance.end());
-        std::sort(b.distance.begin(), b.distance.end());
-        if (a.size() == b.size())
-            CHECK(std::equal(a.distance.begin(), a.distance.end(), b.distance.begin(),
-                             [](double p, double q) { return std::abs(p - q) < 1e-14; }));
+        with_rows += b.size() > 0 ? 1 : 0;
+        differing += same_rows(a, b) ? 0 : 1;
     }
+    CHECK(with_rows > 20);
+    CHECK(differing == 0);
 }
 
 namespace {
@@ -485,10 +487,16 @@ TEST_CASE("a start is checked: clean, through, inside and touching are told apar
     CHECK(second.obstacle == 1);
     CHECK(second.intersecting_pairs > 0);
 
-    const StartFault touching = fault_at({0.0, 0.2, 0.0});
+    // The sheet's border lies on the box's side.
+    Steps beside{.cloth = make_grid(0.5, 0.5, 5, 5),
+                 .obstacles = {{.mesh = make_box({0.5, 0.5, 0.5}), .start = {}, .end = {}}},
+                 .detector = nullptr};
+    beside.start(backends().back().make_detector(), thickness);
+    const StartFault touching = beside.detector->check_start(shifted(beside.cloth, {0.5, 0.0, 0.0}, 0.0, random));
     CHECK(touching.any());
     CHECK(touching.obstacle == 0);
     CHECK(touching.intersecting_pairs == 0);
+    CHECK(touching.vertices_inside == 0);
     CHECK(touching.smallest_distance == 0.0);
 
     Steps inner{.cloth = make_grid(0.05, 0.05, 3, 3),

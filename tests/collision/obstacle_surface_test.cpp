@@ -71,23 +71,23 @@ std::set<Edge> touchable_edges(const ObstacleSurface& surface) {
     return result;
 }
 
-/// A box whose edges along one side are cut off by a face of that width.
-TriangleMesh split_box_edge(double width) {
-    // Front edge along z at (0.5, 0.5) of a box: a face of tiny width in the plane of the side between it and the top.
-    TriangleMesh box;
+/// A prism along z with a ridge at (0, 0), beside which a side is split off as a face of tiny width, cut along its other
+/// diagonal.
+TriangleMesh narrow_ridge(double width) {
+    TriangleMesh prism;
     for (const double z : {0.0, 1.0}) {
-        box.vertices.insert(box.vertices.end(), {{-1, -1, z}, {0, -1, z}, {0, -width, z}, {0, 0, z}, {-1, 0, z}});
-    }
-    for (int i = 1; i + 1 < 5; ++i) {
-        box.triangles.push_back({5, 5 + i, 6 + i});
-        box.triangles.push_back({0, i + 1, i});
+        prism.vertices.insert(prism.vertices.end(), {{-1, -1, z}, {0, -1, z}, {0, -width, z}, {0, 0, z}, {-1, 0, z}});
     }
     for (const int i : {3, 0, 1, 2, 4}) {  // the top first: it owns its edges
         const int j = (i + 1) % 5;
-        box.triangles.push_back({i, j, 5 + j});
-        box.triangles.push_back({i, 5 + j, 5 + i});
+        prism.triangles.push_back({i, j, 5 + i});
+        prism.triangles.push_back({j, 5 + j, 5 + i});
     }
-    return box;
+    for (int i = 1; i + 1 < 5; ++i) {
+        prism.triangles.push_back({5, 5 + i, 6 + i});
+        prism.triangles.push_back({0, i + 1, i});
+    }
+    return prism;
 }
 
 }  // namespace
@@ -223,10 +223,11 @@ TEST_CASE("an open sheet can be touched at its border and its folds, both ways, 
     CHECK_FALSE(flat.vertex_can_touch[4]);
     const double lift = GENERATE(0.1, -0.1);
     sheet.vertices[4].y() = lift;
-    const ObstacleSurface tent = surface_of(sheet);
-    CHECK(tent.vertex_can_touch[4]);
-    for (const SurfaceEdge& e : tent.edges) {
-        if (e.vertex[0] == 4 || e.vertex[1] == 4) CHECK(e.can_touch);
+    const ObstacleSurface pyramid = surface_of(sheet);  // its four faces are pairs of triangles, its ridges the diagonals
+    CHECK(pyramid.vertex_can_touch[4]);
+    for (const SurfaceEdge& e : pyramid.edges) {
+        const int other = e.vertex[0] == 4 ? e.vertex[1] : e.vertex[1] == 4 ? e.vertex[0] : -1;
+        if (other >= 0) CHECK(e.can_touch == (other % 2 == 0));
     }
 }
 
@@ -246,11 +247,21 @@ TEST_CASE("a closed surface turned inside out is still guarded at its edges") {
 
 TEST_CASE("a ridge next to a very narrow face can be touched") {
     const double width = GENERATE(1e-3, 1e-8, 1e-10, 1e-12);
-    const ObstacleSurface box = surface_of(split_box_edge(width));
+    const ObstacleSurface prism = surface_of(narrow_ridge(width));
     INFO("width " << width);
-    REQUIRE(box.watertight);
-    const std::set<Edge> touchable = touchable_edges(box);
-    CHECK(touchable.count({3, 8}) + touchable.count({2, 7}) + touchable.count({2, 8}) + touchable.count({3, 7}) > 0);
+    REQUIRE(prism.watertight);
+    const std::set<Edge> touchable = touchable_edges(prism);
+    CHECK(touchable.count({3, 8}) + touchable.count({2, 7}) > 0);
+}
+
+TEST_CASE("the rim of a plate without thickness can be touched, its flat inside cannot") {
+    // Two sheets of opposite sense on the same square, split along different diagonals: closed.
+    const TriangleMesh plate{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}},
+                             .triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}};
+    const ObstacleSurface surface = surface_of(plate);
+    CHECK(surface.watertight);
+    for (int i = 0; i < 4; ++i) CHECK(touchable_edges(surface).count(std::minmax(i, (i + 1) % 4)) == 1);
+    CHECK(touchable_edges(surface).size() == 4);
 }
 
 TEST_CASE("a point faces an edge or vertex only inside its normal cone") {

@@ -1,0 +1,194 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/model/cloth_model.h"
+#include "engine/model/step_plan.h"
+#include "engine/solve/explicit_update.h"
+#include "engine/solve/newton.h"
+#include "engine/step/world.h"
+#include "percale/percale.h"
+#include "tests/support/collision_random.h"
+
+namespace percale::test {
+
+/// The sheet that every measured figure refers to.
+inline Fabric sheet_fabric() {
+    return {.area_density = 0.2,
+            .thickness = 0.005,
+            .springs = {.structural = 1000.0, .shear = 500.0, .bend = 10.0},
+            .spring_damping = 0.1};
+}
+
+/// One spring of a hand-made system.
+struct Link {
+    int first, second;
+    double rest_length, stiffness, damping;
+};
+
+/// Masses and springs without a mesh: pairs, ropes, strings, random networks. One cloth of all vertices.
+inline ClothModel linked_masses(const std::vector<double>& mass, const std::vector<Link>& links) {
+    ClothModel model;
+    model.mass = mass;
+    model.thickness.assign(mass.size(), 0.005);
+    ClothRange range{.name = "links", .first = 0, .count = static_cast<int>(mass.size())};
+    for (const double m : mass) range.mass += m;
+    model.cloths = {range};
+    for (const Link& link : links) {
+        model.springs.first.push_back(link.first);
+        model.springs.second.push_back(link.second);
+        model.springs.rest_length.push_back(link.rest_length);
+        model.springs.stiffness.push_back(link.stiffness);
+        model.springs.damping.push_back(link.damping);
+        model.springs.kind.push_back(SpringKind::structural);
+    }
+    finish_model(model);
+    return model;
+}
+
+inline ClothModel cloth_model(const TriangleMesh& mesh, const Fabric& fabric) {
+    ClothModel model;
+    append_cloth(model, mesh, fabric, "cloth");
+    finish_model(model);
+    return model;
+}
+
+/// Random springs between random points, some stretched, some compressed; every vertex has one at least.
+inline std::vector<Link> random_links(Random& random, int vertices, int links) {
+    std::vector<Link> result;
+    for (int k = 0; k < links; ++k) {
+        const int first = k < vertices ? k : random.index(vertices);
+        const int second = (first + 1 + random.index(vertices - 1)) % vertices;
+        result.push_back({first, second, random.number(0.2, 1.5), random.decades(1.0, 1e4), random.number(0.0, 2.0)});
+    }
+    return result;
+}
+
+inline std::vector<double> random_masses(Random& random, int count) {
+    std::vector<double> masses;
+    for (int i = 0; i < count; ++i) masses.push_back(random.decades(1e-3, 1e-1));
+    return masses;
+}
+
+inline std::vector<Vec3> random_points(Random& random, int count, double size) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < count; ++i) points.push_back(random.point(size));
+    return points;
+}
+
+inline Vectors to_vectors(const std::vector<Vec3>& points) {
+    Vectors vectors;
+    vectors.resize(static_cast<int>(points.size()));
+    copy_in(points, vectors);
+    return vectors;
+}
+
+inline std::vector<Vec3> to_points(const Vectors& vectors, int count) {
+    std::vector<Vec3> points(count);
+    copy_out(vectors, points);
+    return points;
+}
+
+/// Exactly the same bits in every entry that belongs to a vertex.
+inline bool same_bits(const Vectors& a, const Vectors& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+inline double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    double largest = a.size() == b.size() ? 0.0 : 1e300;
+    for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
+    return largest;
+}
+
+/// A model with its state and all that a solver wants beside it. Not to be moved after the first solve.
+struct SolverScene {
+    StepSettings settings;
+    ClothModel model;
+    ClothState state;
+    StepPlan plan;
+    std::vector<double> free;
+    Vectors targets;
+    std::unique_ptr<ContactDetector> detector;
+    NewtonOptions options;
+    NewtonSpace newton;
+    ExplicitSpace explicit_space;
+    StageTimes stages;
+
+    void pin(int vertex) { free[vertex] = 0.0; }
+
+    NewtonReport step_implicit() {
+        const ImplicitPart part{.model = &model,
+                                .settings = &settings,
+                                .plan = &plan,
+                                .detector = detector.get(),
+                                .targets = &targets,
+                                .free = &free,
+                                .dt = settings.time_step,
+                                .full_step = settings.time_step,
+                                .span = {},
+                                .options = options};
+        return solve_implicit(part, newton, state, stages);
+    }
+
+    void step_explicit() {
+        const ExplicitPart part{
+            .model = &model, .settings = &settings, .targets = &targets, .free = &free, .dt = settings.time_step};
+        settings.scheme == Scheme::rk4 ? step_rk4(part, explicit_space, state) : step_symplectic_euler(part, explicit_space, state);
+    }
+
+    void step() {
+        if (settings.scheme != Scheme::backward_euler) return step_explicit();
+        step_implicit();
+    }
+};
+
+inline SolverScene solver_scene(ClothModel model, const std::vector<Vec3>& positions, const StepSettings& settings) {
+    SolverScene scene;
+    scene.settings = settings;
+    scene.model = std::move(model);
+    scene.state.positions = to_vectors(positions);
+    scene.state.velocities.resize(scene.model.vertex_count());
+    scene.state.points = positions;
+    scene.plan = make_step_plan(settings, {.cloth_vertices = scene.model.vertex_count()});
+    scene.free.assign(scene.state.positions.padded_size(), 0.0);
+    for (int i = 0; i < scene.model.vertex_count(); ++i) scene.free[i] = 1.0;
+    scene.targets = scene.state.positions;
+    return scene;
+}
+
+inline SolverScene solver_scene(const TriangleMesh& mesh, const Fabric& fabric, const StepSettings& settings) {
+    return solver_scene(cloth_model(mesh, fabric), mesh.vertices, settings);
+}
+
+/// The same as a World, the state that steps work on.
+inline World make_world(ClothModel model, const std::vector<Vec3>& positions, const StepSettings& settings) {
+    SolverScene scene = solver_scene(std::move(model), positions, settings);
+    World world;
+    world.settings = settings;
+    world.model = std::move(scene.model);
+    world.state = std::move(scene.state);
+    world.script.free = std::move(scene.free);
+    world.script.pin_targets = std::move(scene.targets);
+    return world;
+}
+
+/// What a SceneError says; empty if nothing was thrown.
+template <class Call>
+std::string scene_error(Call&& call) {
+    try {
+        call();
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+inline bool mentions(const std::string& text, const std::vector<std::string>& parts) {
+    for (const std::string& part : parts) {
+        if (text.find(part) == std::string::npos) return false;
+    }
+    return true;
+}
+
+}  // namespace percale::test
