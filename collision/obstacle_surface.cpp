@@ -158,27 +158,32 @@ Fold fold(const ObstacleSurface& surface, int edge) {
     return {.flat = (first + second).norm() <= flat, .height = second.dot(normal)};
 }
 
-/// Whether the normals of a closed surface point away from what it encloses, in each of its parts: not on parts turned inside out
-/// nor around a cavity, where cloth may be behind a normal (inside is where the winding number is not 0).
-bool faces_outwards(const ObstacleSurface& surface) {
-    std::vector<int> part(surface.vertices.size(), -1);
+/// For each vertex the first vertex of its part of the surface.
+std::vector<int> connected_parts(const ObstacleSurface& surface) {
+    std::vector<int> part(surface.vertices.size(), -1), waiting;
     for (std::size_t seed = 0; seed < part.size(); ++seed) {
-        if (part[seed] >= 0) continue;
-        std::vector<int> waiting{static_cast<int>(seed)};
-        part[seed] = static_cast<int>(seed);
+        if (part[seed] < 0) waiting.push_back(static_cast<int>(seed));
         while (!waiting.empty()) {
             const int vertex = waiting.back();
             waiting.pop_back();
-            for (const int other : surface.neighbours(vertex)) {
-                if (part[other] < 0) waiting.push_back(other);
-                part[other] = static_cast<int>(seed);
-            }
+            if (part[vertex] >= 0) continue;
+            part[vertex] = static_cast<int>(seed);
+            const std::span<const int> ring = surface.neighbours(vertex);
+            waiting.insert(waiting.end(), ring.begin(), ring.end());
         }
     }
+    return part;
+}
+
+/// Whether the normals of a closed surface point away from what it encloses, in each of its parts: not on parts turned inside out
+/// nor around a cavity, where cloth may be behind a normal (inside is where the winding number is not 0).
+bool faces_outwards(const ObstacleSurface& surface) {
+    const std::vector<int> part = connected_parts(surface);
     std::vector<double> volume(surface.vertices.size(), 0.0);  // six times, at the first vertex of each part
-    for (const auto& [a, b, c] : surface.triangles) {
-        const auto from_first = [&](int v) -> Vec3 { return surface.vertices[v] - surface.vertices[part[a]]; };
-        volume[part[a]] += from_first(a).dot(from_first(b).cross(from_first(c)));
+    for (const Triangle& t : surface.triangles) {
+        const int first = part[t[0]];
+        const auto from_first = [&](int v) -> Vec3 { return surface.vertices[v] - surface.vertices[first]; };
+        volume[first] += from_first(t[0]).dot(from_first(t[1]).cross(from_first(t[2])));
     }
     for (std::size_t vertex = 0; vertex < part.size(); ++vertex) {
         if (part[vertex] == static_cast<int>(vertex) && !(volume[vertex] > 0.0)) return false;

@@ -21,6 +21,39 @@ PointTriangle at_edge(const Vec3& p, const Vec3& from, const Vec3& to, double fr
     return result;
 }
 
+PointTriangle at_face(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const std::array<double, 3>& weight) {
+    const double v = weight[1], w = weight[2];
+    const Vec3 x = a + v * (b - a) + w * (c - a);
+    return {.distance_squared = (p - x).squaredNorm(),
+            .weight = {1.0 - v - w, v, w},
+            .region = TriangleRegion::face,
+            .corner = 0,
+            .point = x};
+}
+
+PointTriangle on_segment(const Vec3& p, const Vec3& from, const Vec3& to, int corner) {
+    const Vec3 along = to - from;
+    const double length = along.squaredNorm(), way = along.dot(p - from);
+    if (!(way > 0.0)) return at_vertex(p, from, corner);
+    if (way >= length) return at_vertex(p, to, (corner + 1) % 3);
+    return at_edge(p, from, to, way / length, corner);
+}
+
+/// For triangles so narrow that products of dot products have no digits of the area left: weights by cross products, which lose
+/// half as many, and the edges where these do not agree on the inside.
+PointTriangle on_sliver(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    PointTriangle best = on_segment(p, a, b, 0);
+    for (const PointTriangle& other : {on_segment(p, b, c, 1), on_segment(p, c, a, 2)}) {
+        if (other.distance_squared < best.distance_squared) best = other;
+    }
+    const Vec3 normal = (b - a).cross(c - a);
+    const double area = normal.squaredNorm();
+    const double v = normal.dot((p - a).cross(c - a)) / area, w = normal.dot((b - a).cross(p - a)) / area;
+    if (!(area > 0.0 && v > 0.0 && w > 0.0 && v + w < 1.0)) return best;
+    const PointTriangle inside = at_face(p, a, b, c, {1.0 - v - w, v, w});
+    return inside.distance_squared < best.distance_squared ? inside : best;
+}
+
 }  // namespace
 
 PointTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -39,21 +72,20 @@ PointTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
     if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return at_edge(p, c, a, 1.0 - d2 / (d2 - d6), 2);
     const double va = d3 * d6 - d5 * d4;
     if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return at_edge(p, b, c, (d4 - d3) / ((d4 - d3) + (d5 - d6)), 1);
-    const double scale = 1.0 / (va + vb + vc), v = vb * scale, w = vc * scale;
-    const Vec3 x = a + v * ab + w * ac;
-    return {.distance_squared = (p - x).squaredNorm(),
-            .weight = {1.0 - v - w, v, w},
-            .region = TriangleRegion::face,
-            .corner = 0,
-            .point = x};
+    // The sum is |ab x ac|^2 with the rounding of the longest edge to the fourth.
+    const double sum = va + vb + vc, longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+    if (!(sum > 1e-6 * longest * longest)) return on_sliver(p, a, b, c);
+    return at_face(p, a, b, c, {va / sum, vb / sum, vc / sum});
 }
 
 EdgeEdge closest_on_edges(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
     const Vec3 u = q - p, v = b - a, r = p - a;
     const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r);
-    const double determinant = uu * vv - uv * uv;
-    // Nearly parallel segments: any s will do, the clamping below finds the closest t and then s again.
-    double s = determinant > 1e-12 * uu * vv ? std::clamp((uv * vr - ur * vv) / determinant, 0.0, 1.0) : 0.0;
+    // Where the lines are closest, by cross products: uu vv - uv^2 has no digits left for angles below 1e-8. For parallel lines
+    // any s will do, the clamping below finds the closest t and then s again.
+    const Vec3 normal = u.cross(v);
+    const double area = normal.squaredNorm();
+    double s = area > 0.0 ? std::clamp(normal.dot(v.cross(r)) / area, 0.0, 1.0) : 0.0;
     double t = vv > 0.0 ? (uv * s + vr) / vv : 0.0;
     if (t < 0.0 || t > 1.0 || vv == 0.0) {
         t = std::clamp(t, 0.0, 1.0);

@@ -5,13 +5,18 @@
 namespace percale {
 namespace {
 
+std::string numbered(const char* what, int number, const std::string& name) {
+    return std::string(what) + " " + std::to_string(number) + (name.empty() ? "" : " (" + name + ")");
+}
+
 std::string failure_text(const StepReport& report) {
     std::ostringstream text;
     const std::string blocker =
-        report.blocking_obstacle >= 0 ? "obstacle " + std::to_string(report.blocking_obstacle) : "the obstacles";
+        report.blocking_obstacle >= 0 ? numbered("obstacle", report.blocking_obstacle, report.blocking_name) : "the obstacles";
     switch (report.status) {
         case StepStatus::pin_blocked:
-            text << "pinned vertex " << report.blocked_vertex << " of cloth " << report.blocked_cloth
+            text << "pinned vertex " << report.blocked_vertex << " of "
+                 << numbered("cloth", report.blocked_cloth, report.blocked_name)
                  << " cannot reach its target without taking the cloth through " << blocker;
             break;
         case StepStatus::obstacle_too_fast:

@@ -121,7 +121,9 @@ TriangleMesh make_sphere(double radius, int level) {
 }
 
 TriangleMesh make_box(const Vec3& size) {
-    require(is_length(size.x()) && is_length(size.y()) && is_length(size.z()), "make_box: edge lengths must be positive, in m");
+    require(is_length(size.x()) && is_length(size.y()) && is_length(size.z()),
+            "make_box: edge lengths must be positive, in m, got " + std::to_string(size.x()) + ", " + std::to_string(size.y()) +
+                " and " + std::to_string(size.z()));
     TriangleMesh mesh;
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 sign((corner & 1) ? 0.5 : -0.5, (corner & 2) ? 0.5 : -0.5, (corner & 4) ? 0.5 : -0.5);
@@ -133,14 +135,16 @@ TriangleMesh make_box(const Vec3& size) {
 }
 
 TriangleMesh make_cylinder(double radius, double height, int segments) {
-    require(is_length(radius) && is_length(height), "make_cylinder: radius and height must be positive lengths in m");
+    require(is_length(radius) && is_length(height), "make_cylinder: radius and height must be positive lengths in m, got " +
+                                                        std::to_string(radius) + " and " + std::to_string(height));
     require(segments >= 3, "make_cylinder: at least 3 segments, got " + std::to_string(segments));
     return revolve({{radius, -height / 2}, {radius, height / 2}}, -height / 2, height / 2, segments);
 }
 
 TriangleMesh make_capsule(double radius, double height, int segments) {
     require(is_length(radius) && std::isfinite(height) && height >= 0.0,
-            "make_capsule: radius must be a positive length and height not negative, in m");
+            "make_capsule: radius must be a positive length and height not negative, in m, got " + std::to_string(radius) +
+                " and " + std::to_string(height));
     require(segments >= 4 && segments % 4 == 0,
             "make_capsule: segments must be a multiple of 4, at least 4, got " + std::to_string(segments));
     const int quarter = segments / 4;

@@ -17,7 +17,7 @@ public:
         total_ += gain;
     }
     bool small_enough(const SolveTarget& target) const {
-        if (target.relative_gain <= 0.0 || count_ < gain_window) return false;
+        if ((target.relative_gain <= 0.0 && target.absolute_gain <= 0.0) || count_ < gain_window) return false;
         double recent = 0.0;
         for (const double gain : window_) recent += gain;
         return recent <= std::max(target.relative_gain * target.relative_gain * total_, target.absolute_gain);

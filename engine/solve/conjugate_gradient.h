@@ -7,7 +7,7 @@ namespace percale {
 
 /// When to stop. A rule is off where its number is 0; the first that holds ends the solve.
 struct SolveTarget {
-    double relative_residual = 0.0;  // |r| <= this |b|
+    double relative_residual = 0.0;  // |r| <= this |r at the start|, over free vertices
     /// Energy norm of the error, estimated by the gains alpha_k (r.z)_k of the last `gain_window` iterations (Hestenes and
     /// Stiefel's error formula): their sum <= relative_gain^2 (sum of all gains), or <= absolute_gain (J s^2).
     double relative_gain = 0.0;

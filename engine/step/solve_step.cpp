@@ -81,6 +81,7 @@ void name_blocked_pin(World& world) {
             farthest = missing;
             world.report.blocked_cloth = static_cast<int>(c);
             world.report.blocked_vertex = i - cloth.first;
+            world.report.blocked_name = cloth.name;
         }
     }
 }
@@ -91,6 +92,7 @@ void name_blocking_obstacle(World& world) {
     if (rows.size() == 0) return;
     const auto closest = std::min_element(rows.distance.begin(), rows.distance.end());
     world.report.blocking_obstacle = rows.obstacle[static_cast<std::size_t>(closest - rows.distance.begin())];
+    world.report.blocking_name = world.script.obstacles[world.report.blocking_obstacle].name;
 }
 
 void fail(World& world, NewtonEnd end) {

@@ -1,71 +1,18 @@
 #include "collision/detector.h"
 
 #include <algorithm>
-#include <limits>
+#include <tuple>
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_backends.h"
 #include "tests/support/collision_pairs.h"
 #include "tests/support/collision_random.h"
-#include "tests/support/collision_shapes.h"
-#include "tests/support/collision_steps.h"
+#include "tests/support/collision_scenes.h"
 #include "tests/support/collision_truth.h"
 
 using namespace percale;
 using namespace percale::test;
 
 namespace {
-
-constexpr double thickness = 0.03;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-enum class Scene { ball, box, spiky, two, single_triangle, plane };
-
-std::vector<TriangleMesh> meshes(Scene scene) {
-    switch (scene) {
-        case Scene::ball:
-            return {make_sphere(0.25, 2)};
-        case Scene::box:
-            return {make_box({0.4, 0.3, 0.35})};
-        case Scene::spiky:
-            return {spiky_ball(0.25, 1, 0.5, 17)};
-        case Scene::two:
-            return {make_box({0.2, 0.4, 0.2}), moved(make_sphere(0.15, 1), {0.4, 0, 0})};
-        case Scene::single_triangle:
-            return {{.vertices = {{-0.3, 0, -0.2}, {0.3, 0, -0.2}, {0, 0, 0.4}}, .triangles = {{0, 2, 1}}}};
-        default:
-            return {make_plane(0.5)};
-    }
-}
-
-Pose turned_further(const Pose& pose, double way, Random& random) {
-    Pose next = pose;
-    next.translation += random.point(way);
-    next.rotation = random.rotation();
-    return next;
-}
-
-/// Poses of the coming step: at rest every other one unless `moving`, in which case shifted and turned.
-void set_poses(Steps& steps, bool moving, Random& random) {
-    for (MovingMesh& o : steps.obstacles) {
-        o.start = random.pose(0.05);
-        o.end = moving ? turned_further(o.start, 0.05, random) : o.start;
-    }
-    if (steps.detector) steps.tell_poses();
-}
-
-Steps make_steps(Scene scene, const TriangleMesh& cloth, const Backend& backend) {
-    Steps steps{.cloth = cloth, .obstacles = {}, .detector = nullptr};
-    for (TriangleMesh& mesh : meshes(scene)) steps.obstacles.push_back({.mesh = mesh, .start = {}, .end = {}});
-    steps.start(backend.make_detector(), thickness);
-    return steps;
-}
-
-std::vector<Vec3> shifted(const TriangleMesh& cloth, const Vec3& by, double noise, Random& random) {
-    std::vector<Vec3> x;
-    for (const Vec3& p : cloth.vertices) x.push_back(p + by + random.point(noise));
-    return x;
-}
 
 /// The same scene with every backend of the build.
 std::vector<Steps> with_all_backends(Scene scene, const TriangleMesh& cloth) {
@@ -126,7 +73,30 @@ void random_step(Steps& steps, std::vector<Vec3>& x, double speed, Random& rando
     }
 }
 
-TriangleMesh small_sheet() { return make_grid(0.4, 0.4, 5, 5); }
+/// Obstacle, feature, distance.
+using Contact = std::tuple<int, int, double>;
+
+/// A cloth edge may be named the other way round, which costs a rounding.
+bool nearly_same(const Contact& a, const Contact& b) {
+    return std::get<0>(a) == std::get<0>(b) && std::get<1>(a) == std::get<1>(b) &&
+           std::abs(std::get<2>(a) - std::get<2>(b)) < 1e-14;
+}
+
+/// Contacts without lists, boxes or trees; not those of cloth faces, whose edges' owners are the lists' choice.
+std::vector<Contact> contacts_of_all_pairs(const Steps& steps, std::span<const Vec3> x, double fraction) {
+    std::vector<Contact> contacts;
+    for (int o = 0; o < int(steps.obstacles.size()); ++o) {
+        Obstacle obstacle(steps.obstacles[o].mesh, {}, 0.0, make_brute_force_tree);
+        obstacle.move(steps.obstacles[o].start, steps.obstacles[o].end);
+        for (const ContactPair& pair : all_pairs(steps.cloth, obstacle, true)) {
+            const PairContact contact = pair_contact(pair, x, obstacle, fraction);
+            const bool counts = pair.kind != PairKind::face_vertex && contact.distance < thickness && contact.local_minimum;
+            if (counts) contacts.emplace_back(o, pair.feature, contact.distance);
+        }
+    }
+    std::sort(contacts.begin(), contacts.end());
+    return contacts;
+}
 
 }  // namespace
 
@@ -170,30 +140,16 @@ TEST_CASE("rows are those of all pairs of features that are near and local minim
         if (moving) set_poses(steps, true, random);
         const double fraction = random.number(0.0, 1.0);
         const auto x = shifted(placed(sheet, random.pose(0.0)), random.point(0.25), 0.03, random);
-        std::multiset<std::tuple<int, int, double>> expected, found;
-        for (int o = 0; o < int(steps.obstacles.size()); ++o) {
-            Obstacle obstacle(steps.obstacles[o].mesh, {}, 0.0, make_brute_force_tree);
-            obstacle.move(steps.obstacles[o].start, steps.obstacles[o].end);
-            for (const ContactPair& pair : all_pairs(sheet, obstacle, true)) {
-                if (pair.kind == PairKind::face_vertex) continue;  // which triangle owns an edge is the lists' choice
-                const PairContact contact = pair_contact(pair, x, obstacle, fraction);
-                if (contact.distance < thickness && contact.local_minimum) expected.insert({o, pair.feature, contact.distance});
-            }
-        }
+        const std::vector<Contact> expected = contacts_of_all_pairs(steps, x, fraction);
         ContactRows rows;
         steps.detector->refresh(x, x);
         steps.detector->evaluate(x, fraction, rows);
+        std::vector<Contact> found;
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (rows.vertex[i][2] < 0) found.insert({rows.obstacle[i], rows.feature[i], rows.distance[i]});
+            if (rows.vertex[i][2] < 0) found.push_back({rows.obstacle[i], rows.feature[i], rows.distance[i]});
         }
-        CHECK(found.size() == expected.size());
-        // An edge may be named the other way round, which costs a rounding.
-        const bool equal = found.size() == expected.size() &&
-                           std::equal(found.begin(), found.end(), expected.begin(), [](const auto& a, const auto& b) {
-                               return std::get<0>(a) == std::get<0>(b) && std::get<1>(a) == std::get<1>(b) &&
-                                      std::abs(std::get<2>(a) - std::get<2>(b)) < 1e-14;
-                           });
-        CHECK(equal);
+        std::sort(found.begin(), found.end());
+        CHECK(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), nearly_same));
         expected_rows += static_cast<long>(expected.size());
     }
     CHECK(expected_rows > 0);
@@ -393,154 +349,4 @@ TEST_CASE("the lists of a step do not lose contacts when the cloth outruns the p
     }
     CHECK(with_rows > 20);
     CHECK(differing == 0);
-}
-
-namespace {
-
-/// A vertex on the top of a box near its ridge, and round the ridge at its side.
-struct OverTheRidge {
-    Steps steps;
-    ContactRows rows;
-
-    OverTheRidge() : steps(make_steps(Scene::box, triangle(), backends()[0])) {}
-    static TriangleMesh triangle() {
-        return {.vertices = {{0, 0, 0}, {0.02, 0.05, 0.003}, {0.02, 0.05, -0.003}}, .triangles = {{0, 1, 2}}};
-    }
-    /// Place of the first vertex from the ridge (x = 0.2, y = 0.15), in thicknesses.
-    std::vector<Vec3> at(double x, double y) const {
-        std::vector<Vec3> result = steps.cloth.vertices;
-        for (Vec3& p : result) p += Vec3(0.2 + x * thickness, 0.15 + y * thickness, 0.04);
-        return result;
-    }
-    /// Contacts of the first vertex with triangles of the top.
-    int top_rows() const {
-        int count = 0;
-        const Obstacle box(steps.obstacles[0].mesh, {}, 0.0, make_brute_force_tree);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (rows.vertex[i][0] != 0 || rows.vertex[i][1] >= 0) continue;
-            const Triangle& t = box.surface().triangles[rows.feature[i]];
-            count += std::all_of(t.begin(), t.end(), [&](int v) { return box.at(v, 0).y() > 0.14; }) ? 1 : 0;
-        }
-        return count;
-    }
-};
-
-}  // namespace
-
-TEST_CASE("a contact stays one while it is near until the next refresh, even where a neighbour is nearer") {
-    OverTheRidge scene;
-    const auto top = scene.at(-0.02, 0.3), side = scene.at(0.3, -0.02);
-    auto& detector = *scene.steps.detector;
-    detector.refresh(top, top);
-    detector.evaluate(top, 0.0, scene.rows);
-    CHECK(scene.top_rows() == 1);
-    detector.evaluate(side, 0.0, scene.rows);
-    CHECK(scene.top_rows() == 1);
-    const std::size_t held = scene.rows.size();
-    detector.refresh(side, side);
-    detector.evaluate(side, 0.0, scene.rows);
-    CHECK(scene.top_rows() == 0);
-    CHECK(scene.rows.size() < held);
-    // Out of the thickness it is no row, back in it is one again.
-    detector.refresh(top, top);
-    detector.evaluate(top, 0.0, scene.rows);
-    detector.evaluate(scene.at(-0.02, 1.1), 0.0, scene.rows);
-    CHECK(scene.rows.size() == 0);
-}
-
-TEST_CASE("a contact also stays one when the cloth outruns its boxes and lists are made anew") {
-    OverTheRidge scene;
-    const auto top = scene.at(-0.3, 0.3), side = scene.at(0.6, -0.1);  // more than the room around a vertex
-    auto& detector = *scene.steps.detector;
-    detector.refresh(top, top);
-    detector.evaluate(top, 0.0, scene.rows);
-    REQUIRE(scene.top_rows() == 1);
-    detector.evaluate(side, 0.0, scene.rows);
-    CHECK(scene.top_rows() == 1);
-    detector.refresh(side, side);
-    detector.evaluate(side, 0.0, scene.rows);
-    CHECK(scene.top_rows() == 0);
-}
-
-TEST_CASE("a start is checked: clean, through, inside and touching are told apart") {
-    Random random(440);
-    Steps steps = make_steps(Scene::two, small_sheet(), backends().back());
-    const auto fault_at = [&](const Vec3& by) { return steps.detector->check_start(shifted(steps.cloth, by, 0.0, random)); };
-
-    const StartFault clean = fault_at({0.0, 0.5, 0.0});
-    CHECK_FALSE(clean.any());
-    CHECK(clean.obstacle == -1);
-    CHECK_FALSE(fault_at({0.0, 0.2001, 0.0}).any());
-
-    const StartFault through = fault_at({0.0, 0.1, 0.0});  // the box is 0.4 high
-    CHECK(through.any());
-    CHECK(through.obstacle == 0);
-    CHECK(through.intersecting_pairs > 0);
-    CHECK(through.vertices_inside == 1);
-    CHECK(through.inside_vertex == 12);
-    const TriangleMesh box = steps.obstacles[0].mesh;
-    REQUIRE(through.cloth_triangle >= 0);
-    REQUIRE(through.obstacle_triangle >= 0);
-    REQUIRE(through.obstacle_triangle < 12);
-
-    const StartFault second = fault_at({0.45, 0.05, 0.0});
-    CHECK(second.obstacle == 1);
-    CHECK(second.intersecting_pairs > 0);
-
-    // The sheet's border lies on the box's side.
-    Steps beside{.cloth = make_grid(0.5, 0.5, 5, 5),
-                 .obstacles = {{.mesh = make_box({0.5, 0.5, 0.5}), .start = {}, .end = {}}},
-                 .detector = nullptr};
-    beside.start(backends().back().make_detector(), thickness);
-    const StartFault touching = beside.detector->check_start(shifted(beside.cloth, {0.5, 0.0, 0.0}, 0.0, random));
-    CHECK(touching.any());
-    CHECK(touching.obstacle == 0);
-    CHECK(touching.intersecting_pairs == 0);
-    CHECK(touching.vertices_inside == 0);
-    CHECK(touching.smallest_distance == 0.0);
-
-    Steps inner{.cloth = make_grid(0.05, 0.05, 3, 3),
-                .obstacles = {{.mesh = make_box({1, 1, 1}), .start = {}, .end = {}}},
-                .detector = nullptr};
-    inner.start(backends().back().make_detector(), thickness);
-    const StartFault inside = inner.detector->check_start(inner.cloth.vertices);
-    CHECK(inside.any());
-    CHECK(inside.intersecting_pairs == 0);
-    CHECK(inside.vertices_inside == 9);
-    CHECK(inside.inside_vertex >= 0);
-    CHECK(inside.obstacle == 0);
-}
-
-TEST_CASE("a start is checked where the obstacle is at the start of the step, not where it was built") {
-    Steps steps = make_steps(Scene::ball, small_sheet(), backends().back());
-    steps.obstacles[0].start.translation = Vec3(0, -3, 0);
-    steps.obstacles[0].end.translation = Vec3(0, 0, 0);
-    steps.tell_poses();
-    CHECK_FALSE(steps.detector->check_start(steps.cloth.vertices).any());
-    std::swap(steps.obstacles[0].start, steps.obstacles[0].end);
-    steps.tell_poses();
-    CHECK(steps.detector->check_start(steps.cloth.vertices).any());
-}
-
-TEST_CASE("obstacles are numbered in order, and one without any area is refused") {
-    const auto detector = make_detector(make_brute_force_tree);
-    const TriangleMesh cloth = small_sheet();
-    detector->set_cloth(cloth.triangles, std::vector<double>(25, thickness));
-    CHECK(detector->add_obstacle(make_box({1, 1, 1}), {}, 0.2) == 0);
-    CHECK(detector->add_obstacle(make_sphere(1, 1), {}, 0.2) == 1);
-    CHECK_THROWS(detector->add_obstacle({.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, .triangles = {{0, 1, 2}}}, {}, 0.2));
-    CHECK(detector->add_obstacle(make_sphere(1, 1), {}, 0.2) == 2);
-}
-
-TEST_CASE("without obstacles there is no contact, no cut and no fault") {
-    const auto detector = make_detector(make_brute_force_tree);
-    const TriangleMesh cloth = small_sheet();
-    detector->set_cloth(cloth.triangles, std::vector<double>(25, thickness));
-    ContactRows rows;
-    detector->refresh(cloth.vertices, cloth.vertices);
-    detector->evaluate(cloth.vertices, 0.0, rows);
-    CHECK(rows.size() == 0);
-    CHECK(detector->smallest_distance() == infinity);
-    CHECK(detector->largest_safe_fraction(cloth.vertices, cloth.vertices, {}) == 1.0);
-    CHECK_FALSE(detector->check_start(cloth.vertices).any());
 }

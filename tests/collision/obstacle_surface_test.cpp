@@ -38,9 +38,8 @@ void check_connectivity(const ObstacleSurface& surface) {
         CHECK(surface.edges[e].owner == found->second.front());
         std::multiset<int> opposite;
         for (const int i : found->second) {
-            for (const int v : surface.triangles[i]) {
-                if (v != a && v != b) opposite.insert(v);
-            }
+            const Triangle& t = surface.triangles[i];
+            opposite.insert(t[0] + t[1] + t[2] - a - b);
         }
         const auto given = surface.opposites(e);
         CHECK(std::multiset<int>(given.begin(), given.end()) == opposite);

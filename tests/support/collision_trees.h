@@ -26,9 +26,10 @@ inline std::vector<Box> asked_boxes(int count, unsigned seed) {
     Random random(seed);
     std::vector<Box> boxes(count);
     for (int i = 0; i < count; ++i) {
-        const Vec3 centre = random.point(1.2);
+        const Vec3 centre = random.point(i % 4 == 0 ? 1.2 : 0.6);
         boxes[i].add(centre);
-        if (i % 5 != 0) boxes[i].add(centre + random.point(random.decades(1e-4, 1.0)));
+        if (i % 5 != 0) boxes[i].add(centre + random.point(random.decades(1e-2, 1.5)));
+        if (i % 11 == 0) boxes[i].add(-centre);
         if (i % 7 == 0) boxes[i].high.y() = boxes[i].low.y();
     }
     return boxes;

@@ -48,7 +48,8 @@ struct StepReport {
     int blocked_cloth = -1;          // the cloth and vertex of a blocked pin
     int blocked_vertex = -1;
     int blocking_obstacle = -1;
-    std::uint64_t contact_hash = 0;  // of the contact rows at the end
+    std::string blocked_name, blocking_name;  // of that cloth and obstacle
+    std::uint64_t contact_hash = 0;           // of the contact rows at the end
     StepEnergy energy;
     StageTimes stages;
 

@@ -32,7 +32,7 @@ TEST_CASE("bullet: boxes beside, around and far from the mesh are asked without 
         std::vector<Box> asked(9);
         for (int i = 0; i < 9; ++i) {
             asked[i].add(size * Vec3(i - 4.0, 0.0, 0.0));
-            asked[i].grow(0.49 * size);
+            asked[i].grow(0.51 * size);
         }
         CHECK(check_tree(make_bullet_tree, scaled, asked) > 0);
     }

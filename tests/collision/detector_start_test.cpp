@@ -1,0 +1,92 @@
+#include <algorithm>
+
+#include "collision/detector.h"
+#include "tests/support/catch.h"
+#include "tests/support/collision_random.h"
+#include "tests/support/collision_scenes.h"
+
+using namespace percale;
+using namespace percale::test;
+
+TEST_CASE("a start is checked: clean, through, inside and touching are told apart") {
+    Random random(440);
+    Steps steps = make_steps(Scene::two, small_sheet(), backends().back());
+    const auto fault_at = [&](const Vec3& by) { return steps.detector->check_start(shifted(steps.cloth, by, 0.0, random)); };
+
+    const StartFault clean = fault_at({0.0, 0.5, 0.0});
+    CHECK_FALSE(clean.any());
+    CHECK(clean.obstacle == -1);
+    CHECK_FALSE(fault_at({0.0, 0.2001, 0.0}).any());
+
+    const StartFault through = fault_at({0.0, 0.1, 0.0});  // the box is 0.4 high
+    CHECK(through.any());
+    CHECK(through.obstacle == 0);
+    CHECK(through.intersecting_pairs > 0);
+    CHECK(through.vertices_inside == 1);
+    CHECK(through.inside_vertex == 12);
+    const TriangleMesh box = steps.obstacles[0].mesh;
+    REQUIRE(through.cloth_triangle >= 0);
+    REQUIRE(through.obstacle_triangle >= 0);
+    REQUIRE(through.obstacle_triangle < 12);
+
+    const StartFault second = fault_at({0.45, 0.05, 0.0});
+    CHECK(second.obstacle == 1);
+    CHECK(second.intersecting_pairs > 0);
+
+    // The sheet's border lies on the box's side.
+    Steps beside{.cloth = make_grid(0.5, 0.5, 5, 5),
+                 .obstacles = {{.mesh = make_box({0.5, 0.5, 0.5}), .start = {}, .end = {}}},
+                 .detector = nullptr};
+    beside.start(backends().back().make_detector(), thickness);
+    const StartFault touching = beside.detector->check_start(shifted(beside.cloth, {0.5, 0.0, 0.0}, 0.0, random));
+    CHECK(touching.any());
+    CHECK(touching.obstacle == 0);
+    CHECK(touching.intersecting_pairs == 0);
+    CHECK(touching.vertices_inside == 0);
+    CHECK(touching.smallest_distance == 0.0);
+
+    Steps inner{.cloth = make_grid(0.05, 0.05, 3, 3),
+                .obstacles = {{.mesh = make_box({1, 1, 1}), .start = {}, .end = {}}},
+                .detector = nullptr};
+    inner.start(backends().back().make_detector(), thickness);
+    const StartFault inside = inner.detector->check_start(inner.cloth.vertices);
+    CHECK(inside.any());
+    CHECK(inside.intersecting_pairs == 0);
+    CHECK(inside.vertices_inside == 9);
+    CHECK(inside.inside_vertex >= 0);
+    CHECK(inside.obstacle == 0);
+}
+
+TEST_CASE("a start is checked where the obstacle is at the start of the step, not where it was built") {
+    Steps steps = make_steps(Scene::ball, small_sheet(), backends().back());
+    steps.obstacles[0].start.translation = Vec3(0, -3, 0);
+    steps.obstacles[0].end.translation = Vec3(0, 0, 0);
+    steps.tell_poses();
+    CHECK_FALSE(steps.detector->check_start(steps.cloth.vertices).any());
+    std::swap(steps.obstacles[0].start, steps.obstacles[0].end);
+    steps.tell_poses();
+    CHECK(steps.detector->check_start(steps.cloth.vertices).any());
+}
+
+TEST_CASE("obstacles are numbered in order, and one without any area is refused") {
+    const auto detector = make_detector(make_brute_force_tree);
+    const TriangleMesh cloth = small_sheet();
+    detector->set_cloth(cloth.triangles, std::vector<double>(25, thickness));
+    CHECK(detector->add_obstacle(make_box({1, 1, 1}), {}, 0.2) == 0);
+    CHECK(detector->add_obstacle(make_sphere(1, 1), {}, 0.2) == 1);
+    CHECK_THROWS(detector->add_obstacle({.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, .triangles = {{0, 1, 2}}}, {}, 0.2));
+    CHECK(detector->add_obstacle(make_sphere(1, 1), {}, 0.2) == 2);
+}
+
+TEST_CASE("without obstacles there is no contact, no cut and no fault") {
+    const auto detector = make_detector(make_brute_force_tree);
+    const TriangleMesh cloth = small_sheet();
+    detector->set_cloth(cloth.triangles, std::vector<double>(25, thickness));
+    ContactRows rows;
+    detector->refresh(cloth.vertices, cloth.vertices);
+    detector->evaluate(cloth.vertices, 0.0, rows);
+    CHECK(rows.size() == 0);
+    CHECK(detector->smallest_distance() == infinity);
+    CHECK(detector->largest_safe_fraction(cloth.vertices, cloth.vertices, {}) == 1.0);
+    CHECK_FALSE(detector->check_start(cloth.vertices).any());
+}

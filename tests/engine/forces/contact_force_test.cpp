@@ -1,0 +1,265 @@
+#include "engine/forces/contact_force.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+constexpr double h = 0.005, stiffness = 200.0;
+
+Eigen::Matrix3d full(const std::array<double, 6>& k) {
+    Eigen::Matrix3d m;
+    m << k[0], k[1], k[2], k[1], k[3], k[4], k[2], k[4], k[5];
+    return m;
+}
+
+/// Rows against a few vertices with what a step knows of them.
+struct Touch {
+    std::vector<double> mass;
+    DiagonalBlocks diagonal;
+    ContactRows rows;
+    ContactStep step;
+    Vectors velocities, forces;
+    ContactTerms terms;
+
+    explicit Touch(int vertices, double mass_each = 0.01) : mass(vertices, mass_each) {
+        for (auto& list : diagonal) list.assign(vertices, 0.0);
+        for (const int axis : {0, 3, 5}) diagonal[axis].assign(vertices, mass_each);
+        velocities.resize(vertices);
+        forces.resize(vertices);
+        step = {.dt = 1.0 / 60.0, .obstacle_rate = 60.0, .gravity = Vec3(0, -9.81, 0)};
+    }
+
+    void add_row(const std::array<int, 4>& vertex, const std::array<double, 4>& weight, const Vec3& direction, double distance) {
+        rows.vertex.push_back(vertex);
+        rows.weight.push_back(weight);
+        rows.direction.push_back(direction);
+        rows.obstacle_point.push_back(Vec3::Zero());
+        rows.obstacle_displacement.push_back(Vec3::Zero());
+        rows.distance.push_back(distance);
+        rows.thickness.push_back(h);
+        rows.friction.push_back(0.0);
+        rows.obstacle.push_back(0);
+        rows.feature.push_back(0);
+    }
+
+    void add_point(const Vec3& direction, double distance, double friction = 0.0) {
+        add_row({0, -1, -1, -1}, {1, 0, 0, 0}, direction, distance);
+        rows.friction.back() = friction;
+    }
+
+    void evaluate() {
+        step.mass = &mass;
+        step.diagonal = &diagonal;
+        forces.resize(static_cast<int>(mass.size()));
+        add_contact(rows, step, velocities, forces, terms);
+    }
+};
+
+/// The friction on a single point that presses with the normal force the row gives.
+struct Friction {
+    double normal_force;
+    Vec3 force;
+    Eigen::Matrix3d block;  // of friction alone, kg
+};
+
+Friction friction_of(Touch& touch) {
+    touch.evaluate();
+    const Vec3 n = touch.rows.direction[0];
+    const ContactPotential potential = contact_potential(touch.rows.distance[0], h, touch.terms.largest_stiffness);
+    const Eigen::Matrix3d normal_block = touch.step.dt * touch.step.dt * potential.curvature * n * n.transpose();
+    return {potential.slope, touch.forces.at(0) - potential.slope * n, full(touch.terms.blocks[0].k) - normal_block};
+}
+
+double smallest_eigenvalue(const Eigen::Matrix3d& m) {
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
+}  // namespace
+
+TEST_CASE("The contact potential starts at the thickness with value and slope zero") {
+    for (const double d : {h, 1.5 * h, 1.0}) {
+        const ContactPotential p = contact_potential(d, h, stiffness);
+        CHECK((p.energy == 0.0 && p.slope == 0.0 && p.curvature == 0.0));
+    }
+    const ContactPotential below = contact_potential(h * (1.0 - 1e-9), h, stiffness);
+    CHECK(below.energy < 1e-18 * stiffness);
+    CHECK(below.slope < 1e-8 * stiffness * h);
+}
+
+TEST_CASE("The contact potential is twice continuously differentiable at half the thickness") {
+    const ContactPotential above = contact_potential(0.5 * h * (1.0 + 1e-12), h, stiffness);
+    const ContactPotential below = contact_potential(0.5 * h * (1.0 - 1e-12), h, stiffness);
+    CHECK(below.energy == Approx(above.energy).epsilon(1e-11));
+    CHECK(below.slope == Approx(above.slope).epsilon(1e-11));
+    CHECK(below.curvature == Approx(above.curvature).epsilon(1e-11));
+}
+
+TEST_CASE("Slope and curvature are the derivatives of the contact potential") {
+    for (double d = 0.01 * h; d < h; d += 0.0137 * h) {
+        const double step = 1e-5 * d;
+        const ContactPotential p = contact_potential(d, h, stiffness);
+        const ContactPotential ahead = contact_potential(d + step, h, stiffness), behind = contact_potential(d - step, h, stiffness);
+        CAPTURE(d / h);
+        CHECK((behind.energy - ahead.energy) / (2.0 * step) == Approx(p.slope).epsilon(1e-7).margin(1e-9));
+        CHECK((behind.slope - ahead.slope) / (2.0 * step) == Approx(p.curvature).epsilon(1e-7));
+        CHECK(p.slope > 0.0);
+        CHECK(p.curvature > 0.0);
+    }
+}
+
+TEST_CASE("The contact potential grows without bound towards the surface") {
+    double energy = contact_potential(0.4 * h, h, stiffness).energy;
+    for (double d = 0.4e-3 * h; d > 1e-150; d *= 1e-3) {
+        const ContactPotential p = contact_potential(d, h, stiffness);
+        CHECK(p.energy - energy == Approx(0.25 * stiffness * h * h * std::log(1000.0)).epsilon(1e-9));
+        CHECK(p.slope == Approx(0.25 * stiffness * h * h / d));
+        energy = p.energy;
+    }
+}
+
+TEST_CASE("A row's stiffness is half of its share of the step matrix") {
+    Touch touch(3, 0.01);
+    touch.diagonal[0] = {5.0, 6.0, 7.0};
+    touch.diagonal[1] = {1.0, -1.0, 0.5};
+    touch.diagonal[2] = {0.2, 0.3, -0.4};
+    touch.diagonal[3] = {4.0, 8.0, 9.0};
+    touch.diagonal[4] = {0.6, 0.1, 0.7};
+    touch.diagonal[5] = {3.0, 2.0, 5.0};
+    const Vec3 n = Vec3(1.0, 2.0, -2.0) / 3.0;
+    touch.add_row({0, 1, 2, -1}, {0.2, 0.5, 0.3, 0.0}, n, 0.8 * h);
+    touch.evaluate();
+    double inertia = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        std::array<double, 6> block;
+        for (int e = 0; e < 6; ++e) block[e] = touch.diagonal[e][i];
+        inertia += touch.rows.weight[0][i] * n.dot(full(block) * n);
+    }
+    CHECK(touch.terms.largest_stiffness == Approx(0.5 * inertia * 3600.0).epsilon(1e-13));
+}
+
+TEST_CASE("A row is stiff enough to carry its weight at three quarters of the thickness") {
+    Touch touch(1, 0.01);
+    touch.step.dt = 1.0;  // so long that inertia asks for next to nothing
+    touch.add_point(Vec3(0, 1, 0), 0.75 * h);
+    touch.evaluate();
+    CHECK(touch.terms.largest_stiffness == Approx(4.0 * 0.01 * 9.81 / h).epsilon(1e-13));
+    CHECK(touch.forces.at(0).y() == Approx(0.01 * 9.81).epsilon(1e-12));
+}
+
+TEST_CASE("A row's force is spread by its weights and its energy counted once") {
+    Touch touch(4);
+    const Vec3 n = Vec3(2.0, 1.0, 2.0) / 3.0;
+    touch.add_row({3, 0, 2, -1}, {0.5, 0.3, 0.2, 0.0}, n, 0.7 * h);
+    touch.add_row({1, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, -n, 0.3 * h);
+    touch.evaluate();
+    const ContactPotential first = contact_potential(0.7 * h, h, touch.terms.largest_stiffness);
+    const ContactPotential second = contact_potential(0.3 * h, h, touch.terms.largest_stiffness);
+    CHECK((touch.forces.at(3) - 0.5 * first.slope * n).norm() < 1e-14 * first.slope);
+    CHECK((touch.forces.at(0) - 0.3 * first.slope * n).norm() < 1e-14 * first.slope);
+    CHECK((touch.forces.at(2) - 0.2 * first.slope * n).norm() < 1e-14 * first.slope);
+    CHECK((touch.forces.at(1) + second.slope * n).norm() < 1e-14 * second.slope);
+    CHECK(touch.terms.energy == Approx(first.energy + second.energy).epsilon(1e-13));
+    REQUIRE(touch.terms.blocks.size() == 2);
+    CHECK(touch.terms.blocks[0].vertex == touch.rows.vertex[0]);
+    const Eigen::Matrix3d block = full(touch.terms.blocks[1].k);
+    CHECK((block - touch.step.dt * touch.step.dt * second.curvature * n * n.transpose()).norm() < 1e-12 * block.norm());
+}
+
+TEST_CASE("Contact adds to the forces that are there and forgets the last call's terms") {
+    Touch touch(1);
+    touch.add_point(Vec3(0, 1, 0), 0.6 * h);
+    touch.evaluate();
+    const double once = touch.forces.at(0).y(), energy = touch.terms.energy;
+    add_contact(touch.rows, touch.step, touch.velocities, touch.forces, touch.terms);
+    CHECK(touch.forces.at(0).y() == 2.0 * once);
+    CHECK(touch.terms.energy == energy);
+    CHECK(touch.terms.blocks.size() == 1);
+}
+
+TEST_CASE("Without friction a row pushes along its direction only") {
+    Random random(6);
+    Touch touch(1);
+    touch.add_point(random.unit(), 0.6 * h);
+    touch.velocities.set(0, Vec3(0.3, 0.1, -2.0));
+    const Friction friction = friction_of(touch);
+    CHECK(friction.force.norm() < 1e-14 * friction.normal_force);
+    CHECK(friction.block.norm() < 1e-14 * full(touch.terms.blocks[0].k).norm());
+}
+
+TEST_CASE("Friction opposes the slip and stays below mu N") {
+    Random random(7);
+    for (int trial = 0; trial < 500; ++trial) {
+        Touch touch(1, random.decades(1e-4, 1e-1));
+        const double mu = random.number(0.05, 2.0);
+        touch.add_point(random.unit(), random.number(0.1, 0.99) * h, mu);
+        const Vec3 n = touch.rows.direction[0];
+        touch.rows.obstacle_displacement[0] = random.point(0.01);
+        touch.velocities.set(0, random.unit() * random.decades(1e-5, 1e1));
+        const Vec3 relative = touch.velocities.at(0) - touch.step.obstacle_rate * touch.rows.obstacle_displacement[0];
+        const Vec3 slip = relative - n * n.dot(relative);
+        const Friction friction = friction_of(touch);
+        CAPTURE(trial, slip.norm());
+        CHECK(friction.force.norm() <= mu * friction.normal_force * (1.0 + 1e-10));
+        CHECK(std::abs(friction.force.dot(n)) <= 1e-10 * friction.normal_force);
+        CHECK(friction.force.dot(slip) <= -(1.0 - 1e-6) * friction.force.norm() * slip.norm());
+        CHECK(smallest_eigenvalue(friction.block) >= -1e-10 * full(touch.terms.blocks[0].k).norm());
+        if (slip.norm() > 1e-3) CHECK(friction.force.norm() == Approx(mu * friction.normal_force).epsilon(1e-8));
+    }
+}
+
+TEST_CASE("Below the stick speed friction grows smoothly from zero to its limit") {
+    Touch touch(1);
+    touch.add_point(Vec3(0, 1, 0), 0.7 * h, 0.4);
+    for (const double share : {0.0, 0.01, 0.5, 0.999, 1.0}) {
+        touch.velocities.set(0, Vec3(share * 1e-3, 0.0, 0.0));
+        const Friction friction = friction_of(touch);
+        CHECK(friction.force.x() == Approx(-0.4 * friction.normal_force * share * (2.0 - share)).epsilon(1e-9).margin(1e-15));
+    }
+}
+
+TEST_CASE("A sliding row leaves the sliding direction free in the matrix") {
+    Touch touch(1, 0.01);
+    touch.add_point(Vec3(0, 1, 0), 0.9 * h, 0.3);
+    touch.velocities.set(0, Vec3(3.0, -0.2, 4.0));
+    const Friction friction = friction_of(touch);
+    const Vec3 slip = Vec3(0.6, 0.0, 0.8), across = Vec3(0.8, 0.0, -0.6);
+    const double size = friction.block.norm();
+    CHECK((friction.block * slip).norm() < 1e-10 * size);
+    CHECK((friction.block * Vec3(0, 1, 0)).norm() < 1e-10 * size);
+    const double limit = 0.3 * friction.normal_force;
+    CHECK((friction.block * across - touch.step.dt * limit / 5.0 * across).norm() < 1e-10 * size);
+}
+
+TEST_CASE("The first evaluation decides stick or slide by where gravity will push") {
+    Touch touch(1, 0.01);
+    const double angle = 0.5;
+    const Vec3 n(0.0, 1.0, 0.0);
+    touch.step.gravity = 9.81 * Vec3(std::sin(angle), -std::cos(angle), 0.0);
+    touch.step.first_evaluation = true;
+    touch.add_point(n, h * (1.0 - 0.25 * std::cos(angle)), 1.0);
+    touch.step.dt = 1.0;  // the stiffness is then that of the static weight: normal force m g cos(angle)
+    const Friction sticking = friction_of(touch);
+    CHECK(sticking.normal_force == Approx(0.01 * 9.81 * std::cos(angle)).epsilon(1e-9));
+    CHECK(sticking.force.norm() == 0.0);  // at rest and held: a damper
+    CHECK(sticking.block(0, 0) == Approx(2.0 * sticking.normal_force / 1e-3).epsilon(1e-9));
+
+    touch.rows.friction[0] = 0.5 * std::tan(angle);
+    const Friction sliding = friction_of(touch);
+    CHECK(sliding.force.x() == Approx(-touch.rows.friction[0] * sliding.normal_force).epsilon(1e-9));
+    CHECK(std::abs(sliding.block(0, 0)) < 1e-10 * std::abs(sliding.block(2, 2)));
+}
+
+TEST_CASE("The power of an obstacle is its force times its velocity") {
+    Touch touch(1);
+    touch.add_point(Vec3(0, 1, 0), 0.6 * h);
+    touch.rows.obstacle_displacement[0] = Vec3(0.1, 0.002, 0.0);
+    touch.evaluate();
+    CHECK(touch.terms.obstacle_power == Approx(touch.forces.at(0).y() * 0.002 * 60.0).epsilon(1e-12));
+}
+
+}  // namespace percale::test

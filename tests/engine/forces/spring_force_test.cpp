@@ -1,0 +1,280 @@
+#include "engine/forces/spring_force.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+constexpr double dt = 1.0 / 60.0;
+
+/// One spring between vertices 0 and 1, in a state.
+struct OneSpring {
+    ClothModel model;
+    Vectors positions, velocities;
+
+    OneSpring(const Vec3& x, const Vec3& v, const Link& link)
+        : model(linked_masses({1.0, 1.0}, {link})), positions(to_vectors({x, Vec3::Zero()})), velocities(to_vectors({v, Vec3::Zero()})) {}
+
+    SpringTerms terms(DampingForm form = DampingForm::velocity) const {
+        StepSprings springs;
+        set_step_springs(model.springs, positions, form, dt, springs);
+        SpringTerms result;
+        evaluate_springs(model.springs, springs, {positions, velocities, dt}, true, result);
+        return result;
+    }
+};
+
+Vec3 force_of(const SpringTerms& terms, int k = 0) { return {terms.fx[k], terms.fy[k], terms.fz[k]}; }
+
+Eigen::Matrix3d matrix_of(const SpringTerms& terms, int k = 0) {
+    const Vec3 w(terms.wx[k], terms.wy[k], terms.wz[k]);
+    return terms.a[k] * Eigen::Matrix3d::Identity() + w * w.transpose();
+}
+
+/// -ks (l - l0) d - kd (v . d) d
+Vec3 lecture_force(const Vec3& x, const Vec3& v, const Link& link) {
+    const Vec3 d = x.normalized();
+    return -(link.stiffness * (x.norm() - link.rest_length) + link.damping * v.dot(d)) * d;
+}
+
+Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& m) {
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+struct RandomNetwork {
+    ClothModel model;
+    Vectors positions, velocities;
+    explicit RandomNetwork(unsigned seed, int count = 21) {
+        Random random(seed);
+        model = linked_masses(random_masses(random, count), random_links(random, count, 4 * count));
+        positions = to_vectors(random_points(random, count, 0.7));
+        velocities = to_vectors(random_points(random, count, 1.0));
+    }
+    Vectors forces(const StepSprings& springs) const {
+        SpringTerms terms;
+        evaluate_springs(model.springs, springs, {positions, velocities, dt}, false, terms);
+        Vectors result;
+        result.resize(model.vertex_count());
+        add_spring_forces(model.adjacency, terms, result);
+        return result;
+    }
+    double potential(const StepSprings& springs, const Vectors& at) const {
+        SpringTerms terms;
+        return evaluate_springs(model.springs, springs, {at, velocities, dt}, false, terms);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("A spring pulls with ks times its stretch and kd times its rate of stretching") {
+    Random random(1);
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 x = random.point(1.0), v = random.point(2.0);
+        const Link link{0, 1, random.number(0.1, 2.0), random.decades(1.0, 1e5), random.number(0.0, 5.0)};
+        const Vec3 expected = lecture_force(x, v, link);
+        CHECK((force_of(OneSpring(x, v, link).terms()) - expected).norm() <= 1e-12 * expected.norm() + 1e-12);
+    }
+}
+
+TEST_CASE("Spring forces are minus the gradient of the elastic energy") {
+    RandomNetwork network(2);
+    network.velocities.resize(network.model.vertex_count());
+    StepSprings springs;
+    set_step_springs(network.model.springs, network.positions, DampingForm::velocity, dt, springs);
+    const Vectors forces = network.forces(springs);
+    for (int i = 0; i < network.model.vertex_count(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            Vectors ahead = network.positions, behind = network.positions;
+            ahead.add(i, 1e-6 * Vec3::Unit(axis));
+            behind.add(i, -1e-6 * Vec3::Unit(axis));
+            const double slope =
+                (elastic_energy(network.model.springs, ahead) - elastic_energy(network.model.springs, behind)) / 2e-6;
+            CHECK(slope == Approx(-forces.at(i)[axis]).epsilon(1e-6).margin(1e-3));
+        }
+    }
+}
+
+TEST_CASE("Damping as a length rate is an exact potential of the end positions") {
+    RandomNetwork network(3);
+    StepSprings springs;
+    set_step_springs(network.model.springs, network.positions, DampingForm::length_rate, dt, springs);
+    const Vectors start = network.positions;
+    Random random(4);
+    for (int i = 0; i < network.model.vertex_count(); ++i) network.positions.add(i, random.point(0.05));
+    const Vectors forces = network.forces(springs);
+    for (int i = 0; i < network.model.vertex_count(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            Vectors ahead = network.positions, behind = network.positions;
+            ahead.add(i, 1e-6 * Vec3::Unit(axis));
+            behind.add(i, -1e-6 * Vec3::Unit(axis));
+            const double slope = (network.potential(springs, ahead) - network.potential(springs, behind)) / 2e-6;
+            CHECK(slope == Approx(-forces.at(i)[axis]).epsilon(1e-6).margin(1e-3));
+        }
+    }
+}
+
+TEST_CASE("Damping as a length rate pulls with ks (l - l0) + kd (l - l_n)/dt") {
+    RandomNetwork network(5);
+    const SpringNetwork& list = network.model.springs;
+    StepSprings springs;
+    set_step_springs(list, network.positions, DampingForm::length_rate, dt, springs);
+    Random random(6);
+    const Vectors start = network.positions;
+    for (int i = 0; i < network.model.vertex_count(); ++i) network.positions.add(i, random.point(0.05));
+    SpringTerms terms;
+    evaluate_springs(list, springs, {network.positions, network.velocities, dt}, false, terms);
+    for (int k = 0; k < list.size(); ++k) {
+        const Vec3 x = network.positions.at(list.first[k]) - network.positions.at(list.second[k]);
+        const double before = (start.at(list.first[k]) - start.at(list.second[k])).norm();
+        const double tension =
+            list.stiffness[k] * (x.norm() - list.rest_length[k]) + list.damping[k] * (x.norm() - before) / dt;
+        CHECK((force_of(terms, k) + tension * x.normalized()).norm() <= 1e-11 * (std::abs(tension) + list.stiffness[k]));
+    }
+}
+
+TEST_CASE("Exact spring Jacobians agree with finite differences, damping included") {
+    Random random(7);
+    for (int i = 0; i < 50; ++i) {
+        const Vec3 x = random.unit() * random.number(0.3, 2.0), v = random.point(3.0);
+        const Link link{0, 1, random.number(0.1, 2.0), random.decades(1.0, 1e4), random.number(0.0, 50.0)};
+        const SpringJacobians jacobians = spring_jacobians(x, v, link.rest_length, link.stiffness, link.damping);
+        Eigen::Matrix3d by_position, by_velocity;
+        for (int axis = 0; axis < 3; ++axis) {
+            const Vec3 e = 1e-6 * Vec3::Unit(axis);
+            by_position.col(axis) = (lecture_force(x + e, v, link) - lecture_force(x - e, v, link)) / 2e-6;
+            by_velocity.col(axis) = (lecture_force(x, v + e, link) - lecture_force(x, v - e, link)) / 2e-6;
+        }
+        CHECK((jacobians.by_position - by_position).norm() <= 1e-7 * (by_position.norm() + link.stiffness));
+        CHECK((jacobians.by_velocity - by_velocity).norm() <= 1e-7 * (by_velocity.norm() + link.stiffness));
+    }
+}
+
+TEST_CASE("Where a spring is stretched its matrix is exactly -dt^2 Jq - dt Jv") {
+    Random random(8);
+    for (int i = 0; i < 100; ++i) {
+        const double l = random.number(0.3, 2.0);
+        const Vec3 x = l * random.unit();
+        // A velocity along the spring: damping then leaves Jq symmetric. It shortens the spring, but less than tension allows.
+        const Link link{0, 1, random.number(0.3, 0.99) * l, random.decades(1.0, 1e4), random.number(0.0, 2.0)};
+        const double tension = link.stiffness * (l - link.rest_length);
+        const Vec3 v = -random.number(0.0, 0.9) * tension / std::max(link.damping, 1.0) * x / l;
+        const SpringJacobians exact = spring_jacobians(x, v, link.rest_length, link.stiffness, link.damping);
+        const Eigen::Matrix3d expected = -dt * dt * exact.by_position - dt * exact.by_velocity;
+        CHECK((matrix_of(OneSpring(x, v, link).terms()) - expected).norm() <= 1e-12 * expected.norm());
+    }
+}
+
+TEST_CASE("A spring's matrix is positive semidefinite in every state and stiff along the spring") {
+    Random random(9);
+    int compressed = 0, capped = 0;
+    for (int i = 0; i < 500; ++i) {
+        const Vec3 x = random.unit() * random.decades(1e-6, 10.0), v = random.unit() * random.decades(1e-3, 1e3);
+        const Link link{0, 1, random.number(0.1, 2.0), random.decades(1.0, 1e6), random.number(0.0, 5.0)};
+        const SpringTerms terms = OneSpring(x, v, link).terms();
+        const Eigen::Matrix3d matrix = matrix_of(terms);
+        const double along = dt * dt * link.stiffness + dt * link.damping;
+        const Vec3 d = x.normalized();
+        CHECK(eigenvalues(matrix)[0] >= -1e-14 * along);
+        CHECK(eigenvalues(matrix)[2] <= along * (1.0 + 1e-12));
+        CHECK((matrix * d - along * d).norm() <= 1e-12 * along);
+        const double tension = -force_of(terms).dot(d);
+        if (tension < 0.0) CHECK(terms.a[0] == 0.0);
+        compressed += tension < 0.0;
+        capped += terms.a[0] == along;
+    }
+    CHECK(compressed > 50);
+    CHECK(capped > 20);
+}
+
+TEST_CASE("A spring of no length pulls nowhere and is stiff every way") {
+    const Link link{0, 1, 0.5, 300.0, 2.0};
+    for (const DampingForm form : {DampingForm::velocity, DampingForm::length_rate}) {
+        const SpringTerms terms = OneSpring(Vec3::Zero(), Vec3(1, 2, 3), link).terms(form);
+        const double along = dt * dt * link.stiffness + dt * link.damping;
+        CHECK(force_of(terms) == Vec3::Zero());
+        CHECK((matrix_of(terms) - along * Eigen::Matrix3d::Identity()).norm() <= 1e-14 * along);
+    }
+}
+
+TEST_CASE("Forces are left alone when no matrix is asked for, and end in a zero entry") {
+    const OneSpring spring(Vec3(1, 0, 0), Vec3(1, 0, 0), {0, 1, 0.5, 300.0, 2.0});
+    StepSprings springs;
+    set_step_springs(spring.model.springs, spring.positions, DampingForm::velocity, dt, springs);
+    SpringTerms terms;
+    const double energy = evaluate_springs(spring.model.springs, springs, {spring.positions, spring.velocities, dt}, false, terms);
+    CHECK(energy == Approx(0.5 * 300.0 * 0.25).epsilon(1e-15));
+    CHECK(force_of(terms) == Vec3(-152.0, 0.0, 0.0));
+    CHECK(terms.a[0] == 0.0);
+    CHECK(force_of(terms, 1) == Vec3::Zero());
+    CHECK(terms.a[1] == 0.0);
+}
+
+TEST_CASE("Springs exert no net force and no net torque") {
+    for (const DampingForm form : {DampingForm::velocity, DampingForm::length_rate}) {
+        const RandomNetwork network(10, 40);
+        StepSprings springs;
+        set_step_springs(network.model.springs, network.positions, form, dt, springs);
+        const Vectors forces = network.forces(springs);
+        Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
+        double size = 0.0;
+        for (int i = 0; i < 40; ++i) {
+            sum += forces.at(i);
+            torque += network.positions.at(i).cross(forces.at(i));
+            size += forces.at(i).norm();
+        }
+        CHECK(sum.norm() <= 1e-13 * size);
+        CHECK(torque.norm() <= 1e-13 * size);
+    }
+}
+
+TEST_CASE("Sums over vertices are those of a loop over springs") {
+    const RandomNetwork network(11, 29);
+    StepSprings springs;
+    set_step_springs(network.model.springs, network.positions, DampingForm::velocity, dt, springs);
+    SpringTerms terms;
+    evaluate_springs(network.model.springs, springs, {network.positions, network.velocities, dt}, false, terms);
+    std::vector<Vec3> expected(29, Vec3(1.0, 2.0, 3.0));
+    for (int k = 0; k < network.model.springs.size(); ++k) {
+        expected[network.model.springs.first[k]] += force_of(terms, k);
+        expected[network.model.springs.second[k]] -= force_of(terms, k);
+    }
+    Vectors forces = to_vectors(std::vector<Vec3>(29, Vec3(1.0, 2.0, 3.0)));
+    add_spring_forces(network.model.adjacency, terms, forces);
+    CHECK(to_points(forces, 29) == expected);
+}
+
+TEST_CASE("Damping acts along springs only: a rigid motion feels none, where ether drag would stop it") {
+    RandomNetwork network(12);
+    const Vec3 spin(0.7, -1.1, 2.0), drift(1.0, 2.0, 3.0);
+    double drag_power = 0.0;
+    for (int i = 0; i < network.model.vertex_count(); ++i) network.velocities.set(i, drift + spin.cross(network.positions.at(i)));
+    SpringNetwork& list = network.model.springs;
+    for (int k = 0; k < list.size(); ++k) {
+        list.stiffness[k] = 0.0;
+        const Vec3 v = network.velocities.at(list.first[k]) - network.velocities.at(list.second[k]);
+        drag_power -= list.damping[k] * v.squaredNorm();
+    }
+    StepSprings springs;
+    set_step_springs(list, network.positions, DampingForm::velocity, dt, springs);
+    const Vectors forces = network.forces(springs);
+    double power = 0.0;
+    for (int i = 0; i < network.model.vertex_count(); ++i) {
+        CHECK(forces.at(i).norm() < 1e-13);
+        power += forces.at(i).dot(network.velocities.at(i));
+    }
+    CHECK(drag_power < -10.0);
+    CHECK(std::abs(power) < 1e-12);
+}
+
+TEST_CASE("The largest strain is that of structural springs, and zero if none is stretched") {
+    ClothModel model = linked_masses({1, 1, 1}, {{0, 1, 1.0, 1.0, 0.0}, {1, 2, 2.0, 1.0, 0.0}, {0, 2, 0.1, 1.0, 0.0}});
+    model.springs.kind[2] = SpringKind::bend;
+    CHECK(largest_strain(model.springs, to_vectors({{0, 0, 0}, {1.25, 0, 0}, {1.25, 2.2, 0}})) == Approx(0.25).epsilon(1e-14));
+    CHECK(largest_strain(model.springs, to_vectors({{0, 0, 0}, {0.5, 0, 0}, {0.5, 1.0, 0}})) == 0.0);
+}
+
+}  // namespace percale::test

@@ -1,0 +1,87 @@
+#include "engine/forces/total_force.h"
+
+#include "engine/forces/body_force.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+/// A crumpled moving sheet and its step springs.
+struct Crumpled {
+    ClothModel model = cloth_model(make_grid(1.0, 1.0, 6, 5), sheet_fabric());
+    Vectors positions, velocities;
+    StepSprings springs;
+    ForceInput input;
+
+    Crumpled() {
+        Random random(3);
+        std::vector<Vec3> places = make_grid(1.0, 1.0, 6, 5).vertices;
+        for (Vec3& x : places) x += random.point(0.05);
+        positions = to_vectors(places);
+        velocities = to_vectors(random_points(random, 30, 1.0));
+        set_step_springs(model.springs, positions, DampingForm::velocity, 0.01, springs);
+        input = {.model = &model,
+                 .springs = &springs,
+                 .positions = &positions,
+                 .velocities = &velocities,
+                 .gravity = Vec3(1.0, -9.81, 0.0),
+                 .dt = 0.01,
+                 .with_matrix = true};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("The total force is gravity and springs, the potential the sum of theirs") {
+    const Crumpled sheet;
+    Forces forces;
+    evaluate_forces(sheet.input, forces);
+    Vectors expected;
+    expected.resize(30);
+    set_gravity_forces(sheet.model.mass, sheet.input.gravity, expected);
+    SpringTerms terms;
+    const double springs =
+        evaluate_springs(sheet.model.springs, sheet.springs, {sheet.positions, sheet.velocities, 0.01}, true, terms);
+    add_spring_forces(sheet.model.adjacency, terms, expected);
+    CHECK(same_bits(forces.total, expected));
+    CHECK(forces.potential == Approx(springs + gravity_energy(sheet.model.mass, sheet.input.gravity, sheet.positions)).epsilon(1e-14));
+    CHECK(forces.spring_terms.a == terms.a);
+}
+
+TEST_CASE("Evaluating twice gives the same bits") {
+    const Crumpled sheet;
+    Forces once, twice;
+    evaluate_forces(sheet.input, once);
+    evaluate_forces(sheet.input, twice);
+    evaluate_forces(sheet.input, twice);
+    CHECK(same_bits(once.total, twice.total));
+    CHECK(once.potential == twice.potential);
+}
+
+TEST_CASE("Contact is added on top") {
+    const Crumpled sheet;
+    Forces forces;
+    evaluate_forces(sheet.input, forces);
+    const Forces before = forces;
+    forces.rows.vertex = {{4, -1, -1, -1}};
+    forces.rows.weight = {{1.0, 0.0, 0.0, 0.0}};
+    forces.rows.direction = {Vec3(0, 1, 0)};
+    forces.rows.obstacle_point = forces.rows.obstacle_displacement = {Vec3(0, 0, 0)};
+    forces.rows.distance = {0.003};
+    forces.rows.thickness = {0.005};
+    forces.rows.friction = {0.0};
+    forces.rows.obstacle = forces.rows.feature = {0};
+    DiagonalBlocks diagonal;
+    for (auto& list : diagonal) list.assign(32, 0.01);
+    const ContactStep step{.dt = 0.01, .gravity = sheet.input.gravity, .mass = &sheet.model.mass, .diagonal = &diagonal};
+    add_contact_forces(sheet.input, step, forces);
+    const ContactPotential push = contact_potential(0.003, 0.005, forces.contact.largest_stiffness);
+    for (int i = 0; i < 30; ++i) {
+        const Vec3 added = i == 4 ? Vec3(0.0, push.slope, 0.0) : Vec3(Vec3::Zero());
+        CHECK((forces.total.at(i) - before.total.at(i) - added).norm() <= 1e-13 * push.slope);
+    }
+    CHECK(forces.potential == Approx(before.potential + push.energy).epsilon(1e-14));
+}
+
+}  // namespace percale::test

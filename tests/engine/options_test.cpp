@@ -1,0 +1,113 @@
+#include "percale/options.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+template <class Owner>
+void check_descriptions(std::span<const Option<Owner>> options) {
+    std::set<std::string_view> keys;
+    for (const Option<Owner>& option : options) {
+        CAPTURE(option.key);
+        CHECK(keys.insert(option.key).second);
+        CHECK(option.sentence.size() > 10);
+        CHECK(option.sentence.back() == '.');
+        const int fields = (option.number != nullptr) + (option.integer != nullptr) + (option.number_or_auto != nullptr) +
+                           (option.get_choice != nullptr);
+        CHECK(fields == 1);
+        CHECK((option.get_choice != nullptr) == (option.set_choice != nullptr));
+        CHECK((option.get_choice != nullptr) == !option.choices.empty());
+        CHECK(option.lowest < option.highest);
+    }
+}
+
+/// The message for one field set to a value; empty if it is allowed.
+template <class Owner>
+std::string refusal(const Option<Owner>& option, double value) {
+    Owner owner;
+    if (option.number) *option.number(owner) = value;
+    if (option.integer) *option.integer(owner) = static_cast<int>(value);
+    if (option.number_or_auto) *option.number_or_auto(owner) = value;
+    return scene_error([&] { check_options(owner, "silk"); });
+}
+
+template <class Owner>
+void check_ranges(std::span<const Option<Owner>> options) {
+    for (const Option<Owner>& option : options) {
+        if (option.get_choice) continue;
+        CAPTURE(option.key);
+        CHECK(refusal(option, option.lowest) == "");
+        CHECK(refusal(option, option.highest) == "");
+        const double above = option.integer ? option.highest + 1 : std::nextafter(option.highest, 1e300);
+        const double below = option.integer ? option.lowest - 1 : std::nextafter(option.lowest, -1e300);
+        for (const double bad : {above, below}) CHECK(mentions(refusal(option, bad), {"silk", std::string(option.key), "..."}));
+        if (option.integer) continue;
+        CHECK_FALSE(refusal(option, std::numeric_limits<double>::quiet_NaN()).empty());
+        CHECK_FALSE(refusal(option, std::numeric_limits<double>::infinity()).empty());
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Every option has one field, a key of its own and a sentence") {
+    check_descriptions(fabric_options());
+    check_descriptions(step_options());
+}
+
+TEST_CASE("Defaults are allowed") {
+    CHECK(scene_error([] { check_options(Fabric{}, "default"); }) == "");
+    CHECK(scene_error([] { check_options(StepSettings{}, "default"); }) == "");
+}
+
+TEST_CASE("Both ends of every range are allowed and the next number beyond is refused by name") {
+    check_ranges(fabric_options());
+    check_ranges(step_options());
+}
+
+TEST_CASE("A refusal names owner, key, value, unit and range") {
+    Fabric fabric;
+    fabric.area_density = -0.5;
+    CHECK(scene_error([&] { check_options(fabric, "silk"); }) ==
+          "silk: area_density = -0.5 kg/m^2 is outside the allowed range 0.0001 ... 1000");
+    StepSettings settings;
+    settings.newton_iterations = 0;
+    CHECK(scene_error([&] { check_options(settings, "settings"); }) ==
+          "settings: newton_iterations = 0 is outside the allowed range 1 ... 1000");
+}
+
+TEST_CASE("Gravity must be finite and at most ten thousand m/s^2 along each axis") {
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double bad : {1.1e4, -1.1e4, std::numeric_limits<double>::quiet_NaN()}) {
+            StepSettings settings;
+            settings.gravity[axis] = bad;
+            CHECK(mentions(scene_error([&] { check_options(settings, "settings"); }), {"settings", "gravity", "m/s^2"}));
+        }
+    }
+}
+
+TEST_CASE("Choices read and write their field, word by word") {
+    for (const Option<StepSettings>& option : step_options()) {
+        if (!option.get_choice) continue;
+        for (int i = 0; i < static_cast<int>(option.choices.size()); ++i) {
+            StepSettings settings;
+            option.set_choice(settings, i);
+            CHECK(option.get_choice(settings) == i);
+            CHECK(scene_error([&] { check_options(settings, "settings"); }) == "");
+        }
+    }
+}
+
+TEST_CASE("An empty newton tolerance means automatic and is not checked") {
+    StepSettings settings;
+    CHECK_FALSE(settings.newton_tolerance.has_value());
+    settings.newton_tolerance = 2.0;
+    CHECK(mentions(scene_error([&] { check_options(settings, "settings"); }), {"newton_tolerance", "2"}));
+}
+
+}  // namespace percale::test

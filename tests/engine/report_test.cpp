@@ -1,0 +1,83 @@
+#include "percale/report.h"
+
+#include <array>
+#include <set>
+#include <string>
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+constexpr StepStatus all_statuses[] = {StepStatus::ok,          StepStatus::halved,           StepStatus::not_converged,
+                                       StepStatus::pin_blocked, StepStatus::obstacle_too_fast, StepStatus::not_finite};
+
+StepReport report_of(StepStatus status) {
+    StepReport report;
+    report.status = status;
+    report.time = 0.5;
+    report.dt = 0.1;
+    report.newton_iterations = 7;
+    report.linear_iterations = 83;
+    report.halvings = 2;
+    report.residual = 0.03125;
+    report.smallest_fraction = 0.0625;
+    return report;
+}
+
+}  // namespace
+
+TEST_CASE("Every status has a word of its own") {
+    std::set<std::string> words;
+    for (const StepStatus status : all_statuses) CHECK(words.insert(status_word(status)).second);
+    CHECK(words.count("unknown") == 0);
+}
+
+TEST_CASE("A step is good unless pins, obstacles or infinities stopped it") {
+    for (const StepStatus status : all_statuses) {
+        const bool good = status == StepStatus::ok || status == StepStatus::halved || status == StepStatus::not_converged;
+        CHECK(report_of(status).ok() == good);
+    }
+}
+
+TEST_CASE("An explanation has the status and the figures") {
+    for (const StepStatus status : all_statuses) {
+        const std::string text = report_of(status).explanation();
+        CHECK(mentions(text, {status_word(status), "0.1 s", "7 Newton", "83 linear", "0.03125", "2 halvings"}));
+        // A failed step's time is that of its start.
+        CHECK(mentions(text, {report_of(status).ok() ? "t = 0.4 s" : "t = 0.5 s"}));
+    }
+}
+
+TEST_CASE("Failures say what failed and what to do") {
+    StepReport pin = report_of(StepStatus::pin_blocked);
+    pin.blocked_cloth = 2;
+    pin.blocked_vertex = 45;
+    CHECK(mentions(pin.explanation(), {"pinned vertex 45 of cloth 2", "the obstacles"}));
+    pin.blocking_obstacle = 1;
+    CHECK(mentions(pin.explanation(), {"obstacle 1"}));
+    StepReport fast = report_of(StepStatus::obstacle_too_fast);
+    fast.blocking_obstacle = 3;
+    CHECK(mentions(fast.explanation(), {"obstacle 3", "0.0625", "shorter time step"}));
+    CHECK(mentions(report_of(StepStatus::not_finite).explanation(), {"infinite", "shorter time step"}));
+}
+
+TEST_CASE("Explaining prints the explanation as one line") {
+    const StepReport report = report_of(StepStatus::not_finite);
+    std::FILE* file = std::tmpfile();
+    REQUIRE(file != nullptr);
+    report.explain(file);
+    std::rewind(file);
+    std::array<char, 1000> text{};
+    const std::size_t size = std::fread(text.data(), 1, text.size(), file);
+    std::fclose(file);
+    CHECK(std::string(text.data(), size) == report.explanation() + "\n");
+}
+
+TEST_CASE("Total energy leaves work out") {
+    const StepEnergy energy{.kinetic = 1.0, .gravity = 2.0, .elastic = 4.0, .contact = 8.0, .work = 16.0};
+    CHECK(energy.total() == 15.0);
+}
+
+}  // namespace percale::test

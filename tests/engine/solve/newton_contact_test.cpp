@@ -1,0 +1,118 @@
+#include <cmath>
+#include <numbers>
+
+#include "engine/solve/newton.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+#include "tests/support/plane_detector.h"
+
+namespace percale::test {
+namespace {
+
+constexpr double h = 0.005;  // the sheet's thickness
+
+/// A small sheet above a plane that is tilted by `angle` about z, so that its downhill direction is (cos, -sin, 0).
+SolverScene sheet_on_plane(double angle, double friction, double height, const StepSettings& settings = {}) {
+    const Rotation tilt{std::cos(-0.5 * angle), 0.0, 0.0, std::sin(-0.5 * angle)};
+    const Pose pose{.translation = Vec3::Zero(), .rotation = tilt};
+    TriangleMesh grid = make_grid(0.2, 0.2, 4, 4);
+    const Vec3 up = transform(pose, Vec3(0, height, 0));
+    for (Vec3& x : grid.vertices) x = transform(pose, x) + up;
+    SolverScene scene = solver_scene(grid, sheet_fabric(), settings);
+    auto detector = std::make_unique<PlaneDetector>();
+    detector->set_cloth(scene.model.triangles, scene.model.thickness);
+    detector->add_obstacle(make_plane(1.0), pose, friction);
+    scene.detector = std::move(detector);
+    scene.plan.contacts = true;
+    return scene;
+}
+
+Vec3 mean_velocity(const SolverScene& scene) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < scene.model.vertex_count(); ++i) sum += scene.model.mass[i] * scene.state.velocities.at(i);
+    return sum / scene.model.cloths[0].mass;
+}
+
+void run(SolverScene& scene, int steps) {
+    for (int n = 0; n < steps; ++n) {
+        const NewtonReport report = scene.step_implicit();
+        CAPTURE(n, report.residual, report.newton_iterations);
+        REQUIRE(report.end == NewtonEnd::converged);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Cloth that fell on a plane rests between three quarters of the thickness and the thickness") {
+    for (const double dt : {1.0 / 60.0, 1.0 / 240.0}) {
+        SolverScene scene = sheet_on_plane(0.0, 0.3, 0.05, {.time_step = dt});
+        run(scene, static_cast<int>(std::round(2.0 / dt)));
+        for (int i = 0; i < 16; ++i) {
+            CAPTURE(dt, i, scene.state.positions.y[i] / h);
+            CHECK(scene.state.positions.y[i] >= 0.75 * h - 1e-5);
+            CHECK(scene.state.positions.y[i] < h);
+            CHECK(scene.state.velocities.at(i).norm() < 1e-3);
+        }
+    }
+}
+
+TEST_CASE("Cloth thrown at a plane never crosses it") {
+    for (const double speed : {1.0, 10.0, 100.0}) {
+        SolverScene scene = sheet_on_plane(0.0, 0.3, 0.05);
+        for (int i = 0; i < 16; ++i) scene.state.velocities.set(i, Vec3(0.3, -speed, 0.0));
+        for (int n = 0; n < 30; ++n) {
+            const NewtonReport report = scene.step_implicit();
+            REQUIRE(report.end != NewtonEnd::not_finite);
+            REQUIRE(report.end != NewtonEnd::blocked);
+            for (int i = 0; i < 16; ++i) REQUIRE(scene.state.positions.y[i] > 0.0);
+        }
+    }
+}
+
+TEST_CASE("On an incline flatter than friction's angle cloth sticks but for a creep below a millimetre a second") {
+    const double angle = 20.0 * std::numbers::pi / 180.0;
+    for (const double mu : {1.05 * std::tan(angle), 0.6, 1.0}) {
+        SolverScene scene = sheet_on_plane(angle, mu, h * (1.0 - 0.25 * std::cos(angle)));
+        run(scene, 60);
+        // A damper that saturates at 1 mm/s holds mu N y (2 - y) with y = speed/(1 mm/s).
+        const double creep = 1e-3 * (1.0 - std::sqrt(1.0 - std::tan(angle) / mu));
+        CAPTURE(mu, mean_velocity(scene).norm(), creep);
+        CHECK(mean_velocity(scene).norm() == Approx(creep).epsilon(0.02));
+    }
+}
+
+TEST_CASE("On a steeper incline cloth slides with g (sin a - mu cos a)") {
+    const double angle = 20.0 * std::numbers::pi / 180.0;
+    for (const double mu : {0.0, 0.1, 0.2, 0.3}) {
+        SolverScene scene = sheet_on_plane(angle, mu, h * (1.0 - 0.25 * std::cos(angle)));
+        run(scene, 12);
+        const Vec3 before = mean_velocity(scene);
+        run(scene, 48);
+        const Vec3 downhill(std::cos(angle), -std::sin(angle), 0.0);
+        const double measured = (mean_velocity(scene) - before).dot(downhill) / 0.8;
+        const double expected = 9.81 * (std::sin(angle) - mu * std::cos(angle));
+        CAPTURE(mu, measured, expected);
+        CHECK(measured == Approx(expected).epsilon(0.005));
+    }
+}
+
+TEST_CASE("The threshold between sticking and sliding is the tangent of the angle") {
+    const double angle = 20.0 * std::numbers::pi / 180.0;
+    double sticks = 1.0, slides = 0.1;
+    while (sticks - slides > 2e-4) {
+        const double mu = 0.5 * (sticks + slides);
+        SolverScene scene = sheet_on_plane(angle, mu, h * (1.0 - 0.25 * std::cos(angle)));
+        run(scene, 30);
+        (mean_velocity(scene).norm() < 1e-3 ? sticks : slides) = mu;
+    }
+    CAPTURE(sticks, std::tan(angle));
+    CHECK(std::abs(sticks - std::tan(angle)) < 1e-3);
+}
+
+TEST_CASE("Contact is refreshed once a solve") {
+    SolverScene scene = sheet_on_plane(0.0, 0.3, 0.01);
+    run(scene, 5);
+    CHECK(static_cast<PlaneDetector&>(*scene.detector).refreshes == 5);
+}
+
+}  // namespace percale::test

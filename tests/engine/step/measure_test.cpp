@@ -1,0 +1,69 @@
+#include "engine/step/measure.h"
+
+#include <limits>
+
+#include "engine/step/step.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+#include "tests/support/plane_detector.h"
+
+namespace percale::test {
+namespace {
+
+World moving_pair() {
+    World world = make_world(linked_masses({2.0, 3.0}, {{0, 1, 1.0, 50.0, 0.0}}), {Vec3(0, 1, 0), Vec3(1.5, 2, 0)}, {});
+    world.state.velocities.set(0, Vec3(1, 2, 2));
+    world.state.velocities.set(1, Vec3(0, 0, -4));
+    return world;
+}
+
+}  // namespace
+
+TEST_CASE("Energies are those of the state") {
+    const World world = moving_pair();
+    const StepEnergy energy = current_energy(world);
+    const double stretch = std::sqrt(1.5 * 1.5 + 1.0) - 1.0;
+    CHECK(energy.kinetic == Approx(0.5 * 2.0 * 9.0 + 0.5 * 3.0 * 16.0).epsilon(1e-15));
+    CHECK(energy.gravity == Approx(9.81 * (2.0 * 1.0 + 3.0 * 2.0)).epsilon(1e-15));
+    CHECK(energy.elastic == Approx(0.5 * 50.0 * stretch * stretch).epsilon(1e-14));
+    CHECK(energy.contact == 0.0);
+    CHECK(energy.work == 0.0);
+    CHECK(energy.total() == energy.kinetic + energy.gravity + energy.elastic);
+}
+
+TEST_CASE("Strain and speed are the largest ones; without contact nothing is near") {
+    World world = moving_pair();
+    world.report.energy.work = 7.0;
+    measure(world);
+    CHECK(world.report.largest_speed == 4.0);
+    CHECK(world.report.largest_strain == Approx(std::sqrt(3.25) - 1.0).epsilon(1e-14));
+    CHECK(world.report.smallest_distance == std::numeric_limits<double>::infinity());
+    CHECK(world.report.contacts == 0);
+    CHECK(world.report.energy.work == 7.0);  // counted by the solve, kept by the measure
+    CHECK(world.report.stages.measure >= 0.0);
+}
+
+TEST_CASE("Contacts are counted and hashed, and the hash follows their distances") {
+    TriangleMesh grid = make_grid(0.2, 0.2, 3, 3);
+    for (Vec3& x : grid.vertices) x.y() = 0.004;
+    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {});
+    world.detector = std::make_unique<PlaneDetector>();
+    world.detector->set_cloth(world.model.triangles, world.model.thickness);
+    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
+    world.script.obstacles.push_back({"plane", {}, {}});
+    const StepReport first = step(world);
+    CHECK(first.contacts == 9);
+    CHECK(first.energy.contact > 0.0);
+    CHECK(first.contact_stiffness > 0.0);
+    double lowest = 1.0;
+    for (int i = 0; i < 9; ++i) lowest = std::min(lowest, world.state.positions.y[i]);
+    CHECK(first.smallest_distance == lowest);
+    const std::uint64_t hash = world.report.contact_hash;
+    measure(world);
+    CHECK(world.report.contact_hash == hash);
+    world.newton.current.forces.rows.distance[3] = std::nextafter(world.newton.current.forces.rows.distance[3], 1.0);
+    measure(world);
+    CHECK(world.report.contact_hash != hash);
+}
+
+}  // namespace percale::test

@@ -1,0 +1,134 @@
+#include "engine/step/solve_step.h"
+
+#include "engine/step/scripted_motion.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+#include "tests/support/plane_detector.h"
+
+namespace percale::test {
+namespace {
+
+World sheet_world(const StepSettings& settings, double height = 0.0) {
+    TriangleMesh grid = make_grid(0.5, 0.5, 4, 4);
+    for (Vec3& x : grid.vertices) x.y() += height;
+    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, settings);
+    world.before = world.state;
+    return world;
+}
+
+void add_plane(World& world) {
+    world.detector = std::make_unique<PlaneDetector>();
+    world.detector->set_cloth(world.model.triangles, world.model.thickness);
+    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
+    world.script.obstacles.push_back({"plane", {}, {}});
+}
+
+void solve(World& world) {
+    world.report = {};
+    world.report.dt = world.report.smallest_dt = world.settings.time_step;
+    world.before = world.state;
+    set_targets(world);
+    solve_step(world);
+}
+
+void pin(World& world, int vertex, const Vec3& move) {
+    world.script.free[vertex] = 0.0;
+    world.script.pin_targets.set(vertex, world.state.positions.at(vertex) + move);
+}
+
+}  // namespace
+
+TEST_CASE("Each scheme takes its own way through a step") {
+    for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler}) {
+        World world = sheet_world({.time_step = 1e-4, .scheme = scheme});
+        solve(world);
+        const double fall = scheme == Scheme::rk4 ? 0.5 : 1.0;
+        CHECK(world.state.positions.y[5] == Approx(-fall * 9.81e-8).epsilon(1e-9));
+        CHECK((world.report.newton_iterations > 0) == (scheme == Scheme::backward_euler));
+        CHECK(world.report.status == StepStatus::ok);
+        CHECK(world.report.smallest_dt == 1e-4);
+    }
+}
+
+TEST_CASE("A step that does not converge is redone in halves and says so") {
+    World world = sheet_world({.time_step = 1.0 / 60.0, .newton_tolerance = 1e-6, .newton_iterations = 3});
+    Random random(5);
+    for (int i = 0; i < 16; ++i) world.state.velocities.set(i, random.point(3.0));
+    pin(world, 0, Vec3(0.01, 0, 0));
+    solve(world);
+    CAPTURE(world.report.residual, world.report.halvings);
+    CHECK(world.report.status == StepStatus::halved);
+    CHECK(world.report.halvings > 0);
+    CHECK(world.report.smallest_dt < world.settings.time_step);
+    CHECK(world.state.positions.at(0) == world.script.pin_targets.at(0));
+    const double parts = world.settings.time_step / world.report.smallest_dt;
+    CHECK(parts == std::round(parts));
+}
+
+TEST_CASE("A step of one iteration is linearly implicit and never redone") {
+    World world = sheet_world({.newton_iterations = 1});
+    Random random(5);
+    for (int i = 0; i < 16; ++i) world.state.velocities.set(i, random.point(3.0));
+    solve(world);
+    CHECK(world.report.status == StepStatus::ok);
+    CHECK(world.report.newton_iterations == 1);
+    CHECK(world.report.halvings == 0);
+}
+
+TEST_CASE("If halving does not help, the last state is accepted as not converged") {
+    World world = sheet_world({.time_step = 1.0 / 60.0, .newton_tolerance = 1e-14, .newton_iterations = 2});
+    Random random(5);
+    for (int i = 0; i < 16; ++i) world.state.velocities.set(i, random.point(3.0));
+    solve(world);
+    CHECK(world.report.status == StepStatus::not_converged);
+    CHECK(world.report.smallest_dt == Approx(1.0 / 60.0 / 64.0));
+    CHECK(world.report.residual > 1e-14);
+}
+
+TEST_CASE("A pin that is pulled through a plane is blocked and named, with the plane") {
+    World world = sheet_world({}, 0.02);
+    add_plane(world);
+    pin(world, 3, Vec3(0, 0.001, 0));
+    pin(world, 9, Vec3(0, -0.03, 0));
+    solve(world);
+    CHECK(world.report.status == StepStatus::pin_blocked);
+    CHECK(world.report.blocked_cloth == 0);
+    CHECK(world.report.blocked_vertex == 9);
+    CHECK(world.report.blocking_obstacle == 0);
+    CHECK(world.report.smallest_fraction < 1.0);
+}
+
+TEST_CASE("A plane that drives through held cloth is too fast") {
+    World world = sheet_world({}, 0.02);
+    add_plane(world);
+    for (int i = 0; i < 16; ++i) pin(world, i, Vec3::Zero());
+    world.script.obstacles[0].end.translation = Vec3(0, 0.05, 0);
+    solve(world);
+    CHECK(world.report.status == StepStatus::obstacle_too_fast);
+    CHECK(world.report.blocking_obstacle == 0);
+}
+
+TEST_CASE("A plane that drives under free cloth takes it along") {
+    World world = sheet_world({}, 0.02);
+    add_plane(world);
+    world.script.obstacles[0].end.translation = Vec3(0, 0.05, 0);
+    solve(world);
+    CHECK(world.report.ok());
+    for (int i = 0; i < 16; ++i) CHECK(world.state.positions.y[i] > 0.05);
+    CHECK(world.report.energy.work > 0.0);
+}
+
+TEST_CASE("Lifting a whole sheet at constant speed takes the work m g h") {
+    World world = sheet_world({});
+    const double speed = 0.6, rise = speed / 60.0;
+    for (int n = 0; n < 5; ++n) {
+        for (int i = 0; i < 16; ++i) pin(world, i, Vec3(0, rise, 0));
+        solve(world);
+        const double mass = world.model.cloths[0].mass;
+        // Backward Euler pays m v for a change of velocity v, half of which is lost.
+        const double expected = mass * 9.81 * rise + (n == 0 ? mass * speed * speed : 0.0);
+        CHECK(world.report.energy.work == Approx(expected).epsilon(1e-9));
+    }
+}
+
+}  // namespace percale::test

@@ -1,0 +1,87 @@
+#include <cmath>
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+/// A free sheet, stretched and thrown about at random.
+struct ThrownSheet {
+    Simulation simulation;
+    ClothId cloth;
+
+    ThrownSheet(const StepSettings& settings, double damping) : simulation(settings) {
+        Fabric fabric = sheet_fabric();
+        fabric.spring_damping = damping;
+        cloth = simulation.add_cloth(make_grid(0.6, 0.6, 7, 7), fabric);
+        Random random(31);
+        std::vector<Vec3> velocities = random_points(random, 49, 2.0), positions = make_grid(0.6, 0.6, 7, 7).vertices;
+        for (Vec3& v : velocities) v += Vec3(1.0, 0.5, -2.0);
+        for (Vec3& x : positions) x += random.point(0.02);
+        simulation.set_positions(cloth, positions);
+        simulation.set_velocities(cloth, velocities);
+    }
+
+    Vec3 momentum() const {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t i = 0; i < 49; ++i) sum += simulation.masses(cloth)[i] * simulation.velocities(cloth)[i];
+        return sum;
+    }
+    Vec3 angular_momentum() const {
+        Vec3 sum = Vec3::Zero();
+        const auto positions = simulation.positions(cloth), velocities = simulation.velocities(cloth);
+        for (std::size_t i = 0; i < 49; ++i) sum += simulation.masses(cloth)[i] * positions[i].cross(velocities[i]);
+        return sum;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("A free cloth keeps its momentum in every scheme") {
+    for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler}) {
+        const double dt = scheme == Scheme::backward_euler ? 1.0 / 60.0 : 2e-4;
+        ThrownSheet sheet({.time_step = dt, .scheme = scheme, .newton_tolerance = 1e-13, .gravity = Vec3::Zero()}, 0.1);
+        const Vec3 before = sheet.momentum();
+        for (int n = 0; n < 100; ++n) REQUIRE(sheet.simulation.step().ok());
+        CAPTURE(static_cast<int>(scheme), (sheet.momentum() - before).norm() / before.norm());
+        CHECK((sheet.momentum() - before).norm() <= 1e-12 * before.norm());
+    }
+}
+
+TEST_CASE("Symplectic Euler keeps angular momentum, along-spring damping included") {
+    ThrownSheet sheet({.time_step = 2e-4, .scheme = Scheme::symplectic_euler, .gravity = Vec3::Zero()}, 0.1);
+    const Vec3 before = sheet.angular_momentum();
+    for (int n = 0; n < 500; ++n) REQUIRE(sheet.simulation.step().ok());
+    CHECK((sheet.angular_momentum() - before).norm() <= 1e-12 * before.norm());
+}
+
+TEST_CASE("RK4 keeps the energy of an undamped free sheet, damping only takes from it") {
+    ThrownSheet undamped({.time_step = 2e-5, .scheme = Scheme::rk4}, 0.0), damped({.time_step = 2e-5, .scheme = Scheme::rk4}, 0.1);
+    const double start = undamped.simulation.energy().total();
+    double before = damped.simulation.energy().total();
+    for (int n = 0; n < 2000; ++n) {
+        REQUIRE(undamped.simulation.step().ok());
+        const StepReport report = damped.simulation.step();
+        REQUIRE(report.energy.total() <= before + 1e-9);
+        before = report.energy.total();
+    }
+    CHECK(std::abs(undamped.simulation.energy().total() - start) <= 1e-6 * std::abs(start));
+    CHECK(before < start - 0.01);
+}
+
+TEST_CASE("Backward Euler never gains energy, at small steps and large ones") {
+    for (const double dt : {1.0 / 960.0, 1.0 / 60.0, 0.5}) {
+        ThrownSheet sheet({.time_step = dt, .newton_tolerance = 1e-8}, 0.1);
+        double before = sheet.simulation.energy().total();
+        for (int n = 0; n < 60; ++n) {
+            const StepReport report = sheet.simulation.step();
+            REQUIRE(report.ok());
+            CAPTURE(dt, n, report.energy.total() - before);
+            CHECK(report.energy.total() <= before + 1e-7);
+            before = report.energy.total();
+        }
+    }
+}
+
+}  // namespace percale::test

@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <numeric>
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+#include "tests/support/plane_detector.h"
+
+namespace percale::test {
+namespace {
+
+std::vector<Vec3> copy(std::span<const Vec3> view) { return {view.begin(), view.end()}; }
+
+Fabric free_fabric() {
+    Fabric fabric = sheet_fabric();
+    fabric.springs.shear = 0.0;
+    return fabric;
+}
+
+/// A sheet without its grid, hung from two vertices of the boundary and pushed sideways.
+TriangleMesh free_sheet() {
+    TriangleMesh mesh = make_grid(0.6, 0.6, 7, 7);
+    mesh.grid_columns = mesh.grid_rows = 0;
+    return mesh;
+}
+
+std::vector<Vec3> run(const StepSettings& settings, const TriangleMesh& mesh, const Pose& pose, const std::array<int, 2>& pins, int steps) {
+    Simulation simulation(settings);
+    const ClothId cloth = simulation.add_cloth(mesh, free_fabric(), pose);
+    for (const int vertex : pins) simulation.pin(cloth, vertex);
+    for (int n = 0; n < steps; ++n) REQUIRE(simulation.step().ok());
+    return copy(simulation.positions(cloth));
+}
+
+StepSettings tight(Scheme scheme) {
+    return {.time_step = scheme == Scheme::backward_euler ? 1.0 / 60.0 : 5e-4, .scheme = scheme, .newton_tolerance = 1e-11};
+}
+
+constexpr Scheme all_schemes[] = {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler};
+
+}  // namespace
+
+TEST_CASE("A scene that is turned and shifted as a whole moves the same") {
+    Random random(21);
+    for (const Scheme scheme : all_schemes) {
+        const int steps = scheme == Scheme::backward_euler ? 15 : 400;
+        const std::vector<Vec3> plain = run(tight(scheme), free_sheet(), {}, {0, 6}, steps);
+        const Pose pose = random.pose(1.0);
+        StepSettings turned = tight(scheme);
+        turned.gravity = transform(Pose{.translation = Vec3::Zero(), .rotation = pose.rotation}, turned.gravity);
+        const double difference = largest_difference(run(turned, free_sheet(), pose, {0, 6}, steps), transform(pose, plain));
+        CAPTURE(difference);
+        CHECK(difference < 1e-9);
+    }
+}
+
+TEST_CASE("Renumbering vertices and triangles renumbers the result") {
+    const TriangleMesh mesh = free_sheet();
+    const int count = static_cast<int>(mesh.vertices.size());
+    std::vector<int> new_number(count);
+    std::iota(new_number.begin(), new_number.end(), 0);
+    std::mt19937 engine(4);
+    std::shuffle(new_number.begin(), new_number.end(), engine);
+    TriangleMesh shuffled = mesh;
+    for (int i = 0; i < count; ++i) shuffled.vertices[new_number[i]] = mesh.vertices[i];
+    for (Triangle& t : shuffled.triangles) t = {new_number[t[1]], new_number[t[2]], new_number[t[0]]};
+    std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), engine);
+    for (const Scheme scheme : all_schemes) {
+        const int steps = scheme == Scheme::backward_euler ? 15 : 400;
+        const std::vector<Vec3> plain = run(tight(scheme), mesh, {}, {0, 6}, steps);
+        const std::vector<Vec3> other = run(tight(scheme), shuffled, {}, {new_number[0], new_number[6]}, steps);
+        std::vector<Vec3> back(count);
+        for (int i = 0; i < count; ++i) back[i] = other[new_number[i]];
+        CHECK(largest_difference(plain, back) < 1e-9);
+    }
+}
+
+TEST_CASE("A mirrored scene moves mirrored") {
+    TriangleMesh mirrored = free_sheet();
+    for (Vec3& x : mirrored.vertices) x.x() = -x.x();
+    for (Triangle& t : mirrored.triangles) std::swap(t[1], t[2]);
+    std::vector<Vec3> image = run(tight(Scheme::backward_euler), mirrored, {}, {0, 24}, 15);
+    for (Vec3& x : image) x.x() = -x.x();
+    CHECK(largest_difference(image, run(tight(Scheme::backward_euler), free_sheet(), {}, {0, 24}, 15)) < 1e-9);
+}
+
+TEST_CASE("Lengths, times and masses may be measured in other units") {
+    // Lengths by s, time by sqrt(s), spring constants by their own share: the same motion, s times as large.
+    const double s = 100.0;
+    const auto sheet = [&](double scale) {
+        Simulation simulation({.time_step = std::sqrt(scale) / 60.0, .newton_tolerance = 1e-11});
+        Fabric fabric = free_fabric();
+        fabric.area_density /= scale * scale;  // the same mass
+        fabric.springs.structural /= scale;    // the same forces
+        fabric.springs.bend /= scale;
+        fabric.spring_damping /= std::sqrt(scale);
+        fabric.thickness = 1e-3;
+        const ClothId cloth = simulation.add_cloth(free_sheet(), fabric, {.scale = scale});
+        simulation.pin(cloth, 0);
+        for (int n = 0; n < 20; ++n) REQUIRE(simulation.step().ok());
+        std::vector<Vec3> points = copy(simulation.positions(cloth));
+        for (Vec3& x : points) x /= scale;
+        return points;
+    };
+    CHECK(largest_difference(sheet(1.0), sheet(s)) < 1e-9);
+}
+
+TEST_CASE("Two runs of the same scene have the same bits in every step") {
+    for (const bool contact : {false, true}) {
+        std::vector<std::uint64_t> hashes[2];
+        for (auto& list : hashes) {
+            Simulation simulation(StepSettings{}, contact ? std::make_unique<PlaneDetector>() : nullptr);
+            const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 9, 9), sheet_fabric(), {.translation = Vec3(0, 0.05, 0)});
+            if (contact) simulation.add_obstacle(make_plane(1.0), {.rotation = {0.995, 0.0, 0.0, std::sqrt(1.0 - 0.995 * 0.995)}});
+            if (!contact) simulation.pin(cloth, 0);
+            for (int n = 0; n < 40; ++n) {
+                const StepReport report = simulation.step();
+                list.push_back(simulation.state_hash());
+                list.push_back(report.contact_hash);
+            }
+        }
+        CHECK(hashes[0] == hashes[1]);
+        CHECK(hashes[0][0] != hashes[0][2]);
+    }
+}
+
+}  // namespace percale::test

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <vector>
+
+#include "engine/solve/block_matrix.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+
+inline Vectors from_dense(const Eigen::VectorXd& x) {
+    Vectors vectors;
+    vectors.resize(static_cast<int>(x.size()) / 3);
+    for (int i = 0; i < x.size() / 3; ++i) vectors.set(i, x.segment<3>(3 * i));
+    return vectors;
+}
+
+inline Eigen::VectorXd to_dense(const Vectors& vectors, int count) {
+    Eigen::VectorXd x(3 * count);
+    for (int i = 0; i < count; ++i) x.segment<3>(3 * i) = vectors.at(i);
+    return x;
+}
+
+inline Eigen::Matrix3d full_block(const std::array<double, 6>& k) {
+    Eigen::Matrix3d m;
+    m << k[0], k[1], k[2], k[1], k[3], k[4], k[2], k[4], k[5];
+    return m;
+}
+
+/// A random network in a random state, with contacts and prescribed vertices: the engine's matrix and all it was made of.
+struct RandomSystem {
+    Random random;
+    ClothModel model;
+    SpringTerms terms;
+    std::vector<ContactBlock> contacts;
+    BlockMatrix matrix;
+
+    explicit RandomSystem(unsigned seed, int count) : random(seed) {
+        model = linked_masses(random_masses(random, count), random_links(random, count, 4 * count));
+        const Vectors positions = to_vectors(random_points(random, count, 0.7));
+        const Vectors velocities = to_vectors(random_points(random, count, 1.0));
+        StepSprings springs;
+        set_step_springs(model.springs, positions, DampingForm::length_rate, 1.0 / 60.0, springs);
+        evaluate_springs(model.springs, springs, {positions, velocities, 1.0 / 60.0}, true, terms);
+        for (int i = 0; i < count / 2; ++i) contacts.push_back(random_contact(count));
+        set_pattern(model.adjacency, matrix);
+        for (int i = 0; i < count / 5; ++i) matrix.free[random.index(count)] = 0.0;
+        fill_matrix(model.mass, terms, matrix);
+        set_contacts(contacts, matrix);
+    }
+    RandomSystem(const RandomSystem&) = delete;
+    RandomSystem& operator=(const RandomSystem&) = delete;
+
+    ContactBlock random_contact(int count) {
+        ContactBlock block{.vertex = {-1, -1, -1, -1}, .weight = {}, .k = {}};
+        const int corners = std::min(count, 1 + random.index(3)), first = random.index(count);
+        double sum = 0.0;
+        for (int k = 0; k < corners; ++k) {
+            block.vertex[k] = (first + k) % count;
+            sum += block.weight[k] = random.number(0.1, 1.0);
+        }
+        for (double& weight : block.weight) weight /= sum;
+        const Vec3 n = random.unit(), t = random.unit();
+        const double normal = random.decades(1e-3, 10.0), tangent = random.decades(1e-3, 1.0);
+        int entry = 0;
+        for (int a = 0; a < 3; ++a) {
+            for (int b = a; b < 3; ++b) block.k[entry++] = normal * n[a] * n[b] + tangent * t[a] * t[b];
+        }
+        return block;
+    }
+
+    Eigen::VectorXd random_vector() {
+        Eigen::VectorXd x(3 * model.vertex_count());
+        for (double& value : x) value = random.number(-1.0, 1.0);
+        return x;
+    }
+
+    /// Assembled block by block from springs and contacts, without the pattern.
+    Eigen::MatrixXd dense() const {
+        const int count = model.vertex_count();
+        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * count, 3 * count);
+        const auto add = [&](int i, int j, const Eigen::Matrix3d& block) { result.block<3, 3>(3 * i, 3 * j) += block; };
+        for (int i = 0; i < count; ++i) add(i, i, model.mass[i] * Eigen::Matrix3d::Identity());
+        for (int k = 0; k < model.springs.size(); ++k) {
+            const int i = model.springs.first[k], j = model.springs.second[k];
+            const Vec3 w(terms.wx[k], terms.wy[k], terms.wz[k]);
+            const Eigen::Matrix3d block = terms.a[k] * Eigen::Matrix3d::Identity() + w * w.transpose();
+            add(i, i, block);
+            add(j, j, block);
+            add(i, j, -block);
+            add(j, i, -block);
+        }
+        for (const ContactBlock& contact : contacts) {
+            for (int k = 0; k < 4 && contact.vertex[k] >= 0; ++k) {
+                for (int l = 0; l < 4 && contact.vertex[l] >= 0; ++l) {
+                    add(contact.vertex[k], contact.vertex[l], contact.weight[k] * contact.weight[l] * full_block(contact.k));
+                }
+            }
+        }
+        return result;
+    }
+
+    /// The solution with prescribed entries of `x` kept, by a dense factorisation of the free rows.
+    Eigen::VectorXd solve_dense(const Eigen::VectorXd& b, Eigen::VectorXd x) const {
+        std::vector<int> rows;
+        for (int i = 0; i < 3 * model.vertex_count(); ++i) {
+            if (matrix.free[i / 3] > 0.0) rows.push_back(i);
+        }
+        for (const int i : rows) x[i] = 0.0;
+        const Eigen::MatrixXd a = dense();
+        const Eigen::VectorXd right = b - a * x;
+        const Eigen::VectorXd solution = a(rows, rows).ldlt().solve(right(rows));
+        for (std::size_t i = 0; i < rows.size(); ++i) x[rows[i]] = solution[static_cast<Eigen::Index>(i)];
+        return x;
+    }
+};
+
+}  // namespace percale::test
