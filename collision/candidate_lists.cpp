@@ -7,8 +7,9 @@
 namespace percale {
 namespace {
 
-constexpr double skin_share = 0.4;   // of the thickness: room around a vertex before its lists are built anew
-constexpr double skin_of_way = 0.2;  // of the move the list is built for
+constexpr double skin_share = 0.4;    // of the thickness: room around a vertex before its lists are built anew
+constexpr double least_share = 1e-4;  // of a move: below it lists are built however many pairs they hold
+constexpr double skin_of_way = 0.2;   // of the move the list is built for
 
 double skin(double thickness, double way) { return skin_share * thickness + skin_of_way * way; }
 
@@ -27,9 +28,11 @@ class PairCollector {
 public:
     PairCollector(const ClothMove& move, int obstacle_number, const Obstacle& obstacle, ClusterList& list)
         : move_(move), number_(obstacle_number), obstacle_(obstacle), list_(list) {}
+    long considered() const { return considered_; }
 
     /// `room`: how far the feature can get from where it is.
     void consider(ContactPair pair, double room, double thickness) {
+        ++considered_;
         pair.obstacle = number_;
         const double distance = pair_distance(pair, move_.from, obstacle_, move_.part.from);
         if (distance >= thickness + room + obstacle_.longest_way()) return;
@@ -42,6 +45,7 @@ private:
     int number_;
     const Obstacle& obstacle_;
     ClusterList& list_;
+    long considered_ = 0;
 };
 
 }  // namespace
@@ -146,26 +150,45 @@ void CandidateLists::add_pairs(std::size_t cluster, int obstacle_number, std::sp
             }
         }
     }
+    considered_ += collector.considered();
 }
 
-void CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
+double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
     advance(move.from, move.part.from, obstacles);
     const int version = total_version(obstacles);
     dirty_.clear();
-    asked_.clear();
     held_.clear();
     for (std::size_t i = 0; i < lists_.size(); ++i) {
         if (covers(i, move, version)) continue;
         dirty_.push_back(i);
-        asked_.push_back(set_boxes(i, move));
         for (const ContactPair& pair : lists_[i].pairs) {
             if (pair.held) held_.emplace_back(i, pair);
         }
-        lists_[i].pairs.clear();
         lists_[i].version = version;
     }
-    if (dirty_.empty()) return;
+    if (dirty_.empty()) return 1.0;
+    double share = 1.0;
+    ClothMove covered = move;
+    while (!rebuild(covered, obstacles, share < least_share)) {
+        share *= 0.5;
+        shortened_.resize(move.from.size());
+        for (std::size_t i = 0; i < shortened_.size(); ++i) shortened_[i] = move.from[i] + share * (move.to[i] - move.from[i]);
+        covered.to = shortened_;
+    }
+    mark_held();
+    return share;
+}
+
+/// Builds the dirty lists anew; false (and lists of no use) if that takes too many pairs, unless `whatever_it_takes`.
+bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes) {
+    const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 4000000L + 300L * static_cast<long>(room_.size());
+    considered_ = 0;
     builds_ += static_cast<long>(dirty_.size());
+    asked_.clear();
+    for (const std::size_t i : dirty_) {
+        lists_[i].pairs.clear();
+        asked_.push_back(set_boxes(i, move));
+    }
     for (std::size_t number = 0; number < obstacles.size(); ++number) {
         obstacles[number]->find(asked_, found_);
         for (std::size_t k = 0; k < dirty_.size(); ++k) {
@@ -173,13 +196,14 @@ void CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
             if (near.empty()) continue;
             set_rooms(dirty_[k], move);
             add_pairs(dirty_[k], static_cast<int>(number), near, move, *obstacles[number]);
+            if (considered_ > most) return false;
         }
     }
-    mark_held();
     for (const std::size_t i : dirty_) {
         lists_[i].least_reach = std::numeric_limits<double>::infinity();
         for (const ContactPair& pair : lists_[i].pairs) lists_[i].least_reach = std::min(lists_[i].least_reach, pair.reach);
     }
+    return true;
 }
 
 /// What was a contact in a list stays one in the list that replaces it.

@@ -29,8 +29,9 @@ public:
     CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
                    std::span<const Vec3> positions);
 
-    /// Makes every list good for all states between two, and moves the lists' time to `move.from`.
-    void cover(const ClothMove& move, const Obstacles& obstacles);
+    /// Makes every list good for all states between two, and moves the lists' time to `move.from`. A move so long that its lists
+    /// would not fit into memory is covered in part: returns the share of it, from its start, that the lists are good for.
+    double cover(const ClothMove& move, const Obstacles& obstacles);
 
     /// Tells the lists that cloth and obstacles are here now: shortens the bounds by what they moved.
     void advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles);
@@ -47,6 +48,7 @@ private:
     void set_rooms(std::size_t cluster, const ClothMove& move);
     std::span<const int> close_to(std::span<const int> vertices, std::span<const int> near, double thickness,
                                   const Obstacle& obstacle);
+    bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes);
     void mark_held();
     double shrink_of(std::size_t cluster, std::span<const Vec3> positions) const;
 
@@ -62,7 +64,9 @@ private:
     std::vector<Box> asked_;
     std::vector<std::pair<std::size_t, ContactPair>> held_;  // of the lists being replaced, with their clusters
     TriangleLists found_;
+    std::vector<Vec3> shortened_;  // the end of the part of a long move that is covered
     double seen_fraction_ = 0.0;
+    long considered_ = 0;  // pairs, while lists are built
     long builds_ = 0;
 };
 

@@ -78,11 +78,11 @@ public:
     double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, from);
         const ClothMove move{.from = from, .to = to, .part = part};
-        lists_->cover(move, obstacles_);
+        const double covered = lists_->cover(move, obstacles_);
         double obstacle_way = 0.0;
         for (const auto& obstacle : obstacles_) obstacle_way = std::max(obstacle_way, obstacle->longest_way());
         obstacle_way *= part.to - part.from;
-        double safe = 1.0;
+        double safe = covered;
         const std::span<const ClothCluster> clusters = lists_->clusters();
         for (std::size_t i = 0; i < clusters.size(); ++i) {
             ClusterList& list = lists_->lists()[i];

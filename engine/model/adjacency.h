@@ -12,10 +12,10 @@ namespace percale {
 /// `network.size()`, which does not exist and counts as zero, and to the vertex itself.
 struct Adjacency {
     int vertex_count = 0;
-    std::vector<int> start;    // of each slice; one more at the end
-    std::vector<int> other;    // the vertex at the other end
-    std::vector<int> spring;   // which spring
-    std::vector<double> sign;  // +1 where the vertex is the spring's first, -1 where its second, 0 for padding
+    std::vector<int> start = {0};  // of each slice; one more at the end
+    std::vector<int> other;        // the vertex at the other end
+    std::vector<int> spring;       // which spring
+    std::vector<double> sign;      // +1 where the vertex is the spring's first, -1 where its second, 0 for padding
 
     int slices() const { return static_cast<int>(start.size()) - 1; }
 };

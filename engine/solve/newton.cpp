@@ -213,6 +213,7 @@ private:
         StageTimer timer(stages_.solve);
         const SolveTarget target = solve_target(iteration, norm, last_norm);
         report_.linear_iterations += solve_cg(matrix, space_.right_side, target, space_.solve, space_.direction).iterations;
+        if (space_.current.forces.rows.size() == 0) correct_translation();
     }
 
     void set_prescribed_direction() {
@@ -221,6 +222,21 @@ private:
         for (int i = 0; i < model_.vertex_count(); ++i) {
             if ((*part_.free)[i] > 0.0) continue;
             space_.direction.set(i, (part_.targets->at(i) - space_.current.positions.at(i)) / part_.dt);
+        }
+    }
+
+    /// Springs do not resist a translation, so the one left over by an unfinished linear solve is known exactly: with it, a cloth
+    /// that nothing holds keeps its momentum whatever the tolerance.
+    void correct_translation() {
+        for (const ClothRange& cloth : model_.cloths) {
+            Vec3 missing = Vec3::Zero();
+            bool held = false;
+            for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
+                held = held || (*part_.free)[i] == 0.0;
+                missing -= space_.current.residual.at(i) + model_.mass[i] * space_.direction.at(i);
+            }
+            if (held) continue;
+            for (int i = cloth.first; i < cloth.first + cloth.count; ++i) space_.direction.add(i, missing / cloth.mass);
         }
     }
 

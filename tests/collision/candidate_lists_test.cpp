@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "percale/detectors.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision_backends.h"
 #include "tests/support/collision_pairs.h"
@@ -222,6 +223,30 @@ TEST_CASE("a pair is listed once, and obstacles out of reach are not listed at a
     for (Vec3& p : away) p.y() += 50.0;
     lists.cover({.from = away, .to = away, .part = {0.0, 0.0}}, world.obstacles);
     CHECK(keys(lists).empty());
+}
+
+TEST_CASE("a move too long for its lists to fit is covered in part, and the cut stays within that part") {
+    const TriangleMesh sheet = make_grid(1.0, 1.0, 17, 17);
+    std::vector<Vec3> from, to;
+    for (const Vec3& p : sheet.vertices) {
+        from.push_back(p + Vec3(0, 2, 0));
+        to.push_back(p - Vec3(0, 2, 0));
+    }
+    const std::vector<double> thick(from.size(), 0.005);
+    Obstacles obstacles;
+    obstacles.push_back(std::make_unique<Obstacle>(make_sphere(0.4, 5), Pose{}, 0.0, make_brute_force_tree));
+    CandidateLists lists(sheet.triangles, thick, from);
+    const double share = lists.cover({.from = from, .to = to, .part = {0.0, 1.0}}, obstacles);
+    CHECK(share < 1.0);
+    CHECK(share > 0.0);
+    std::size_t pairs = 0;
+    for (const ClusterList& list : lists.lists()) pairs += list.pairs.size();
+    CHECK(pairs < 5000000);
+
+    const auto detector = make_brute_force_detector();
+    detector->set_cloth(sheet.triangles, thick);
+    detector->add_obstacle(make_sphere(0.4, 5), {}, 0.0);
+    CHECK(detector->largest_safe_fraction(from, to, {0.0, 1.0}) <= share);
 }
 
 TEST_CASE("a cluster's thickness is the largest of its vertices") {

@@ -10,8 +10,9 @@
 namespace percale::test {
 namespace {
 
-constexpr StepStatus all_statuses[] = {StepStatus::ok,          StepStatus::halved,           StepStatus::not_converged,
-                                       StepStatus::pin_blocked, StepStatus::obstacle_too_fast, StepStatus::not_finite};
+constexpr StepStatus all_statuses[] = {
+    StepStatus::ok,        StepStatus::halved, StepStatus::not_converged, StepStatus::pin_blocked, StepStatus::obstacle_too_fast,
+    StepStatus::not_finite};
 
 StepReport report_of(StepStatus status) {
     StepReport report;
@@ -57,6 +58,9 @@ TEST_CASE("Failures say what failed and what to do") {
     CHECK(mentions(pin.explanation(), {"pinned vertex 45 of cloth 2", "the obstacles"}));
     pin.blocking_obstacle = 1;
     CHECK(mentions(pin.explanation(), {"obstacle 1"}));
+    pin.blocked_name = "cape";
+    pin.blocking_name = "table";
+    CHECK(mentions(pin.explanation(), {"pinned vertex 45 of cloth 2 (cape)", "obstacle 1 (table)"}));
     StepReport fast = report_of(StepStatus::obstacle_too_fast);
     fast.blocking_obstacle = 3;
     CHECK(mentions(fast.explanation(), {"obstacle 3", "0.0625", "shorter time step"}));

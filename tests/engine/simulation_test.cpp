@@ -143,7 +143,8 @@ TEST_CASE("A pin dragged through the plane fails with names and leaves every bit
     CHECK(report.status == StepStatus::pin_blocked);
     CHECK(report.blocked_cloth == scene.cloth.index);
     CHECK(report.blocked_vertex == 6);
-    CHECK(mentions(report.explanation(), {"pin_blocked", "vertex 6", "cloth 0"}));
+    CHECK(report.blocked_name == "towel");
+    CHECK(mentions(report.explanation(), {"pin_blocked", "vertex 6", "cloth 0 (towel)", "obstacle 0 (floor)"}));
     CHECK(copy(scene.simulation.positions(scene.cloth)) == positions);
     CHECK(copy(scene.simulation.velocities(scene.cloth)) == velocities);
     CHECK(scene.simulation.state_hash() == hash);
@@ -275,7 +276,9 @@ TEST_CASE("Settings, poses and meshes that cannot be are refused by name") {
     CHECK(mentions(scene_error([] { Simulation simulation({.time_step = 0.0}); }), {"settings", "time_step", "0"}));
     Simulation simulation(StepSettings{});
     const TriangleMesh grid = make_grid(0.5, 0.5, 3, 3);
-    const auto add = [&](const Pose& pose) { return scene_error([&] { simulation.add_cloth(grid, sheet_fabric(), pose, "flag"); }); };
+    const auto add = [&](const Pose& pose) {
+        return scene_error([&] { simulation.add_cloth(grid, sheet_fabric(), pose, "flag"); });
+    };
     CHECK(mentions(add({.translation = Vec3(nan_value, 0, 0)}), {"flag", "translation"}));
     CHECK(mentions(add({.rotation = {2.0, 0, 0, 0}}), {"flag", "rotation", "2", "unit quaternion"}));
     CHECK(mentions(add({.rotation = {nan_value, 0, 0, 0}}), {"flag", "rotation"}));
@@ -298,7 +301,9 @@ TEST_CASE("Settings, poses and meshes that cannot be are refused by name") {
 TEST_CASE("Cloths, vertices and obstacles that do not exist are refused with the range of those that do") {
     PlaneScene scene;
     Simulation& s = scene.simulation;
-    const auto no_cloth = [](const std::string& text, const char* number) { return mentions(text, {"no cloth", number, "0 ... 0"}); };
+    const auto no_cloth = [](const std::string& text, const char* number) {
+        return mentions(text, {"no cloth", number, "0 ... 0"});
+    };
     for (const int bad : {-1, 1}) {
         const ClothId id{bad};
         const std::string number = std::to_string(bad);
@@ -326,7 +331,8 @@ TEST_CASE("Calls with wrong values are refused and change nothing") {
     std::vector<Vec3> bad(16, Vec3(1, 1, 1));
     bad[11].y() = nan_value;
     CHECK(mentions(scene_error([&] { s.unpin(scene.cloth, 3); }), {"towel", "unpin", "vertex 3", "not pinned"}));
-    CHECK(mentions(scene_error([&] { s.move_pin(scene.cloth, 3, Vec3::Zero()); }), {"towel", "move_pin", "vertex 3", "not pinned"}));
+    CHECK(mentions(scene_error([&] { s.move_pin(scene.cloth, 3, Vec3::Zero()); }),
+                   {"towel", "move_pin", "vertex 3", "not pinned"}));
     CHECK(mentions(scene_error([&] { s.move_pin(scene.cloth, 4, bad[11]); }), {"towel", "vertex 4", "not finite"}));
     CHECK(mentions(scene_error([&] { s.move_obstacle(scene.plane, {.scale = 2.0}); }), {"floor", "scale"}));
     CHECK(mentions(scene_error([&] { s.move_obstacle(scene.plane, {.rotation = {0, 0, 0, 0}}); }), {"floor", "rotation"}));

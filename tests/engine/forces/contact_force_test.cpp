@@ -103,7 +103,8 @@ TEST_CASE("Slope and curvature are the derivatives of the contact potential") {
     for (double d = 0.01 * h; d < h; d += 0.0137 * h) {
         const double step = 1e-5 * d;
         const ContactPotential p = contact_potential(d, h, stiffness);
-        const ContactPotential ahead = contact_potential(d + step, h, stiffness), behind = contact_potential(d - step, h, stiffness);
+        const ContactPotential ahead = contact_potential(d + step, h, stiffness),
+                               behind = contact_potential(d - step, h, stiffness);
         CAPTURE(d / h);
         CHECK((behind.energy - ahead.energy) / (2.0 * step) == Approx(p.slope).epsilon(1e-7).margin(1e-9));
         CHECK((behind.slope - ahead.slope) / (2.0 * step) == Approx(p.curvature).epsilon(1e-7));

@@ -17,7 +17,9 @@ struct OneSpring {
     Vectors positions, velocities;
 
     OneSpring(const Vec3& x, const Vec3& v, const Link& link)
-        : model(linked_masses({1.0, 1.0}, {link})), positions(to_vectors({x, Vec3::Zero()})), velocities(to_vectors({v, Vec3::Zero()})) {}
+        : model(linked_masses({1.0, 1.0}, {link})),
+          positions(to_vectors({x, Vec3::Zero()})),
+          velocities(to_vectors({v, Vec3::Zero()})) {}
 
     SpringTerms terms(DampingForm form = DampingForm::velocity) const {
         StepSprings springs;
@@ -130,8 +132,7 @@ TEST_CASE("Damping as a length rate pulls with ks (l - l0) + kd (l - l_n)/dt") {
     for (int k = 0; k < list.size(); ++k) {
         const Vec3 x = network.positions.at(list.first[k]) - network.positions.at(list.second[k]);
         const double before = (start.at(list.first[k]) - start.at(list.second[k])).norm();
-        const double tension =
-            list.stiffness[k] * (x.norm() - list.rest_length[k]) + list.damping[k] * (x.norm() - before) / dt;
+        const double tension = list.stiffness[k] * (x.norm() - list.rest_length[k]) + list.damping[k] * (x.norm() - before) / dt;
         CHECK((force_of(terms, k) + tension * x.normalized()).norm() <= 1e-11 * (std::abs(tension) + list.stiffness[k]));
     }
 }
@@ -205,7 +206,8 @@ TEST_CASE("Forces are left alone when no matrix is asked for, and end in a zero 
     StepSprings springs;
     set_step_springs(spring.model.springs, spring.positions, DampingForm::velocity, dt, springs);
     SpringTerms terms;
-    const double energy = evaluate_springs(spring.model.springs, springs, {spring.positions, spring.velocities, dt}, false, terms);
+    const double energy =
+        evaluate_springs(spring.model.springs, springs, {spring.positions, spring.velocities, dt}, false, terms);
     CHECK(energy == Approx(0.5 * 300.0 * 0.25).epsilon(1e-15));
     CHECK(force_of(terms) == Vec3(-152.0, 0.0, 0.0));
     CHECK(terms.a[0] == 0.0);

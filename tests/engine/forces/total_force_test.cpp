@@ -45,7 +45,8 @@ TEST_CASE("The total force is gravity and springs, the potential the sum of thei
         evaluate_springs(sheet.model.springs, sheet.springs, {sheet.positions, sheet.velocities, 0.01}, true, terms);
     add_spring_forces(sheet.model.adjacency, terms, expected);
     CHECK(same_bits(forces.total, expected));
-    CHECK(forces.potential == Approx(springs + gravity_energy(sheet.model.mass, sheet.input.gravity, sheet.positions)).epsilon(1e-14));
+    CHECK(forces.potential ==
+          Approx(springs + gravity_energy(sheet.model.mass, sheet.input.gravity, sheet.positions)).epsilon(1e-14));
     CHECK(forces.spring_terms.a == terms.a);
 }
 

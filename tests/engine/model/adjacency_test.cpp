@@ -70,7 +70,8 @@ TEST_CASE("Sums over the adjacency have the bits of a loop over the springs") {
         expected[model.springs.first[k]] += value[k];
         expected[model.springs.second[k]] -= value[k];
     }
-    for (const Entry& entry : entries_of(model.adjacency, model.springs.size())) sums[entry.vertex] += entry.sign * value[entry.spring];
+    for (const Entry& entry : entries_of(model.adjacency, model.springs.size()))
+        sums[entry.vertex] += entry.sign * value[entry.spring];
     for (int i = 0; i < 37; ++i) CHECK(sums[i] == expected[i]);
 }
 

@@ -41,7 +41,8 @@ TEST_CASE("A cloth that cannot be simulated is refused by name") {
     ClothModel model;
     Fabric heavy = sheet_fabric();
     heavy.area_density = -1.0;
-    CHECK(mentions(scene_error([&] { append_cloth(model, make_grid(1, 1, 3, 3), heavy, "flag"); }), {"flag", "area_density", "-1"}));
+    CHECK(mentions(scene_error([&] { append_cloth(model, make_grid(1, 1, 3, 3), heavy, "flag"); }),
+                   {"flag", "area_density", "-1"}));
     TriangleMesh broken = make_grid(1, 1, 3, 3);
     broken.triangles[3] = broken.triangles[2];
     CHECK(mentions(scene_error([&] { append_cloth(model, broken, sheet_fabric(), "flag"); }), {"flag", "repeats"}));

@@ -141,8 +141,9 @@ TEST_CASE("A capsule is a stack of frusta between two poles") {
                 const auto angle = [&](int k) { return 2.0 * std::numbers::pi * k / segments; };
                 const double low = radius * std::cos(angle(i)), high = radius * std::cos(angle(i + 1));
                 const double rise = radius * (std::sin(angle(i + 1)) - std::sin(angle(i)));
-                volume += 2.0 * rise / 3.0 *
-                          (polygon_area(low, segments) + polygon_area(high, segments) + polygon_area(std::sqrt(low * high), segments));
+                volume +=
+                    2.0 * rise / 3.0 *
+                    (polygon_area(low, segments) + polygon_area(high, segments) + polygon_area(std::sqrt(low * high), segments));
             }
             CHECK(signed_volume(capsule) == Approx(volume).epsilon(1e-7));
             for (const Vec3& x : capsule.vertices) {

@@ -28,7 +28,8 @@ SpringNetwork network_of(const TriangleMesh& mesh, const Fabric& fabric, int fir
 std::multiset<Spring> springs_of(const SpringNetwork& network) {
     std::multiset<Spring> springs;
     for (int k = 0; k < network.size(); ++k) {
-        springs.insert({std::min(network.first[k], network.second[k]), std::max(network.first[k], network.second[k]), network.kind[k]});
+        springs.insert(
+            {std::min(network.first[k], network.second[k]), std::max(network.first[k], network.second[k]), network.kind[k]});
     }
     return springs;
 }
@@ -119,7 +120,8 @@ TEST_CASE("Springs that cannot be are refused by name") {
     const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
     CHECK(mentions(scene_error([] { network_of(make_sphere(1.0, 1), fabric_of(1000.0, 5.0, 1.0)); }),
                    {"sail", "springs.shear", "5", "free mesh"}));
-    CHECK(mentions(scene_error([&] { network_of(grid, fabric_of(0.0, 0.0, 0.0)); }), {"sail", "no springs", "springs.structural"}));
+    CHECK(
+        mentions(scene_error([&] { network_of(grid, fabric_of(0.0, 0.0, 0.0)); }), {"sail", "no springs", "springs.structural"}));
     TriangleMesh touching = make_grid(1.0, 1.0, 3, 3);
     touching.vertices[8] = touching.vertices[6];
     CHECK(mentions(scene_error([&] { network_of(touching, sheet_fabric()); }), {"sail", "vertices 6 and 8", "same place"}));

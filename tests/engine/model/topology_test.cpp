@@ -13,12 +13,9 @@ namespace {
 /// Edge -> opposite vertices, by looking at every triangle for every edge.
 std::map<std::pair<int, int>, std::multiset<int>> edges_by_search(const std::vector<Triangle>& triangles) {
     std::map<std::pair<int, int>, std::multiset<int>> edges;
-    for (const Triangle& t : triangles) {
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) {
-                if (t[i] < t[j]) edges[{t[i], t[j]}].insert(t[3 - i - j]);
-            }
-        }
+    for (const auto& [a, b, c] : triangles) {
+        for (const auto& [i, j, k] : {Triangle{a, b, c}, Triangle{b, c, a}, Triangle{c, a, b}})
+            edges[std::minmax(i, j)].insert(k);
     }
     return edges;
 }

@@ -23,7 +23,8 @@ TEST_CASE("The matrix is symmetric and positive definite, contact included") {
     RandomSystem system(1, 30);
     const Eigen::MatrixXd dense = system.dense();
     CHECK((dense - dense.transpose()).norm() == Approx(0.0).margin(1e-14 * dense.norm()));
-    const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::VectorXd eigenvalues =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues();
     CHECK(eigenvalues[0] > 0.0);
     CHECK(eigenvalues[0] >= 0.99 * *std::min_element(system.model.mass.begin(), system.model.mass.end()));
 }

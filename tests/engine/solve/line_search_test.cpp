@@ -31,8 +31,8 @@ TEST_CASE("Armijo's rule asks for a ten-thousandth of the slope's promise") {
     CHECK_FALSE(accept_trial(2.0, trial));
 }
 
-TEST_CASE("Where the objective is flat to rounding the slope decides") {
-    LineTrial trial{.start_objective = 1e6, .start_slope = -1e-9, .objective = 1e6, .slope = 0.5e-9};
+TEST_CASE("Where the objective rises by no more than rounding the slope decides") {
+    LineTrial trial{.start_objective = 1e6, .start_slope = -1e-9, .objective = 1e6 + 1e-7, .slope = 0.5e-9};
     CHECK(accept_trial(1.0, trial));
     trial.slope = 1e-9;
     CHECK_FALSE(accept_trial(1.0, trial));

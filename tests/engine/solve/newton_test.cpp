@@ -30,7 +30,8 @@ SolverScene crumpled_sheet(const StepSettings& settings, int size = 5) {
 }
 
 SolverScene homework_scene(int iterations) {
-    SolverScene scene = crumpled_sheet({.time_step = 1e-4, .newton_iterations = iterations, .damping_form = DampingForm::velocity});
+    SolverScene scene =
+        crumpled_sheet({.time_step = 1e-4, .newton_iterations = iterations, .damping_form = DampingForm::velocity});
     scene.options = {.jacobians = false, .line_search = false, .predict = false};
     return scene;
 }
@@ -84,7 +85,7 @@ TEST_CASE("Free fall of backward Euler is y0 - g dt^2 n(n+1)/2, whatever the sto
 }
 
 TEST_CASE("The converged step is the minimum that a dense solver finds") {
-    for (const double dt : {1.0 / 240.0, 1.0 / 60.0, 0.1}) {
+    for (const double dt : {1.0 / 240.0, 1.0 / 60.0}) {
         SolverScene scene = crumpled_sheet({.time_step = dt, .newton_tolerance = 1e-10});
         const DenseBackwardEuler dense(scene);
         const Eigen::VectorXd expected = dense.solve();
@@ -101,10 +102,26 @@ TEST_CASE("The converged step is the minimum that a dense solver finds") {
     }
 }
 
+TEST_CASE("A step so long that it has several minima ends in one of them") {
+    SolverScene scene = crumpled_sheet({.time_step = 0.1, .newton_tolerance = 1e-10});
+    const DenseBackwardEuler dense(scene);
+    CHECK(scene.step_implicit().end == NewtonEnd::converged);
+    const Eigen::VectorXd v = to_dense(scene.state.velocities, 25);
+    CHECK(dense.gradient(v).norm() <= 1e-9 * dense.gradient(dense.start()).norm());
+    CHECK(dense.objective(v) < dense.objective(dense.start()));
+    Random random(3);
+    for (int trial = 0; trial < 100; ++trial) {
+        Eigen::VectorXd beside = v;
+        for (int i = 0; i < v.size(); ++i) beside[i] += scene.free[i / 3] * random.number(-0.01, 0.01);
+        CHECK(dense.objective(beside) > dense.objective(v));
+    }
+}
+
 TEST_CASE("The residual is the gradient of the incremental potential") {
-    SolverScene scene = crumpled_sheet({.newton_iterations = 1});
+    SolverScene scene = crumpled_sheet({.newton_iterations = 1}), further = crumpled_sheet({.newton_iterations = 2});
     const DenseBackwardEuler dense(scene);
     scene.step_implicit();  // one iteration, so that there is a residual left
+    further.step_implicit();
     const Eigen::VectorXd v = to_dense(scene.state.velocities, 25), residual = to_dense(scene.newton.current.residual, 25);
     CHECK(residual.norm() > 1e-6);
     for (int i = 0; i < v.size(); ++i) {
@@ -118,7 +135,11 @@ TEST_CASE("The residual is the gradient of the incremental potential") {
         const double slope = (dense.objective(ahead) - dense.objective(behind)) / 2e-4;
         CHECK(slope == Approx(residual[i]).epsilon(1e-5).margin(1e-6 * residual.norm()));
     }
-    CHECK(scene.newton.current.objective == Approx(dense.objective(v)).epsilon(1e-12));
+    // The engine's objective leaves out what is the same for all v.
+    const Eigen::VectorXd next = to_dense(further.state.velocities, 25);
+    const double change = further.newton.current.objective - scene.newton.current.objective;
+    CHECK(change == Approx(dense.objective(next) - dense.objective(v)).epsilon(1e-9));
+    CHECK(change < 0.0);
 }
 
 TEST_CASE("The incremental potential falls with every iteration") {

@@ -17,8 +17,8 @@ const double omega = std::sqrt(k * (m1 + m2) / (m1 * m2));
 /// One step of two masses on a spring along x, from stretch u and rate of stretch v, as a linear map of (u, v/omega).
 Eigen::Vector2d step_pair(Scheme scheme, double a, const Eigen::Vector2d& start) {
     StepSettings settings{.time_step = a / omega, .scheme = scheme, .newton_tolerance = 1e-13, .gravity = Vec3::Zero()};
-    SolverScene scene = solver_scene(linked_masses({m1, m2}, {{0, 1, rest, k, 0.0}}),
-                                     {Vec3(rest + start[0], 0, 0), Vec3::Zero()}, settings);
+    SolverScene scene =
+        solver_scene(linked_masses({m1, m2}, {{0, 1, rest, k, 0.0}}), {Vec3(rest + start[0], 0, 0), Vec3::Zero()}, settings);
     scene.state.velocities.set(0, Vec3(start[1] * omega, 0, 0));
     scene.step();
     const double length = scene.state.positions.x[0] - scene.state.positions.x[1];

@@ -94,7 +94,9 @@ TEST_CASE("A pin that is pulled through a plane is blocked and named, with the p
     CHECK(world.report.status == StepStatus::pin_blocked);
     CHECK(world.report.blocked_cloth == 0);
     CHECK(world.report.blocked_vertex == 9);
+    CHECK(world.report.blocked_name == "cloth");
     CHECK(world.report.blocking_obstacle == 0);
+    CHECK(world.report.blocking_name == "plane");
     CHECK(world.report.smallest_fraction < 1.0);
 }
 

@@ -62,7 +62,7 @@ TEST_CASE("scenes that run side by side are printed in their order, with the sam
     CHECK(one.out.find("state_hash ") != std::string::npos);
 }
 
-TEST_CASE("--set and --fps reach every scene") {
+TEST_CASE("the option --set and --fps reach every scene") {
     const TestFolder folder;
     folder.write("a.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 0.2 }\n");
     folder.write("b.toml", folder.read("a.toml"));
@@ -70,7 +70,7 @@ TEST_CASE("--set and --fps reach every scene") {
     CHECK(run_program({"check", "a.toml", "b.toml", "--set", "duration=0.02", "--fps", "10"}, folder.path()).exit_code == 0);
 }
 
-TEST_CASE("--junit tells the same to machines") {
+TEST_CASE("the option --junit tells the same to machines") {
     const TestFolder folder;
     folder.write("bad.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 0.05 }\nintersections = 0\n");
     CHECK(run_program({"check", "bad.toml", "absent.toml", "--junit", "junit.xml", "--quiet"}, folder.path()).exit_code == 2);

@@ -19,7 +19,7 @@ ProgramRun run_with(const TestFolder& folder, std::vector<std::string> options) 
 
 }  // namespace
 
-TEST_CASE("--set overrides keys, several times, without taking the words that follow") {
+TEST_CASE("the option --set overrides keys, several times, without taking the words that follow") {
     const TestFolder folder;
     folder.write("sheet.toml", falling_sheet());
     const ProgramRun run =
@@ -31,7 +31,7 @@ TEST_CASE("--set overrides keys, several times, without taking the words that fo
     CHECK(report.at("settings").at("duration") == 0.04);
 }
 
-TEST_CASE("--fps and --frames win over the scene") {
+TEST_CASE("the option --fps and --frames win over the scene") {
     const TestFolder folder;
     CHECK(run_with(folder, {"--fps", "20", "--frames", "none"}).exit_code == 0);
     CHECK_FALSE(folder.holds("out/frames"));
@@ -59,7 +59,7 @@ TEST_CASE("wrong common options are refused, and nothing is written") {
     CHECK(run_with(folder, {"--threads", "1"}).exit_code == 0);
 }
 
-TEST_CASE("--quiet leaves both channels empty when all is well") {
+TEST_CASE("the option --quiet leaves both channels empty when all is well") {
     const TestFolder folder;
     const ProgramRun run = run_with(folder, {"--quiet"});
     CHECK(run.exit_code == 0);
