@@ -5,11 +5,6 @@
 namespace percale {
 namespace {
 
-bool same(const Pose& a, const Pose& b) {
-    const Rotation &p = a.rotation, &q = b.rotation;
-    return a.translation == b.translation && p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z;
-}
-
 /// The point whose image under the pose is `x`.
 Vec3 inverse_transform(const Pose& pose, const Vec3& x) {
     const Rotation& q = pose.rotation;
@@ -45,13 +40,13 @@ void Obstacle::set_world_boxes() {
 }
 
 void Obstacle::move(const Pose& start, const Pose& end) {
-    const bool stays = same(start, start_pose_) && same(end, end_pose_) && same(start, end);
+    const bool stays = start == start_pose_ && end == end_pose_ && start == end;
     if (stays && !moves_) return;
     ++version_;
     start_pose_ = start;
     end_pose_ = end;
-    moves_ = !same(start, end);
-    away_ = !same(start, built_);
+    moves_ = start != end;
+    away_ = start != built_;
     longest_way_ = 0.0;
     for (std::size_t i = 0; i < local_.size(); ++i) {
         start_[i] = transform(start, local_[i]);

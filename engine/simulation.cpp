@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/schemes.h"
 #include "percale/error.h"
 #include "percale/options.h"
 #include "step/measure.h"
@@ -106,7 +107,7 @@ struct Simulation::Implementation {
     }
 
     void check_scheme() const {
-        if (world.script.obstacles.empty() || world.settings.scheme == Scheme::backward_euler) return;
+        if (world.script.obstacles.empty() || facts_of(world.settings.scheme).implicit) return;
         throw SceneError("an explicit scheme takes no obstacles; use scheme backward_euler");
     }
 };
@@ -226,6 +227,7 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
         world.script.pin_targets.set(range.first + i, positions[i]);
     }
     update_points(world.state);
+    world.contact_energy = 0.0;  // known again after the next step
     world.changed = true;
 }
 

@@ -1,13 +1,11 @@
 #include "obj_file.h"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <istream>
 #include <iterator>
 #include <limits>
 
 #include "text_scan.h"
+#include "whole_file.h"
 
 namespace percale::scenes {
 
@@ -119,11 +117,6 @@ std::string obj_text(std::span<const Vec3> vertices, std::span<const Triangle> t
     return text;
 }
 
-[[noreturn]] void fail_writing(const std::string& file, const std::string& temporary, int reason) {
-    std::remove(temporary.c_str());
-    throw SceneError(file + ": cannot be written: " + std::strerror(reason));
-}
-
 }  // namespace
 
 TriangleMesh read_obj(std::istream& in, const std::string& name) {
@@ -147,16 +140,7 @@ TriangleMesh read_obj(std::istream& in, const std::string& name) {
 }
 
 void write_obj(const std::string& file, std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
-    const std::string text = obj_text(vertices, triangles);
-    const std::string temporary = file + ".part";
-    std::FILE* out = std::fopen(temporary.c_str(), "wb");
-    if (out == nullptr) throw SceneError(file + ": cannot be written: " + std::strerror(errno));
-    errno = 0;
-    const bool written = std::fwrite(text.data(), 1, text.size(), out) == text.size();
-    const int write_reason = errno;
-    const bool closed = std::fclose(out) == 0;
-    if (!written) fail_writing(file, temporary, write_reason);
-    if (!closed || std::rename(temporary.c_str(), file.c_str()) != 0) fail_writing(file, temporary, errno);
+    write_whole_file(file, obj_text(vertices, triangles));
 }
 
 }  // namespace percale::scenes

@@ -101,23 +101,13 @@ void make_due_frames(const BuiltScene& built, const RunHooks& hooks, double slac
     }
 }
 
-void add_stages(StageTimes& sum, const StageTimes& stages) {
-    sum.refresh += stages.refresh;
-    sum.evaluate += stages.evaluate;
-    sum.force += stages.force;
-    sum.setup += stages.setup;
-    sum.solve += stages.solve;
-    sum.cut += stages.cut;
-    sum.measure += stages.measure;
-}
-
 void add_cost(RunTotals& totals, const StepReport& report) {
     totals.newton_iterations += report.newton_iterations;
     totals.linear_iterations += report.linear_iterations;
     totals.rejected_steps += report.halvings;
     totals.contacts_most = std::max(totals.contacts_most, report.contacts);
     totals.contact_stiffness = std::max(totals.contact_stiffness, report.contact_stiffness);
-    add_stages(totals.stages, report.stages);
+    totals.stages += report.stages;
 }
 
 void add_accepted(RunTotals& totals, const StepReport& report) {

@@ -51,16 +51,10 @@ Pose keyframe_pose(const ObstacleSpec& obstacle, double time) {
     return before;
 }
 
-bool same(const Pose& a, const Pose& b) {
-    const Rotation &p = a.rotation, &q = b.rotation;
-    return a.translation == b.translation && p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z && a.scale == b.scale;
-}
-
 void move_obstacles(BuiltScene& built, double end) {
     for (std::size_t i = 0; i < built.obstacles.size(); ++i) {
         const Pose pose = obstacle_pose_at(built.scene.obstacles[i], end);
-        if (!same(pose, built.simulation.obstacle_pose(built.obstacles[i])))
-            built.simulation.move_obstacle(built.obstacles[i], pose);
+        if (pose != built.simulation.obstacle_pose(built.obstacles[i])) built.simulation.move_obstacle(built.obstacles[i], pose);
     }
 }
 

@@ -2,6 +2,11 @@
 
 namespace percale {
 
+bool operator==(const Pose& a, const Pose& b) {
+    const Rotation &p = a.rotation, &q = b.rotation;
+    return a.translation == b.translation && p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z && a.scale == b.scale;
+}
+
 Vec3 transform(const Pose& pose, const Vec3& point) {
     const Vec3 axis(pose.rotation.x, pose.rotation.y, pose.rotation.z);
     const Vec3 scaled = pose.scale * point;

@@ -1,9 +1,11 @@
 #include "step_plan.h"
 
+#include "schemes.h"
+
 namespace percale {
 
 StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts) {
-    const bool implicit = settings.scheme == Scheme::backward_euler;
+    const bool implicit = facts_of(settings.scheme).implicit;
     return {.implicit = implicit,
             .contacts = facts.cloth_vertices > 0 && facts.obstacles > 0,
             .obstacles_move = facts.obstacles_move,

@@ -72,10 +72,10 @@ void step_rk4(const ExplicitPart& part, ExplicitSpace& space, ClothState& state)
         add_scaled(space.velocity_sum, weight[s], space.stage.velocities);
         add_scaled(space.acceleration_sum, weight[s], space.acceleration);
         if (s == 3) break;
-        const Vectors stage_velocities = space.stage.velocities;
+        space.stage_velocities = space.stage.velocities;
         space.stage.positions = state.positions;
         space.stage.velocities = state.velocities;
-        add_scaled(space.stage.positions, ahead[s] * part.dt, stage_velocities);
+        add_scaled(space.stage.positions, ahead[s] * part.dt, space.stage_velocities);
         add_scaled(space.stage.velocities, ahead[s] * part.dt, space.acceleration);
     }
     add_scaled(state.positions, part.dt, space.velocity_sum);

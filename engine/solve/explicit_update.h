@@ -21,6 +21,8 @@ struct ExplicitSpace {
     Forces forces;
     ClothState stage;
     Vectors acceleration, velocity_sum, acceleration_sum;
+    Vectors stage_velocities;  // of the stage before, while the next is made
+    Vectors start_forces;      // N, for the work of pins
 };
 
 /// Symplectic (semi-implicit) Euler: v' = v + dt f(q, v)/m, q' = q + dt v'. Damping by velocity.

@@ -168,17 +168,21 @@ private:
         for (int iteration = 0;; ++iteration) {
             const double norm = residual_norm();
             if (iteration == 0) first_norm = std::max(norm, gravity_norm());
-            report_.residual = first_norm > 0.0 ? norm / first_norm : 0.0;
+            set_relative_residual(norm, first_norm);
             if (norm == 0.0 || !std::isfinite(norm)) return end_here(norm == 0.0);
             if (arrived() && part_.settings->newton_tolerance && report_.residual <= *part_.settings->newton_tolerance) return;
             if (iteration == most) break;
             solve_direction(iteration, norm, last_norm);
             last_norm = norm;
             ++report_.newton_iterations;
-            if (!step_along() || most == 1) return end_here(most == 1);
+            if (step_along() && most > 1) continue;
+            set_relative_residual(residual_norm(), first_norm);
+            return end_here(most == 1);
         }
         end_here(false);
     }
+
+    void set_relative_residual(double norm, double first_norm) { report_.residual = first_norm > 0.0 ? norm / first_norm : 0.0; }
 
     /// The momentum that gravity gives in a step, as a norm: what a residual is measured against in a scene that is at rest.
     double gravity_norm() const {

@@ -37,19 +37,25 @@ StepEnergy current_energy(const World& world) {
     }
     energy.gravity = gravity_energy(world.model.mass, world.settings.gravity, world.state.positions);
     energy.elastic = elastic_energy(world.model.springs, world.state.positions);
-    energy.contact = world.plan.contacts ? world.newton.current.forces.contact.energy : 0.0;
+    energy.contact = world.contact_energy;
     return energy;
+}
+
+void measure_kept(World& world) {
+    StepReport& report = world.report;
+    report.energy = current_energy(world);
+    report.largest_strain = largest_strain(world.model.springs, world.state.positions);
+    report.largest_speed = largest_speed(world);
+    report.smallest_distance = std::numeric_limits<double>::infinity();
 }
 
 void measure(World& world) {
     StageTimer timer(world.report.stages.measure);
     StepReport& report = world.report;
     const double work = report.energy.work;
-    report.energy = current_energy(world);
+    world.contact_energy = world.plan.contacts ? world.newton.current.forces.contact.energy : 0.0;
+    measure_kept(world);
     report.energy.work = work;
-    report.largest_strain = largest_strain(world.model.springs, world.state.positions);
-    report.largest_speed = largest_speed(world);
-    report.smallest_distance = std::numeric_limits<double>::infinity();
     if (!world.plan.contacts) return;
     const ContactRows& rows = world.newton.current.forces.rows;
     report.contacts = static_cast<int>(rows.size());

@@ -3,11 +3,6 @@
 namespace percale {
 namespace {
 
-bool same(const Pose& a, const Pose& b) {
-    const Rotation &p = a.rotation, &q = b.rotation;
-    return a.translation == b.translation && p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z;
-}
-
 bool pin_moves(const World& world, int i) {
     return world.script.free[i] == 0.0 && world.script.pin_targets.at(i) != world.state.positions.at(i);
 }
@@ -19,7 +14,7 @@ void set_targets(World& world) {
     for (int i = 0; i < world.model.vertex_count() && !facts.pins_move; ++i) facts.pins_move = pin_moves(world, i);
     for (std::size_t k = 0; k < world.script.obstacles.size(); ++k) {
         const ObstacleState& obstacle = world.script.obstacles[k];
-        facts.obstacles_move = facts.obstacles_move || !same(obstacle.start, obstacle.end);
+        facts.obstacles_move = facts.obstacles_move || obstacle.start != obstacle.end;
         world.detector->move_obstacle(static_cast<int>(k), obstacle.start, obstacle.end);
     }
     world.plan = make_step_plan(world.settings, facts);

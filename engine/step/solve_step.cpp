@@ -4,13 +4,42 @@
 #include <cmath>
 
 #include "scripted_motion.h"
-#include "solve/schemes.h"
 #include "support/stage_timer.h"
 
 namespace percale {
 namespace {
 
 constexpr int most_halvings = 6;  // of one step, one inside the other
+
+/// space.forces at a state of an explicit scheme.
+void evaluate_at(World& world, const ClothState& state) {
+    ExplicitSpace& space = world.explicit_space;
+    const ForceInput input{.model = &world.model,
+                           .springs = &space.springs,
+                           .positions = &state.positions,
+                           .velocities = &state.velocities,
+                           .gravity = world.settings.gravity,
+                           .dt = world.settings.time_step,
+                           .with_matrix = false};
+    evaluate_forces(input, space.forces);
+}
+
+/// Work of moving pins in an explicit step, J: what their kinetic energy gained less the work of the mean of the forces at both
+/// ends.
+double explicit_work(World& world) {
+    evaluate_at(world, world.before);
+    world.explicit_space.start_forces = world.explicit_space.forces.total;
+    evaluate_at(world, world.state);
+    double work = 0.0;
+    for (int i = 0; i < world.model.vertex_count(); ++i) {
+        if (world.script.free[i] > 0.0) continue;
+        const Vec3 force = 0.5 * (world.explicit_space.start_forces.at(i) + world.explicit_space.forces.total.at(i));
+        const double before = world.before.velocities.at(i).squaredNorm(), after = world.state.velocities.at(i).squaredNorm();
+        work +=
+            0.5 * world.model.mass[i] * (after - before) - force.dot(world.state.positions.at(i) - world.before.positions.at(i));
+    }
+    return work;
+}
 
 void solve_explicit(World& world) {
     StageTimer timer(world.report.stages.force);
@@ -25,6 +54,7 @@ void solve_explicit(World& world) {
     } else {
         step_symplectic_euler(part, world.explicit_space, world.state);
     }
+    if (world.plan.pins_move) world.report.energy.work = explicit_work(world);
 }
 
 /// Work of pins and obstacles during the part just solved, J: a pin's reaction is what its residual lacks, M (v - v_n) - dt f.

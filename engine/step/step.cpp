@@ -19,6 +19,14 @@ bool all_finite(const ClothState& state) {
     return sum == 0.0;
 }
 
+/// Compensated sum (Kahan 1965), so that a thousand steps of 1/1000 s are 1 s.
+void advance_time(World& world) {
+    const double length = world.settings.time_step - world.time_error;
+    const double sum = world.time + length;
+    world.time_error = (sum - world.time) - length;
+    world.time = sum;
+}
+
 }  // namespace
 
 StepReport step(World& world) {
@@ -30,10 +38,11 @@ StepReport step(World& world) {
     if (world.report.ok() && !all_finite(world.state)) world.report.status = StepStatus::not_finite;
     if (world.report.ok()) {
         finish_motion(world);
-        world.time += world.settings.time_step;
+        advance_time(world);
         measure(world);
     } else {
         world.state = world.before;
+        measure_kept(world);
     }
     world.report.time = world.time;
     return world.report;

@@ -34,14 +34,16 @@ struct World {
     Script script;
     StepPlan plan;
     std::unique_ptr<ContactDetector> detector;
-    double time = 0.0;    // s
-    bool changed = true;  // cloth or obstacles were added since the last preparation
+    double time = 0.0;        // s
+    double time_error = 0.0;  // s, what rounding has added to it
+    bool changed = true;      // cloth or obstacles were added since the last preparation
 
     // Work space and what the running step found so far.
     NewtonSpace newton;
     ExplicitSpace explicit_space;
     ClothState before;  // the state at the start of the running step
     Vectors part_targets;
+    double contact_energy = 0.0;        // J, of the current state
     std::vector<Vec3> velocity_points;  // velocities one after the other, for callers
     StepReport report;
 };

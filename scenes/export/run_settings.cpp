@@ -61,14 +61,30 @@ ordered_json keyframe_object(const Keyframe& keyframe) {
     return json;
 }
 
+struct SelectionObject {
+    ordered_json operator()(const VertexIndices& s) const { return s.vertices; }
+    ordered_json operator()(const VertexBox& s) const {
+        return {{"box", ordered_json::array({list(s.lowest), list(s.highest)})}};
+    }
+    ordered_json operator()(const VertexBoundary&) const { return "boundary"; }
+};
+
+ordered_json selection_object(const VertexSelection& selection) { return std::visit(SelectionObject{}, selection); }
+
+std::string unit_word(double unit) {
+    if (unit == 1.0) return "m";
+    return unit == 0.01 ? "cm" : "mm";
+}
+
 ordered_json cloth_object(const ClothSpec& cloth) {
     ordered_json json = {{"name", cloth.name}, {"fabric", cloth.fabric}};
     if (cloth.grid)
         json["grid"] = {{"size", cloth.grid->size}, {"vertices", cloth.grid->vertices}};
     else
         json["mesh"] = cloth.mesh;
-    json["unit"] = cloth.unit;
+    json["unit"] = unit_word(cloth.unit);
     json["pose"] = pose_object(cloth.pose);
+    json["pin"] = selection_object(cloth.pin);
     return json;
 }
 
@@ -87,7 +103,7 @@ ordered_json obstacle_object(const ObstacleSpec& obstacle) {
         json["shape"] = std::visit(ShapeObject{}, obstacle.shape);
     else
         json["mesh"] = obstacle.mesh;
-    json["unit"] = obstacle.unit;
+    json["unit"] = unit_word(obstacle.unit);
     json["friction"] = obstacle.friction;
     json["pose"] = pose_object(obstacle.pose);
     json["motion"] = ordered_json::array();
@@ -99,10 +115,14 @@ ordered_json obstacle_object(const ObstacleSpec& obstacle) {
 }
 
 struct EventObject {
-    ordered_json operator()(const PinEvent& e) const { return {{"pin", {{"cloth", e.cloth}}}}; }
-    ordered_json operator()(const UnpinEvent& e) const { return {{"unpin", {{"cloth", e.cloth}}}}; }
+    ordered_json operator()(const PinEvent& e) const {
+        return {{"pin", {{"cloth", e.cloth}, {"vertices", selection_object(e.vertices)}}}};
+    }
+    ordered_json operator()(const UnpinEvent& e) const {
+        return {{"unpin", {{"cloth", e.cloth}, {"vertices", selection_object(e.vertices)}}}};
+    }
     ordered_json operator()(const MoveEvent& e) const {
-        return {{"move", {{"cloth", e.cloth}, {"to", list(e.to)}, {"over", e.over}}}};
+        return {{"move", {{"cloth", e.cloth}, {"vertices", selection_object(e.vertices)}, {"to", list(e.to)}, {"over", e.over}}}};
     }
     ordered_json operator()(const GravityEvent& e) const { return {{"gravity", list(e.gravity)}}; }
 };
@@ -116,7 +136,6 @@ ordered_json event_object(const EventSpec& event) {
 ordered_json step_object(const Scene& scene) {
     ordered_json json = options_object(scene.step, step_options());
     json["detector"] = detector_word(scene.detector);
-    json["threads"] = 1;
     return json;
 }
 

@@ -6,13 +6,13 @@
 #include <thread>
 
 #include "export/junit.h"
-#include "export/whole_file.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/common_options.h"
 #include "program/exit_codes.h"
 #include "program/stop_signals.h"
 #include "run_scene.h"
+#include "whole_file.h"
 
 namespace percale::program {
 

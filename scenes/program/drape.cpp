@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "export/whole_file.h"
 #include "measures.h"
 #include "obj_file.h"
 #include "percale/certify.h"
@@ -14,6 +13,7 @@
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
 #include "scene_build.h"
+#include "whole_file.h"
 
 namespace percale::program {
 

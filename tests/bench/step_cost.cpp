@@ -78,16 +78,6 @@ percale::Simulation make_scene(int n, const percale::TriangleMesh* body, double 
     return simulation;
 }
 
-void add(percale::StageTimes& sum, const percale::StageTimes& more) {
-    sum.refresh += more.refresh;
-    sum.evaluate += more.evaluate;
-    sum.force += more.force;
-    sum.setup += more.setup;
-    sum.solve += more.solve;
-    sum.cut += more.cut;
-    sum.measure += more.measure;
-}
-
 void report(const char* name, int n, percale::Simulation simulation, double seconds) {
     const int steps = static_cast<int>(std::lround(60.0 * seconds));
     percale::StageTimes stages;
@@ -101,7 +91,7 @@ void report(const char* name, int n, percale::Simulation simulation, double seco
             step.explain(stdout);
             return;
         }
-        add(stages, step.stages);
+        stages += step.stages;
         newton += step.newton_iterations;
         linear += step.linear_iterations;
         strain = std::max(strain, step.largest_strain);

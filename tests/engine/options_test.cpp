@@ -23,7 +23,7 @@ void check_descriptions(std::span<const Option<Owner>> options) {
         CHECK(fields == 1);
         CHECK((option.get_choice != nullptr) == (option.set_choice != nullptr));
         CHECK((option.get_choice != nullptr) == !option.choices.empty());
-        CHECK(option.lowest < option.highest);
+        CHECK(option.lowest <= option.highest);
     }
 }
 

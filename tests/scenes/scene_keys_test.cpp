@@ -44,7 +44,7 @@ TEST_CASE("every number has a range, every word its choices, every list its coun
         CAPTURE(key.path);
         const bool number = key.kind == KeyKind::number || key.kind == KeyKind::integer || key.kind == KeyKind::number_or_auto;
         const bool list = key.kind == KeyKind::numbers || key.kind == KeyKind::integers;
-        if (number || list || key.kind == KeyKind::box) CHECK(key.lowest < key.highest);
+        if (number || list || key.kind == KeyKind::box) CHECK(key.lowest <= key.highest);
         if (number || list) CHECK_FALSE(range_text(key).empty());
         CHECK((key.count > 0) == list);
         CHECK((!key.choices.empty()) == (key.kind == KeyKind::word));

@@ -35,6 +35,9 @@ struct Pose {
     double scale = 1.0;               // > 0
 };
 
+/// Whether two poses are the same number for number.
+bool operator==(const Pose& a, const Pose& b);
+
 /// The image of a point under a pose. Every part of Percale uses this one function, so that the
 /// solver, the frames on disk and the certificate see the same bits.
 Vec3 transform(const Pose& pose, const Vec3& point);

@@ -18,6 +18,17 @@ enum class StepStatus {
 /// CPU seconds of the calling thread, by stage.
 struct StageTimes {
     double refresh = 0.0, evaluate = 0.0, force = 0.0, setup = 0.0, solve = 0.0, cut = 0.0, measure = 0.0;
+
+    StageTimes& operator+=(const StageTimes& more) {
+        refresh += more.refresh;
+        evaluate += more.evaluate;
+        force += more.force;
+        setup += more.setup;
+        solve += more.solve;
+        cut += more.cut;
+        measure += more.measure;
+        return *this;
+    }
 };
 
 /// Energies in J at the end of the step; the dissipated ones and the work are those of this step.

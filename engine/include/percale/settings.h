@@ -22,6 +22,7 @@ struct StepSettings {
     ContactResponse contact_response = ContactResponse::penalty;
     /// length_rate: kd (l - l_n)/dt along the current direction, backward Euler only; velocity: kd (v_ij . d).
     DampingForm damping_form = DampingForm::length_rate;
+    int threads = 1;                       // of one simulation; this version has one
     Vec3 gravity = Vec3(0.0, -9.81, 0.0);  // m/s^2
 };
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/solve/schemes.h"
+#include "engine/model/schemes.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 

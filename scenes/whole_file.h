@@ -6,7 +6,8 @@
 namespace percale::scenes {
 
 /// A text file that is either whole or absent: written under a temporary name beside the wanted one and renamed by `commit`.
-/// Without `commit` nothing is left. Throws SceneError naming the file if it cannot be written.
+/// Without `commit` nothing is left. A symbolic link is followed. Throws SceneError naming the file if it cannot be written or if
+/// something that is not a regular file has that name.
 class WholeFile {
 public:
     explicit WholeFile(const std::string& file);

@@ -1,4 +1,4 @@
-#include "export/whole_file.h"
+#include "whole_file.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -16,9 +16,22 @@ namespace {
     throw SceneError(file + ": cannot be written: " + std::strerror(errno != 0 ? errno : EIO));
 }
 
+/// What a symbolic link leads to; the name itself otherwise. A device or a folder is refused: renaming would replace it.
+std::string target_of(const std::string& file) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        const bool folder = std::filesystem::is_directory(status);
+        throw SceneError(file +
+                         ": cannot be written: " + (folder ? std::strerror(EISDIR) : "it is there and not a regular file"));
+    }
+    const std::filesystem::path target = std::filesystem::weakly_canonical(file, error);
+    return error ? file : target.string();
+}
+
 }  // namespace
 
-WholeFile::WholeFile(const std::string& file) : file_(file), temporary_(file + ".part") {
+WholeFile::WholeFile(const std::string& file) : file_(target_of(file)), temporary_(file_ + ".part") {
     errno = 0;
     out_.open(temporary_, std::ios::binary | std::ios::trunc);
     if (!out_) refuse(file_);
@@ -31,7 +44,7 @@ WholeFile::~WholeFile() {
 }
 
 void WholeFile::commit() {
-    errno = 0;
+    if (out_) errno = 0;  // else it still says why writing failed
     out_.close();
     if (!out_) refuse(file_);
     std::error_code error;

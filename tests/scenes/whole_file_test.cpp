@@ -1,4 +1,4 @@
-#include "export/whole_file.h"
+#include "whole_file.h"
 
 #include "percale/error.h"
 #include "tests/scenes/test_folder.h"

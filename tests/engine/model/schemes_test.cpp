@@ -1,4 +1,4 @@
-#include "engine/solve/schemes.h"
+#include "engine/model/schemes.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
