@@ -27,7 +27,8 @@ struct RunTotals {
     int steps = 0;           // accepted
     int rejected_steps = 0;  // steps that were redone as shorter ones
     double simulated_s = 0.0;
-    double smallest_step_s = std::numeric_limits<double>::infinity();  // of the steps asked for; infinity if none was accepted
+    double smallest_step_s =
+        std::numeric_limits<double>::infinity();  // of the parts that steps were solved in; infinity if none was accepted
     double largest_step_s = 0.0;
     long newton_iterations = 0;
     long linear_iterations = 0;

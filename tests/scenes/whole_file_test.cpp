@@ -1,12 +1,20 @@
 #include "whole_file.h"
 
+#include <filesystem>
 #include "percale/error.h"
 #include "tests/scenes/test_folder.h"
+
 #include "tests/support/catch.h"
 
 using namespace percale;
 using namespace percale::scenes;
 using percale::scenes::test::TestFolder;
+
+TEST_CASE("a device is refused and not replaced") {
+    if (!std::filesystem::is_character_file("/dev/full")) return;
+    CHECK_THROWS_WITH(WholeFile("/dev/full"), Catch::Contains("not a regular file"));
+    CHECK(std::filesystem::is_character_file("/dev/full"));
+}
 
 TEST_CASE("a whole file appears at once, when it is committed") {
     const TestFolder folder;
