@@ -10,7 +10,7 @@ namespace percale {
 namespace {
 
 constexpr std::string_view scheme_words[] = {"symplectic_euler", "rk4", "backward_euler"};
-constexpr std::string_view solver_words[] = {"auto", "cg"};
+constexpr std::string_view solver_words[] = {"auto", "cg", "multigrid", "direct"};
 constexpr std::string_view response_words[] = {"penalty"};
 constexpr std::string_view damping_words[] = {"length_rate", "velocity"};
 
@@ -81,7 +81,8 @@ constexpr Option<StepSettings> step_list[] = {
      .integer = [](StepSettings& s) { return &s.newton_iterations; }},
     {.key = "linear_solver",
      .unit = "",
-     .sentence = "How the linear system of a Newton iteration is solved: cg = conjugate gradient with block Jacobi.",
+     .sentence = "How the linear system of a Newton iteration is solved: cg = conjugate gradient with block Jacobi, multigrid = with a V-cycle, "
+                 "direct = sparse factorisation, auto = the one of the first two that takes fewer products.",
      .choices = solver_words,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.linear_solver); },
      .set_choice = [](StepSettings& s, int i) { s.linear_solver = static_cast<LinearSolver>(i); }},

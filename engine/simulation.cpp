@@ -132,7 +132,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     append_cloth(model, rest, fabric, name);
     finish_model(model);
     world.model = std::move(model);
-    world.newton.matrix.pattern = nullptr;
+    world.newton.solver.forget_model();
     // The vertices of earlier cloths keep state and pins.
     ClothState state;
     for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(world.model.vertex_count());
@@ -142,7 +142,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     for (std::size_t i = 0; i < world.state.points.size(); ++i) {
         state.velocities.set(static_cast<int>(i), world.state.velocities.at(static_cast<int>(i)));
     }
-    std::vector<double> free(state.positions.padded_size(), 0.0);
+    AlignedVector<double> free(state.positions.padded_size(), 0.0);
     Vectors targets = state.positions;
     for (int i = 0; i < world.model.vertex_count(); ++i) {
         const bool old = i < static_cast<int>(world.state.points.size());

@@ -17,7 +17,16 @@ struct ContactPotential {
 ContactPotential contact_potential(double distance, double thickness, double stiffness);
 
 /// The block diagonal of a step matrix: six arrays xx xy xz yy yz zz, kg.
-using DiagonalBlocks = std::array<std::vector<double>, 6>;
+struct DiagonalBlocks {
+    AlignedVector<double> data;
+    std::size_t padded = 0;
+
+    void resize(std::size_t padded_size) {
+        padded = padded_size;
+        data.assign(6 * padded, 0.0);
+    }
+    const double* operator[](int entry) const { return data.data() + entry * padded; }
+};
 
 /// What the contact term needs of the step it is in.
 struct ContactStep {

@@ -12,76 +12,45 @@ double length(const SpringNetwork& network, const Vectors& x, int k) {
 
 }  // namespace
 
-void set_step_springs(const SpringNetwork& network, const Vectors& positions, DampingForm form, double dt, StepSprings& springs) {
-    if (form == DampingForm::velocity) {
-        springs.stiffness = network.stiffness;
-        springs.rest_length = network.rest_length;
-        springs.damping = network.damping;
-        return;
-    }
-    springs.stiffness.resize(network.size());
-    springs.rest_length.resize(network.size());
-    springs.damping.assign(network.size(), 0.0);
-    for (int k = 0; k < network.size(); ++k) {
-        const double rate = network.damping[k] / dt;
-        const double stiffness = network.stiffness[k] + rate;
-        springs.stiffness[k] = stiffness;
-        springs.rest_length[k] =
-            (network.stiffness[k] * network.rest_length[k] + rate * length(network, positions, k)) / stiffness;
-    }
+void set_step_springs(const Compute& compute, const SpringStart& start, StepSprings& springs) {
+    const Adjacency& adjacency = start.adjacency;
+    springs.entries = adjacency.springs();
+    springs.rate_damping = adjacency.damped && start.form == DampingForm::velocity;
+    if (!adjacency.damped || start.form == DampingForm::velocity) return;
+    springs.stiffness.resize(adjacency.other.size());
+    springs.rest_length.resize(adjacency.other.size());
+    pack_points(compute, start.positions, springs.points);
+    const StartPass pass{.springs = adjacency.springs(),
+                         .positions = start.positions.axes(),
+                         .points = springs.points.data(),
+                         .dt = start.dt,
+                         .stiffness = springs.stiffness.data(),
+                         .rest = springs.rest_length.data()};
+    for_chunks(compute, adjacency.slices(), [&](Slices range) { compute.kernels->start_springs(pass, range); });
+    springs.entries.stiffness = springs.stiffness.data();
+    springs.entries.rest_length = springs.rest_length.data();
 }
 
-double evaluate_springs(const SpringNetwork& network, const StepSprings& springs, const SpringMotion& motion, bool with_matrix,
-                        SpringTerms& terms) {
-    const auto& [positions, velocities, dt] = motion;
-    const std::size_t count = static_cast<std::size_t>(network.size());
-    for (auto* list : {&terms.fx, &terms.fy, &terms.fz, &terms.a, &terms.wx, &terms.wy, &terms.wz}) list->resize(count + 1, 0.0);
-    double energy = 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const int i = network.first[k], j = network.second[k];
-        const double x = positions.x[i] - positions.x[j];
-        const double y = positions.y[i] - positions.y[j];
-        const double z = positions.z[i] - positions.z[j];
-        const double l = std::sqrt(x * x + y * y + z * z);
-        const double inverse = l > 0.0 ? 1.0 / l : 0.0;
-        const double dx = x * inverse, dy = y * inverse, dz = z * inverse;
-        const double rate = dx * (velocities.x[i] - velocities.x[j]) + dy * (velocities.y[i] - velocities.y[j]) +
-                            dz * (velocities.z[i] - velocities.z[j]);
-        const double stretch = l - springs.rest_length[k];
-        const double tension = springs.stiffness[k] * stretch + springs.damping[k] * rate;
-        energy += 0.5 * springs.stiffness[k] * stretch * stretch;
-        terms.fx[k] = -tension * dx;
-        terms.fy[k] = -tension * dy;
-        terms.fz[k] = -tension * dz;
-        if (!with_matrix) continue;
-        // -dt^2 Jq - dt Jv = along d d^T + across (I - d d^T) = across I + (along - across) d d^T
-        const double along = dt * dt * springs.stiffness[k] + dt * springs.damping[k];
-        const double across = l > 0.0 ? std::clamp(dt * dt * tension * inverse, 0.0, along) : along;
-        const double root = std::sqrt(along - across);
-        terms.a[k] = across;
-        terms.wx[k] = root * dx;
-        terms.wy[k] = root * dy;
-        terms.wz[k] = root * dz;
-    }
-    return energy;
+double evaluate_springs(const Compute& compute, const StepSprings& springs, const SpringMotion& motion, bool with_matrix,
+                        Vectors& forces, SpringTerms& terms) {
+    pack_points(compute, motion.positions, terms.points);
+    if (springs.rate_damping) pack_points(compute, motion.velocities, terms.motion);
+    const int slices = motion.positions.slices();
+    if (with_matrix) terms.values.resize(4 * static_cast<std::size_t>(springs.entries.pattern.start[slices]));
+    const SpringPass pass{.springs = springs.entries,
+                          .positions = motion.positions.axes(),
+                          .velocities = motion.velocities.axes(),
+                          .points = terms.points.data(),
+                          .motion = springs.rate_damping ? terms.motion.data() : nullptr,
+                          .dt = motion.dt,
+                          .forces = forces.axes(),
+                          .values = with_matrix ? terms.values.data() : nullptr};
+    return sum_chunks(compute, slices, [&](Slices range) { return compute.kernels->springs(pass, range); });
 }
 
-void add_spring_forces(const Adjacency& adjacency, const SpringTerms& terms, Vectors& forces) {
-    constexpr int lanes = Vectors::lanes;
-    for (int s = 0; s < adjacency.slices(); ++s) {
-        double* fx = &forces.x[static_cast<std::size_t>(s) * lanes];
-        double* fy = &forces.y[static_cast<std::size_t>(s) * lanes];
-        double* fz = &forces.z[static_cast<std::size_t>(s) * lanes];
-        for (int e = adjacency.start[s]; e < adjacency.start[s + 1]; e += lanes) {
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int spring = adjacency.spring[e + lane];
-                const double sign = adjacency.sign[e + lane];
-                fx[lane] += sign * terms.fx[spring];
-                fy[lane] += sign * terms.fy[spring];
-                fz[lane] += sign * terms.fz[spring];
-            }
-        }
-    }
+SpringBlock spring_block(const SpringTerms& terms, int entry) {
+    const float* value = &terms.values[4 * static_cast<std::size_t>(entry - entry % slice_lanes) + entry % slice_lanes];
+    return {value[0], Vec3(value[slice_lanes], value[2 * slice_lanes], value[3 * slice_lanes])};
 }
 
 double elastic_energy(const SpringNetwork& network, const Vectors& positions) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "kernels/compute.h"
 #include "model/adjacency.h"
 #include "model/spring_network.h"
 #include "model/vectors.h"
@@ -10,23 +11,35 @@
 
 namespace percale {
 
-/// What the springs are during one step: tension T = k (l - l_rest) + c (v_ij . d), with d = x_ij / |x_ij|.
+/// What the springs are during one step, one entry a spring end (Adjacency): tension T = k (l - l_rest) + c (v_ij . d), with
+/// d = x_ij / |x_ij|.
 struct StepSprings {
-    std::vector<double> stiffness;    // k, N/m
-    std::vector<double> rest_length;  // l_rest, m
-    std::vector<double> damping;      // c, N s/m
+    SpringEntries entries;  // k N/m, l_rest m, c N s/m
+    bool rate_damping = false;  // there is a c
+    AlignedVector<double> stiffness, rest_length;  // of this step, where they are not those of the model
+    AlignedVector<double> points;                  // work space
+};
+
+/// Where a step begins, and how long it is.
+struct SpringStart {
+    const Adjacency& adjacency;
+    const Vectors& positions;  // m, l_n
+    DampingForm form;
+    double dt;  // s
 };
 
 /// DampingForm::velocity: k = ks, l_rest = l0, c = kd.
 /// DampingForm::length_rate: damping as the rate of the length over the step, kd (l - l_n)/dt, makes each spring exactly one with
 /// k = ks + kd/dt, l_rest = (ks l0 + kd l_n/dt)/k and c = 0: an exact potential with a symmetric Hessian.
-/// `positions` are those at the start of the step (l_n).
-void set_step_springs(const SpringNetwork& network, const Vectors& positions, DampingForm form, double dt, StepSprings& springs);
+/// Views the adjacency, which must live as long. `damped` tells whether any spring has damping.
+void set_step_springs(const Compute& compute, const SpringStart& start, StepSprings& springs);
 
-/// What each spring does in one state; one more entry at the end, all zero, for the padding of Adjacency.
+/// What an evaluation leaves behind: the blocks of the step matrix, and work space.
 struct SpringTerms {
-    std::vector<double> fx, fy, fz;     // N, on the spring's first vertex; the second feels the opposite
-    std::vector<double> a, wx, wy, wz;  // kg: -dt^2 Jq - dt Jv between the two vertices, made positive definite, is a I + w w^T
+    /// kg: -dt^2 Jq - dt Jv between the two vertices of each entry, made positive definite, is a I + w w^T; a, wx, wy, wz of
+    /// slice_lanes entries at a time.
+    AlignedVector<float> values;
+    AlignedVector<double> points, motion;  // positions and velocities as x y z 0
 };
 
 /// The state that springs see; dt in s scales the matrix terms.
@@ -36,15 +49,19 @@ struct SpringMotion {
     double dt;
 };
 
-/// Forces f = -T d and, with `with_matrix`, the matrix terms. Along d the matrix is dt^2 k + dt c, across it dt^2 T/l, which is
-/// taken as 0 where the spring is compressed (T < 0) and capped where damping makes it exceed the first.
-/// A spring of no length has no direction: it exerts no force, its matrix is (dt^2 k + dt c) I.
-/// Returns the potential sum 1/2 k (l - l_rest)^2, J.
-double evaluate_springs(const SpringNetwork& network, const StepSprings& springs, const SpringMotion& motion, bool with_matrix,
-                        SpringTerms& terms);
+/// forces += spring forces -T d, N; with `with_matrix` also terms.values. Along d the matrix is dt^2 k + dt c, across it dt^2 T/l,
+/// which is taken as 0 where the spring is compressed (T < 0) and capped where damping makes it exceed the first.
+/// A spring shorter than 1e-18 m has no direction: it exerts no force, its matrix is (dt^2 k + dt c) I.
+/// Returns the potential sum 1/2 k (l - l_rest)^2, J. Same bits for any instruction set and number of threads.
+double evaluate_springs(const Compute& compute, const StepSprings& springs, const SpringMotion& motion, bool with_matrix,
+                        Vectors& forces, SpringTerms& terms);
 
-/// forces += the springs' forces on their vertices. Sums in the order of the adjacency: same bits for any partition.
-void add_spring_forces(const Adjacency& adjacency, const SpringTerms& terms, Vectors& forces);
+/// The block a I + w w^T of an entry.
+struct SpringBlock {
+    double a;
+    Vec3 w;
+};
+SpringBlock spring_block(const SpringTerms& terms, int entry);
 
 /// Elastic energy sum 1/2 ks (l - l0)^2 of the network, J.
 double elastic_energy(const SpringNetwork& network, const Vectors& positions);

@@ -10,6 +10,7 @@ namespace percale {
 
 /// What forces act on in one evaluation.
 struct ForceInput {
+    const Compute* compute = nullptr;
     const ClothModel* model = nullptr;
     const StepSprings* springs = nullptr;
     const Vectors* positions = nullptr;

@@ -15,6 +15,7 @@ void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fab
         model.mass.push_back(mass);
         range.mass += mass;
     }
+    model.rest.insert(model.rest.end(), rest.vertices.begin(), rest.vertices.end());
     model.thickness.resize(model.mass.size(), fabric.thickness);
     for (const auto& [a, b, c] : rest.triangles) model.triangles.push_back({first + a, first + b, first + c});
     model.cloths.push_back(range);

@@ -24,6 +24,7 @@ struct ClothModel {
     std::vector<ClothRange> cloths;
     std::vector<double> mass;       // kg, one a vertex
     std::vector<double> thickness;  // m, one a vertex
+    std::vector<Vec3> rest;         // m, positions without strain
     std::vector<Triangle> triangles;
     SpringNetwork springs;
     Adjacency adjacency;

@@ -4,20 +4,25 @@
 #include <span>
 #include <vector>
 
+#include "kernels/compute.h"
 #include "percale/mesh.h"
+#include "support/aligned.h"
 
 namespace percale {
 
-/// One 3-vector a vertex as three arrays (structure of arrays), padded with zeros to whole lanes.
+/// One 3-vector a vertex as three arrays (structure of arrays), padded with zeros to whole slices.
 struct Vectors {
-    static constexpr int lanes = 8;
-    std::vector<double> x, y, z;
+    static constexpr int lanes = slice_lanes;
+    AlignedVector<double> x, y, z;
 
     void resize(int count) {
         const std::size_t padded = static_cast<std::size_t>((count + lanes - 1) / lanes) * lanes;
         for (auto* axis : {&x, &y, &z}) axis->assign(padded, 0.0);
     }
     std::size_t padded_size() const { return x.size(); }
+    int slices() const { return static_cast<int>(x.size() / lanes); }
+    Axes axes() { return {x.data(), y.data(), z.data()}; }
+    ConstAxes axes() const { return {x.data(), y.data(), z.data()}; }
     Vec3 at(int i) const { return {x[i], y[i], z[i]}; }
     void set(int i, const Vec3& value) {
         x[i] = value.x();
@@ -31,19 +36,24 @@ struct Vectors {
     }
 };
 
-inline double dot(const Vectors& a, const Vectors& b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.padded_size(); ++i) sum += a.x[i] * b.x[i] + a.y[i] * b.y[i] + a.z[i] * b.z[i];
-    return sum;
-}
-
 /// y += factor x
 inline void add_scaled(Vectors& y, double factor, const Vectors& x) {
-    for (std::size_t i = 0; i < y.padded_size(); ++i) {
-        y.x[i] += factor * x.x[i];
-        y.y[i] += factor * x.y[i];
-        y.z[i] += factor * x.z[i];
-    }
+    const auto add = [factor](AlignedVector<double>& to, const AlignedVector<double>& from) {
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * from[i];
+    };
+    add(y.x, x.x);
+    add(y.y, x.y);
+    add(y.z, x.z);
+}
+
+inline double dot(const Compute& compute, const Vectors& a, const Vectors& b) {
+    return sum_chunks(compute, a.slices(), [&](Slices range) { return compute.kernels->dot(a.axes(), b.axes(), range); });
+}
+
+/// points = x y z 0 of every vertex, as kernels gather them.
+inline void pack_points(const Compute& compute, const Vectors& from, AlignedVector<double>& points) {
+    points.resize(4 * from.padded_size());
+    for_chunks(compute, from.slices(), [&](Slices range) { compute.kernels->pack_points(from.axes(), points.data(), range); });
 }
 
 inline void copy_out(const Vectors& from, std::span<Vec3> to) {

@@ -3,129 +3,129 @@
 namespace percale {
 namespace {
 
-constexpr int lanes = Vectors::lanes;
-
-/// Inverse of a symmetric positive definite 3x3 block by cofactors; entries xx xy xz yy yz zz at index i.
-void invert_block(const DiagonalBlocks& m, std::size_t i, DiagonalBlocks& inverse) {
-    const double xx = m[0][i], xy = m[1][i], xz = m[2][i], yy = m[3][i], yz = m[4][i], zz = m[5][i];
-    const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
-    const double scale = 1.0 / (xx * cxx + xy * cxy + xz * cxz);
-    inverse[0][i] = scale * cxx;
-    inverse[1][i] = scale * cxy;
-    inverse[2][i] = scale * cxz;
-    inverse[3][i] = scale * (xx * zz - xz * xz);
-    inverse[4][i] = scale * (xy * xz - xx * yz);
-    inverse[5][i] = scale * (xx * yy - xy * xy);
+Vec3 block_times(const std::array<double, 6>& m, const Vec3& u) {
+    return {m[0] * u.x() + m[1] * u.y() + m[2] * u.z(), m[1] * u.x() + m[3] * u.y() + m[4] * u.z(),
+            m[2] * u.x() + m[4] * u.y() + m[5] * u.z()};
 }
 
-/// y[i] = block[i] x[i] for all vertices.
-void multiply_blocks(const DiagonalBlocks& block, const Vectors& x, Vectors& y) {
-    for (std::size_t i = 0; i < x.padded_size(); ++i) {
-        y.x[i] = block[0][i] * x.x[i] + block[1][i] * x.y[i] + block[2][i] * x.z[i];
-        y.y[i] = block[1][i] * x.x[i] + block[3][i] * x.y[i] + block[4][i] * x.z[i];
-        y.z[i] = block[2][i] * x.x[i] + block[4][i] * x.y[i] + block[5][i] * x.z[i];
+/// Adds the contacts' product to y at free vertices; returns what that adds to x . y.
+double add_contact_product(const BlockMatrix& matrix, const Vectors& x, Vectors& y) {
+    double sum = 0.0;
+    for (const ContactBlock& block : matrix.contacts) {
+        Vec3 u = Vec3::Zero();
+        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) u += block.weight[k] * x.at(block.vertex[k]);
+        const Vec3 f = block_times(block.k, u);
+        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
+            const int i = block.vertex[k];
+            const Vec3 part = matrix.free[i] * block.weight[k] * f;
+            y.add(i, part);
+            sum += part.dot(x.at(i));
+        }
     }
+    return sum;
 }
 
-void subtract_couplings(const BlockMatrix& m, const Vectors& x, Vectors& y) {
-    for (int s = 0; s < m.pattern->slices(); ++s) {
-        const std::size_t base = static_cast<std::size_t>(s) * lanes;
-        for (int e = m.pattern->start[s]; e < m.pattern->start[s + 1]; e += lanes) {
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int at = e + lane, j = m.pattern->other[at];
-                const double along = m.wx[at] * x.x[j] + m.wy[at] * x.y[j] + m.wz[at] * x.z[j];
-                y.x[base + lane] -= m.a[at] * x.x[j] + m.wx[at] * along;
-                y.y[base + lane] -= m.a[at] * x.y[j] + m.wy[at] * along;
-                y.z[base + lane] -= m.a[at] * x.z[j] + m.wz[at] * along;
+void gather_contacts(BlockMatrix& matrix) {
+    for (const VertexContact& contact : matrix.contacts_by_vertex) matrix.contact_slot[contact.vertex] = -1;
+    matrix.contacts_by_vertex.clear();
+    for (const ContactBlock& block : matrix.contacts) {
+        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
+            const int i = block.vertex[k];
+            if (block.weight[k] <= 0.0 || matrix.free[i] == 0.0) continue;
+            int& slot = matrix.contact_slot[i];
+            if (slot < 0) {
+                slot = static_cast<int>(matrix.contacts_by_vertex.size());
+                matrix.contacts_by_vertex.push_back({.vertex = i, .k = {}});
             }
+            for (int entry = 0; entry < 6; ++entry) matrix.contacts_by_vertex[slot].k[entry] += block.weight[k] * block.k[entry];
         }
     }
 }
 
-void add_contact_product(std::span<const ContactBlock> contacts, const Vectors& x, Vectors& y) {
-    for (const ContactBlock& block : contacts) {
-        Vec3 u = Vec3::Zero();
-        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) u += block.weight[k] * x.at(block.vertex[k]);
-        const auto& m = block.k;
-        const Vec3 f(m[0] * u.x() + m[1] * u.y() + m[2] * u.z(), m[1] * u.x() + m[3] * u.y() + m[4] * u.z(),
-                     m[2] * u.x() + m[4] * u.y() + m[5] * u.z());
-        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) y.add(block.vertex[k], block.weight[k] * f);
+void invert_with_contacts(BlockMatrix& matrix) {
+    const std::size_t padded = matrix.padded();
+    for (const VertexContact& contact : matrix.contacts_by_vertex) {
+        std::array<double, 6> block;
+        for (int k = 0; k < 6; ++k) block[k] = matrix.diagonal[k][contact.vertex] + contact.k[k];
+        const std::array<double, 6> inverse = inverse_block(block);
+        for (int k = 0; k < 6; ++k) matrix.inverse[k * padded + contact.vertex] = static_cast<float>(inverse[k]);
+    }
+    for (std::size_t i = 0; i < padded; ++i) {
+        if (matrix.free[i] > 0.0) continue;
+        for (int k = 0; k < 6; ++k) matrix.inverse[k * padded + i] = 0.0f;
     }
 }
 
 }  // namespace
 
-void set_pattern(const Adjacency& pattern, BlockMatrix& matrix) {
+std::array<double, 6> inverse_block(const std::array<double, 6>& m) {
+    const auto& [xx, xy, xz, yy, yz, zz] = m;
+    const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
+    const double scale = 1.0 / (xx * cxx + xy * cxy + xz * cxz);
+    return {scale * cxx,
+            scale * cxy,
+            scale * cxz,
+            scale * (xx * zz - xz * xz),
+            scale * (xy * xz - xx * yz),
+            scale * (xx * yy - xy * xy)};
+}
+
+void set_pattern(const Compute& compute, const Adjacency& pattern, std::span<const double> mass, BlockMatrix& matrix) {
     matrix.pattern = &pattern;
-    const std::size_t padded = static_cast<std::size_t>(pattern.slices()) * lanes;
-    for (auto* list : {&matrix.a, &matrix.wx, &matrix.wy, &matrix.wz}) list->assign(pattern.other.size(), 0.0);
-    for (auto* blocks : {&matrix.diagonal, &matrix.inverse}) {
-        for (auto& list : *blocks) list.assign(padded, 0.0);
-    }
+    matrix.compute = &compute;
+    const std::size_t padded = static_cast<std::size_t>(pattern.slices()) * slice_lanes;
+    matrix.mass.assign(padded, 1.0);
+    std::copy(mass.begin(), mass.end(), matrix.mass.begin());
     matrix.free.assign(padded, 0.0);
-    for (int i = 0; i < pattern.vertex_count; ++i) matrix.free[i] = 1.0;
+    std::fill_n(matrix.free.begin(), pattern.vertex_count, 1.0);
+    matrix.contact_slot.assign(padded, -1);
+    matrix.contacts_by_vertex.clear();
+    matrix.contacts = {};
+    matrix.springs = nullptr;
 }
 
-void fill_diagonal(std::span<const double> mass, const Adjacency& pattern, const SpringTerms& springs, DiagonalBlocks& d) {
-    const std::size_t padded = static_cast<std::size_t>(pattern.slices()) * lanes;
-    for (auto& list : d) list.assign(padded, 0.0);
-    for (const int axis : {0, 3, 5}) {
-        for (std::size_t i = 0; i < padded; ++i) d[axis][i] = i < mass.size() ? mass[i] : 1.0;
-    }
-    for (int s = 0; s < pattern.slices(); ++s) {
-        for (int e = pattern.start[s]; e < pattern.start[s + 1]; ++e) {
-            const int spring = pattern.spring[e];
-            const std::size_t i = static_cast<std::size_t>(s) * lanes + (e - pattern.start[s]) % lanes;
-            const double a = springs.a[spring], x = springs.wx[spring], y = springs.wy[spring], z = springs.wz[spring];
-            d[0][i] += a + x * x;
-            d[1][i] += x * y;
-            d[2][i] += x * z;
-            d[3][i] += a + y * y;
-            d[4][i] += y * z;
-            d[5][i] += a + z * z;
-        }
-    }
+void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, DiagonalBlocks& diagonal,
+                   AlignedVector<float>& inverse) {
+    if (diagonal.padded != matrix.padded()) diagonal.resize(matrix.padded());
+    inverse.resize(6 * matrix.padded());
+    const DiagonalPass pass{.pattern = matrix.pattern->pattern(),
+                            .values = springs.values.data(),
+                            .ground = matrix.mass.data(),
+                            .blocks = nullptr,
+                            .diagonal = diagonal.data.data(),
+                            .inverse = inverse.data(),
+                            .padded = matrix.padded()};
+    for_chunks(*matrix.compute, matrix.slices(), [&](Slices range) { matrix.compute->kernels->fine_diagonal(pass, range); });
 }
 
-void fill_matrix(std::span<const double> mass, const SpringTerms& springs, BlockMatrix& matrix) {
-    fill_diagonal(mass, *matrix.pattern, springs, matrix.diagonal);
-    for (std::size_t e = 0; e < matrix.a.size(); ++e) {
-        const int spring = matrix.pattern->spring[e];
-        matrix.a[e] = springs.a[spring];
-        matrix.wx[e] = springs.wx[spring];
-        matrix.wy[e] = springs.wy[spring];
-        matrix.wz[e] = springs.wz[spring];
-    }
-}
-
-void set_contacts(std::span<const ContactBlock> contacts, BlockMatrix& matrix) {
+void fill_matrix(const SpringTerms& springs, std::span<const ContactBlock> contacts, BlockMatrix& matrix) {
+    matrix.springs = &springs;
     matrix.contacts = contacts;
-    matrix.inverse = matrix.diagonal;
-    for (const ContactBlock& block : contacts) {
-        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
-            const double square = block.weight[k] * block.weight[k];
-            for (int entry = 0; entry < 6; ++entry) matrix.inverse[entry][block.vertex[k]] += square * block.k[entry];
-        }
-    }
-    for (std::size_t i = 0; i < matrix.free.size(); ++i) invert_block(matrix.inverse, i, matrix.inverse);
+    fill_diagonal(matrix, springs, matrix.diagonal, matrix.inverse);
+    gather_contacts(matrix);
+    invert_with_contacts(matrix);
 }
 
-void multiply(const BlockMatrix& matrix, const Vectors& x, Vectors& y) {
-    multiply_blocks(matrix.diagonal, x, y);
-    subtract_couplings(matrix, x, y);
-    add_contact_product(matrix.contacts, x, y);
+double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y) {
+    const Compute& compute = *matrix.compute;
+    pack_points(compute, x, points);
+    const BlockPass pass{
+        .pattern = matrix.pattern->pattern(), .values = matrix.springs->values.data(), .ground = matrix.mass.data()};
+    const double sum = sum_chunks(compute, matrix.slices(), [&](Slices range) {
+        return compute.kernels->multiply(pass, x.axes(), points.data(), matrix.free.data(), y.axes(), range);
+    });
+    return sum + add_contact_product(matrix, x, y);
 }
 
 void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z) {
-    multiply_blocks(matrix.inverse, r, z);
-    filter(matrix, z);
+    for_chunks(*matrix.compute, matrix.slices(), [&](Slices range) {
+        matrix.compute->kernels->jacobi(matrix.inverse.data(), matrix.padded(), r.axes(), z.axes(), range);
+    });
 }
 
 void filter(const BlockMatrix& matrix, Vectors& x) {
-    for (std::size_t i = 0; i < x.padded_size(); ++i) {
-        x.x[i] *= matrix.free[i];
-        x.y[i] *= matrix.free[i];
-        x.z[i] *= matrix.free[i];
+    for (auto* axis : {&x.x, &x.y, &x.z}) {
+        for (std::size_t i = 0; i < axis->size(); ++i) (*axis)[i] *= matrix.free[i];
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -10,36 +11,52 @@
 
 namespace percale {
 
-/// The step matrix A = M - dt Jv - dt^2 Jq, kg: symmetric 3x3 blocks in the pattern of the springs, fixed once and refilled in
-/// place, plus contact rows kept apart. A block between two vertices is -(a I + w w^T).
-struct BlockMatrix {
-    const Adjacency* pattern = nullptr;
-    std::vector<double> a, wx, wy, wz;  // one an entry of the pattern
-    DiagonalBlocks diagonal;            // mass and springs
-    DiagonalBlocks inverse;             // of the whole diagonal blocks, contact included: block Jacobi
-    std::vector<double> free;           // 1, or 0 for a vertex whose motion is prescribed; padding counts as prescribed
-    std::span<const ContactBlock> contacts;
+/// What all contacts of one vertex add to its diagonal block, each row taken whole at every vertex by weight (an upper bound that
+/// equals the row itself where the vertices move alike).
+struct VertexContact {
+    int vertex;
+    std::array<double, 6> k;  // kg, xx xy xz yy yz zz
 };
 
-/// Sizes the matrix for a pattern.
-void set_pattern(const Adjacency& pattern, BlockMatrix& matrix);
+/// The step matrix A = M - dt Jv - dt^2 Jq, kg. Springs act on differences of vertices by blocks a I + w w^T, held in single
+/// precision: each is then a spring whose stiffness is right to 6e-8, and the matrix is exactly symmetric and positive definite.
+/// Masses and contact rows are in double precision, contacts kept apart.
+struct BlockMatrix {
+    const Adjacency* pattern = nullptr;
+    const Compute* compute = nullptr;
+    const SpringTerms* springs = nullptr;    // viewed, not copied
+    AlignedVector<double> mass;              // kg; 1 for padding
+    AlignedVector<double> free;              // 1, or 0 for a vertex whose motion is prescribed and for padding
+    DiagonalBlocks diagonal;                 // mass and springs
+    AlignedVector<float> inverse;            // of the diagonal blocks with contact, six arrays; 0 at prescribed vertices
+    std::span<const ContactBlock> contacts;  // viewed, not copied
+    std::vector<VertexContact> contacts_by_vertex;
+    std::vector<int> contact_slot;  // of a vertex in contacts_by_vertex, or -1
 
-/// Diagonal blocks of mass (kg, one a vertex; 1 kg for padding) and springs.
-void fill_diagonal(std::span<const double> mass, const Adjacency& pattern, const SpringTerms& springs, DiagonalBlocks& diagonal);
+    std::size_t padded() const { return free.size(); }
+    int slices() const { return pattern->slices(); }
+};
 
-/// Fills in mass (kg, one a vertex) and springs.
-void fill_matrix(std::span<const double> mass, const SpringTerms& springs, BlockMatrix& matrix);
+/// Sizes the matrix for a pattern, which is viewed; all vertices free.
+void set_pattern(const Compute& compute, const Adjacency& pattern, std::span<const double> mass, BlockMatrix& matrix);
 
-/// Inverts the diagonal blocks with contacts. Contacts are viewed, not copied.
-void set_contacts(std::span<const ContactBlock> contacts, BlockMatrix& matrix);
+/// Diagonal blocks of mass and springs, and their inverses.
+void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, DiagonalBlocks& diagonal,
+                   AlignedVector<float>& inverse);
 
-/// y = A x; rows of prescribed vertices included.
-void multiply(const BlockMatrix& matrix, const Vectors& x, Vectors& y);
+/// Takes springs and contacts of a state.
+void fill_matrix(const SpringTerms& springs, std::span<const ContactBlock> contacts, BlockMatrix& matrix);
+
+/// y = A x on the free vertices, 0 at prescribed ones; returns x . y over the free ones. `points` is work space.
+double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y);
 
 /// z = D^-1 r for free vertices, 0 for the others (D: block diagonal).
 void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z);
 
 /// x = 0 at prescribed vertices.
 void filter(const BlockMatrix& matrix, Vectors& x);
+
+/// The inverse of a symmetric positive definite 3x3 block xx xy xz yy yz zz, by cofactors.
+std::array<double, 6> inverse_block(const std::array<double, 6>& m);
 
 }  // namespace percale

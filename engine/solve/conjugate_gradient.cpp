@@ -4,83 +4,106 @@
 #include <array>
 #include <cmath>
 
+#include "multigrid.h"
+
 namespace percale {
 namespace {
-
-constexpr int gain_window = 10;
 
 /// The sum of all gains and of those of the last few iterations.
 class GainRecord {
 public:
+    explicit GainRecord(int window) : window_size_(window) {}
     void add(double gain) {
-        window_[count_++ % gain_window] = gain;
+        window_[count_++ % window_size_] = gain;
         total_ += gain;
     }
     bool small_enough(const SolveTarget& target) const {
-        if ((target.relative_gain <= 0.0 && target.absolute_gain <= 0.0) || count_ < gain_window) return false;
+        if ((target.relative_gain <= 0.0 && target.absolute_gain <= 0.0) || count_ < window_size_) return false;
         double recent = 0.0;
-        for (const double gain : window_) recent += gain;
+        for (int k = 0; k < window_size_; ++k) recent += window_[k];
         return recent <= std::max(target.relative_gain * target.relative_gain * total_, target.absolute_gain);
     }
 
 private:
-    std::array<double, gain_window> window_{};
+    std::array<double, 10> window_{};
+    int window_size_;
     double total_ = 0.0;
     int count_ = 0;
 };
 
-void size_space(SolveSpace& space, std::size_t padded) {
-    if (space.r.padded_size() == padded) return;
-    for (auto* vectors : {&space.r, &space.z, &space.p, &space.q}) vectors->resize(static_cast<int>(padded));
-}
+/// One solve: functions that share the system and its work space.
+class Solve {
+public:
+    Solve(const BlockMatrix& matrix, Multigrid* multigrid, SolveSpace& space)
+        : matrix_(matrix), compute_(*matrix.compute), multigrid_(multigrid), space_(space) {}
 
-/// r = b - A x on the free vertices.
-void start_residual(const BlockMatrix& matrix, const Vectors& b, const Vectors& x, SolveSpace& space) {
-    multiply(matrix, x, space.q);
-    space.r = b;
-    add_scaled(space.r, -1.0, space.q);
-    filter(matrix, space.r);
-}
+    SolveReport run(const Vectors& b, const SolveTarget& target, Vectors& x) {
+        const double first_square = start(b, x);
+        if (first_square == 0.0) return {.iterations = 0, .converged = true};
+        const double tolerance = target.relative_residual * target.relative_residual * first_square;
+        GainRecord gains(multigrid_ ? 1 : 10);
+        double rz = apply_preconditioner();
+        space_.p = space_.z;
+        SolveReport report;
+        while (report.iterations < target.most_iterations) {
+            ++report.iterations;
+            const double curvature = multiply(matrix_, space_.p, space_.points, space_.q);
+            if (!(curvature > 0.0) || !std::isfinite(rz)) return report;
+            const double alpha = rz / curvature;
+            gains.add(alpha * rz);
+            const double square = sum_chunks(compute_, matrix_.slices(), [&](Slices range) {
+                return kernels().advance(alpha, view(space_.p), view(space_.q), x.axes(), space_.r.axes(), range);
+            });
+            report.converged = square <= tolerance || square == 0.0 || gains.small_enough(target);
+            if (report.converged) return report;
+            const double next = apply_preconditioner();
+            const double beta = next / rz;
+            rz = next;
+            for_chunks(compute_, matrix_.slices(),
+                       [&](Slices range) { kernels().turn(beta, view(space_.z), space_.p.axes(), range); });
+        }
+        return report;
+    }
+
+private:
+    const Kernels& kernels() const { return *compute_.kernels; }
+    static ConstAxes view(const Vectors& vectors) { return vectors.axes(); }
+
+    /// r = b - A x on the free vertices; returns its square.
+    double start(const Vectors& b, const Vectors& x) {
+        if (space_.r.padded_size() != b.padded_size()) {
+            for (auto* vectors : {&space_.r, &space_.z, &space_.p, &space_.q}) vectors->resize(static_cast<int>(b.padded_size()));
+        }
+        multiply(matrix_, x, space_.points, space_.q);
+        space_.r = b;
+        filter(matrix_, space_.r);
+        add_scaled(space_.r, -1.0, space_.q);
+        scale_ = dot(compute_, space_.r, space_.r);
+        return scale_;
+    }
+
+    /// z = preconditioned r; returns r . z.
+    double apply_preconditioner() {
+        if (multigrid_) {
+            multigrid_->apply(std::sqrt(scale_), space_.r, space_.z);
+        } else {
+            precondition(matrix_, space_.r, space_.z);
+        }
+        return dot(compute_, space_.r, space_.z);
+    }
+
+    const BlockMatrix& matrix_;
+    const Compute& compute_;
+    Multigrid* multigrid_;
+    SolveSpace& space_;
+    double scale_ = 0.0;
+};
 
 }  // namespace
 
-SolveReport solve_cg(const BlockMatrix& matrix, const Vectors& b, const SolveTarget& target, SolveSpace& space, Vectors& x) {
-    size_space(space, b.padded_size());
-    start_residual(matrix, b, x, space);
-    SolveReport report;
-    const double first_square = dot(space.r, space.r);
-    if (first_square == 0.0) return {.iterations = 0, .converged = true};
-    precondition(matrix, space.r, space.z);
-    space.p = space.z;
-    double rz = dot(space.r, space.z);
-    GainRecord gains;
-    while (report.iterations < target.most_iterations) {
-        ++report.iterations;
-        multiply(matrix, space.p, space.q);
-        filter(matrix, space.q);
-        const double curvature = dot(space.p, space.q);
-        if (!(curvature > 0.0)) return report;
-        const double alpha = rz / curvature;
-        add_scaled(x, alpha, space.p);
-        add_scaled(space.r, -alpha, space.q);
-        gains.add(alpha * rz);
-        const double square = dot(space.r, space.r);
-        const double tolerance = target.relative_residual * target.relative_residual * first_square;
-        if (square <= tolerance || square == 0.0 || gains.small_enough(target)) {
-            report.converged = true;
-            return report;
-        }
-        precondition(matrix, space.r, space.z);
-        const double next = dot(space.r, space.z);
-        const double beta = next / rz;
-        rz = next;
-        for (std::size_t i = 0; i < x.padded_size(); ++i) {
-            space.p.x[i] = space.z.x[i] + beta * space.p.x[i];
-            space.p.y[i] = space.z.y[i] + beta * space.p.y[i];
-            space.p.z[i] = space.z.z[i] + beta * space.p.z[i];
-        }
-    }
-    return report;
+SolveReport solve_cg(const BlockMatrix& matrix, Multigrid* multigrid, const Vectors& b, const SolveTarget& target,
+                     SolveSpace& space, Vectors& x) {
+    return Solve(matrix, multigrid, space).run(b, target, x);
 }
 
 }  // namespace percale

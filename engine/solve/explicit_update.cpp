@@ -5,7 +5,8 @@ namespace {
 
 /// space.forces at a state.
 void evaluate(const ExplicitPart& part, const ClothState& state, ExplicitSpace& space) {
-    const ForceInput input{.model = part.model,
+    const ForceInput input{.compute = part.compute,
+                           .model = part.model,
                            .springs = &space.springs,
                            .positions = &state.positions,
                            .velocities = &state.velocities,
@@ -16,7 +17,7 @@ void evaluate(const ExplicitPart& part, const ClothState& state, ExplicitSpace& 
 }
 
 void start(const ExplicitPart& part, ExplicitSpace& space, const ClothState& state) {
-    set_step_springs(part.model->springs, state.positions, DampingForm::velocity, part.dt, space.springs);
+    set_step_springs(*part.compute, {part.model->adjacency, state.positions, DampingForm::velocity, part.dt}, space.springs);
 }
 
 bool is_free(const ExplicitPart& part, int i) { return (*part.free)[i] > 0.0; }

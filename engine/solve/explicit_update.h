@@ -9,10 +9,11 @@ namespace percale {
 
 /// One explicit step. Prescribed vertices move straight to their targets.
 struct ExplicitPart {
+    const Compute* compute = nullptr;
     const ClothModel* model = nullptr;
     const StepSettings* settings = nullptr;
     const Vectors* targets = nullptr;           // m, where prescribed vertices are at the end
-    const std::vector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
+    const AlignedVector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
     double dt = 0.0;                            // s
 };
 

@@ -40,13 +40,11 @@ private:
         space_.current.points = state.points;
         space_.trial.points = state.points;
         space_.current.fraction = moves_are_scripted() ? part_.span.from : part_.span.to;
-        space_.frozen_diagonal[0].clear();
-        if (space_.matrix.pattern != &model_.adjacency || space_.matrix.free.size() != part_.free->size()) {
-            set_pattern(model_.adjacency, space_.matrix);
-        }
-        space_.matrix.free = *part_.free;
+        space_.frozen_diagonal.padded = 0;
+        if (!space_.solver.is_for(model_)) space_.solver.set_model(*part_.compute, model_, part_.settings->linear_solver);
+        space_.solver.matrix.free = *part_.free;
         for (auto* vectors : {&space_.direction, &space_.right_side}) vectors->resize(model_.vertex_count());
-        set_step_springs(model_.springs, state.positions, part_.plan->damping, part_.dt, space_.springs);
+        set_step_springs(*part_.compute, {model_.adjacency, state.positions, part_.plan->damping, part_.dt}, space_.springs);
     }
 
     bool moves_are_scripted() const { return part_.plan->obstacles_move || part_.plan->pins_move; }
@@ -108,7 +106,8 @@ private:
     }
 
     ForceInput force_input(const NewtonPoint& point) const {
-        return {.model = &model_,
+        return {.compute = part_.compute,
+                .model = &model_,
                 .springs = &space_.springs,
                 .positions = &point.positions,
                 .velocities = &point.velocities,
@@ -130,8 +129,8 @@ private:
     }
 
     void add_contacts(const ForceInput& input, Forces& forces) {
-        const bool first = space_.frozen_diagonal[0].empty();
-        if (first) fill_diagonal(model_.mass, model_.adjacency, forces.spring_terms, space_.frozen_diagonal);
+        const bool first = space_.frozen_diagonal.padded == 0;
+        if (first) fill_diagonal(space_.solver.matrix, forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
         const ContactStep step{.dt = part_.dt,
                                .obstacle_rate = 1.0 / part_.full_step,
                                .gravity = part_.settings->gravity,
@@ -203,20 +202,18 @@ private:
 
     /// direction = dv of the Newton system A dv = -r, prescribed vertices heading for their targets.
     void solve_direction(int iteration, double norm, double last_norm) {
-        BlockMatrix& matrix = space_.matrix;
         const NewtonPoint& point = space_.current;
         set_prescribed_direction();
         if (!part_.options.jacobians) return divide_by_mass();
         {
             StageTimer timer(stages_.setup);
-            fill_matrix(model_.mass, point.forces.spring_terms, matrix);
-            set_contacts(point.forces.contact.blocks, matrix);
+            space_.solver.fill(point.forces.spring_terms, point.forces.contact.blocks);
             space_.right_side.resize(model_.vertex_count());
             add_scaled(space_.right_side, -1.0, point.residual);
         }
         StageTimer timer(stages_.solve);
         const SolveTarget target = solve_target(iteration, norm, last_norm);
-        report_.linear_iterations += solve_cg(matrix, space_.right_side, target, space_.solve, space_.direction).iterations;
+        report_.linear_iterations += space_.solver.solve(space_.right_side, target, space_.direction).iterations;
         if (space_.current.forces.rows.size() == 0) correct_translation();
     }
 
@@ -281,7 +278,7 @@ private:
 
     /// Line search and cut along the direction; false when the target is met or nothing more can be gained.
     bool step_along() {
-        const double slope = dot(space_.current.residual, space_.direction);
+        const double slope = dot(*part_.compute, space_.current.residual, space_.direction);
         const bool was_arrived = arrived();
         LineTrial line{.start_objective = space_.current.objective, .start_slope = slope};
         double fraction = 1.0, kept = 1.0;
@@ -293,7 +290,7 @@ private:
             kept = cut_move();
             evaluate(space_.trial);
             line.objective = space_.trial.objective;
-            line.slope = dot(space_.trial.residual, space_.direction);
+            line.slope = dot(*part_.compute, space_.trial.residual, space_.direction);
             line.objective_known =
                 !part_.plan->contacts || (space_.current.forces.rows.size() + space_.trial.forces.rows.size() == 0);
             // While pins or obstacles are on their way, the objective may have to rise.

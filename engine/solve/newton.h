@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include "block_matrix.h"
-#include "conjugate_gradient.h"
 #include "forces/total_force.h"
+#include "linear_solver.h"
 #include "model/cloth_model.h"
 #include "model/step_plan.h"
 #include "percale/contact.h"
@@ -22,12 +21,13 @@ struct NewtonOptions {
 /// One part of a step, to be solved by backward Euler:
 /// M (v - v_n) = dt f(q_n + dt v, v), with prescribed vertices and obstacles going where the script has them at its end.
 struct ImplicitPart {
+    const Compute* compute = nullptr;
     const ClothModel* model = nullptr;
     const StepSettings* settings = nullptr;
     const StepPlan* plan = nullptr;
     ContactDetector* detector = nullptr;        // used if the plan has contacts
     const Vectors* targets = nullptr;           // m, where prescribed vertices are at the end of the part
-    const std::vector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
+    const AlignedVector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
     double dt = 0.0;                            // s, length of this part
     double full_step = 0.0;                     // s, of the whole step, over which obstacles move
     StepFraction span;                          // of the whole step
@@ -64,12 +64,12 @@ struct NewtonPoint {
 /// Work space of the solve, kept from step to step so that nothing is allocated once sizes are known.
 struct NewtonSpace {
     StepSprings springs;
-    BlockMatrix matrix;
-    DiagonalBlocks frozen_diagonal;
+    StepSolver solver;
+    DiagonalBlocks frozen_diagonal;  // empty until the part has been evaluated
+    AlignedVector<float> frozen_inverse;
     NewtonPoint current, trial;
     Vectors start_positions, start_velocities;
     Vectors direction, right_side;
-    SolveSpace solve;
 };
 
 /// Solves one part from `state`, leaving the result there; a blocked or not finite part leaves `state` as it was.

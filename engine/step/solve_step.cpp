@@ -14,7 +14,8 @@ constexpr int most_halvings = 6;  // of one step, one inside the other
 /// space.forces at a state of an explicit scheme.
 void evaluate_at(World& world, const ClothState& state) {
     ExplicitSpace& space = world.explicit_space;
-    const ForceInput input{.model = &world.model,
+    const ForceInput input{.compute = &world.compute,
+                           .model = &world.model,
                            .springs = &space.springs,
                            .positions = &state.positions,
                            .velocities = &state.velocities,
@@ -44,7 +45,8 @@ double explicit_work(World& world) {
 void solve_explicit(World& world) {
     StageTimer timer(world.report.stages.force);
     set_part_targets(world, 1.0);
-    const ExplicitPart part{.model = &world.model,
+    const ExplicitPart part{.compute = &world.compute,
+                            .model = &world.model,
                             .settings = &world.settings,
                             .targets = &world.part_targets,
                             .free = &world.script.free,
@@ -83,7 +85,8 @@ void add_figures(const NewtonReport& part, StepReport& report) {
 NewtonReport solve_part(World& world, StepFraction span) {
     const double dt = world.settings.time_step * (span.to - span.from);
     set_part_targets(world, span.to);
-    const ImplicitPart part{.model = &world.model,
+    const ImplicitPart part{.compute = &world.compute,
+                            .model = &world.model,
                             .settings = &world.settings,
                             .plan = &world.plan,
                             .detector = world.detector.get(),

@@ -21,13 +21,14 @@ struct ObstacleState {
 
 /// What the script says about the coming step.
 struct Script {
-    std::vector<double> free;  // 1, or 0 where pinned and in the padding
+    AlignedVector<double> free;  // 1, or 0 where pinned and in the padding
     Vectors pin_targets;       // m, at the end of the coming step; meaningful where pinned
     std::vector<ObstacleState> obstacles;
 };
 
 /// Everything one simulation holds.
 struct World {
+    Compute compute;
     StepSettings settings;
     ClothModel model;
     ClothState state;

@@ -7,7 +7,7 @@
 namespace percale {
 
 enum class Scheme { symplectic_euler, rk4, backward_euler };
-enum class LinearSolver { automatic, cg };
+enum class LinearSolver { automatic, cg, multigrid, direct };
 enum class ContactResponse { penalty };
 enum class DampingForm { length_rate, velocity };
 

@@ -1,0 +1,158 @@
+#pragma once
+
+#include <cstddef>
+
+namespace percale {
+
+/// Vertices a slice: the lanes of the widest pack of floats. All arrays of the kernels are padded to whole slices and aligned to
+/// 64 bytes.
+constexpr int slice_lanes = 16;
+
+/// Kernels work on ranges of slices; sums are made chunk by chunk and added up in the chunks' order, so they have the same bits
+/// for any number of threads and any instruction set.
+constexpr int chunk_slices = 64;
+
+enum class InstructionSet { baseline, avx2, avx512 };
+
+/// A range of slices.
+struct Slices {
+    int first = 0, last = 0;
+};
+
+/// Three arrays of doubles, one value a vertex.
+struct Axes {
+    double *x, *y, *z;
+};
+struct ConstAxes {
+    const double *x, *y, *z;
+};
+
+/// Entries in slices (sliced ELL): entry e of lane l of slice s stands at start[s] + e * slice_lanes + l. Padding refers to the
+/// vertex itself.
+struct EntryPattern {
+    const int* start;  // slices + 1
+    const int* other;
+};
+
+/// The springs as every vertex sees them, one entry a spring end.
+struct SpringEntries {
+    EntryPattern pattern;
+    const double *stiffness, *rest_length, *damping;  // N/m, m, N s/m
+};
+
+/// Springs with damping as a length rate: k = ks + kd/dt, l = (ks l0 + kd l_n/dt)/k.
+struct StartPass {
+    SpringEntries springs;
+    ConstAxes positions;       // m, at the start of the step
+    const double* points;      // the same, x y z 0 a vertex
+    double dt;                 // s
+    double *stiffness, *rest;  // results
+};
+
+/// One evaluation of all springs: T = k (l - l_rest) + c (v_ij . d), force -T d.
+struct SpringPass {
+    SpringEntries springs;
+    ConstAxes positions, velocities;  // m, m/s
+    const double* points;             // positions as x y z 0 a vertex
+    const double* motion;             // velocities likewise; null without damping by velocity
+    double dt;                        // s
+    Axes forces;                      // N, added to
+    float* values;                    // kg: a wx wy wz, slice_lanes each, for every slice_lanes entries; null without matrix
+};
+
+/// The block matrix D + sum over entries of (a I + w w^T) acting on differences x_i - x_j: y = A x, or y = b - A x.
+struct BlockPass {
+    EntryPattern pattern;
+    const float* values;   // 4 numbers an entry (a, w), or 6 (a symmetric block)
+    const double* ground;  // fine level: one number a vertex
+};
+
+/// Vectors of floats: x, y, z one after the other, `padded` apart.
+struct FloatVectors {
+    float* data;
+    std::size_t padded;
+};
+
+/// Like BlockPass, in single precision; `ground` has six arrays, `padded` apart, or with 4-number values one.
+struct FloatPass {
+    EntryPattern pattern;
+    const float* values;
+    const float* ground;
+    FloatVectors x, y;
+    const float* points;  // x as x y z 0 a vertex
+    const float* right;   // b, or null
+};
+
+/// p = beta p + alpha D^-1 r; x += p, or x = p with `fresh`.
+struct SmoothPass {
+    const float* inverse;  // six arrays, `padded` apart
+    FloatVectors r, p, x;
+    float alpha, beta;
+    bool fresh;
+};
+
+/// y = P x or y += P x, P scalar weights in slices, three numbers a vertex.
+struct TransferPass {
+    EntryPattern pattern;
+    const float* weights;
+    const float* points;  // x as x y z 0 a vertex
+    FloatVectors y;
+    bool add;
+};
+
+/// Block diagonals of a matrix and their inverses, six arrays each, `padded` apart.
+struct DiagonalPass {
+    EntryPattern pattern;
+    const float* values;    // 4 or 6 numbers an entry
+    const double* ground;   // one number a vertex (4), or
+    const float* blocks;    // six arrays (6); the other one is null
+    double* diagonal;       // null if not wanted
+    float* inverse;
+    std::size_t padded;
+};
+
+/// Galerkin sums: block[e] = sum of coefficient * fine[pair], eight floats a block (six used).
+struct GalerkinPass {
+    const int *start, *pair;
+    const float* coefficient;
+    const float* fine;
+    float* coarse;
+};
+
+/// The kernels of one instruction set. All of them give the same bits.
+struct Kernels {
+    InstructionSet set;
+    void (*pack_points)(ConstAxes from, double* points, Slices range);
+    void (*pack_float_points)(FloatVectors from, float* points, Slices range);
+    void (*start_springs)(const StartPass& pass, Slices range);
+    double (*springs)(const SpringPass& pass, Slices range);  // returns their energy, J
+    /// y = A x with x = 0 at prescribed vertices (`free` = 0), where y is 0 too; returns x . y.
+    double (*multiply)(const BlockPass& pass, ConstAxes x, const double* points, const double* free, Axes y, Slices range);
+    double (*dot)(ConstAxes a, ConstAxes b, Slices range);
+    double (*advance)(double alpha, ConstAxes p, ConstAxes q, Axes x, Axes r, Slices range);  // x += alpha p, r -= alpha q; r . r
+    void (*turn)(double beta, ConstAxes z, Axes p, Slices range);                             // p = z + beta p
+    void (*jacobi)(const float* inverse, std::size_t padded, ConstAxes r, Axes z, Slices range);  // z = D^-1 r
+    void (*to_float)(double scale, ConstAxes from, FloatVectors to, Slices range);
+    void (*to_double)(double scale, FloatVectors from, Axes to, Slices range);
+    void (*multiply_fine)(const FloatPass& pass, Slices range);    // 4 numbers an entry
+    void (*multiply_coarse)(const FloatPass& pass, Slices range);  // 6 numbers an entry
+    void (*smooth)(const SmoothPass& pass, Slices range);
+    void (*transfer)(const TransferPass& pass, Slices range);
+    void (*fine_diagonal)(const DiagonalPass& pass, Slices range);
+    void (*coarse_diagonal)(const DiagonalPass& pass, Slices range);
+    void (*galerkin)(const GalerkinPass& pass, int first, int last);
+    void (*invert)(double* matrix, int size, int stride);              // symmetric positive definite, in place
+    void (*dense_multiply)(const float* matrix, int size, int stride, const float* x, float* y);
+};
+
+/// baseline, avx2 or avx512.
+const char* instruction_set_name(InstructionSet set);
+
+/// The kernels of a set; null where this build or this processor lacks it.
+const Kernels* kernels_for(InstructionSet set);
+
+/// The widest that this processor has; PERCALE_INSTRUCTIONS=baseline|avx2|avx512 in the environment asks for a narrower one. Read
+/// once; any thread.
+const Kernels& best_kernels();
+
+}  // namespace percale

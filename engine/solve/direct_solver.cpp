@@ -1,0 +1,102 @@
+#include "direct_solver.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <vector>
+
+namespace percale {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+constexpr int symmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+
+/// Adds the lower part of a block; blocks off the diagonal are given once, in either order.
+void add_block(int i, int j, const std::array<double, 6>& block, Triplets& entries) {
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+            const int row = 3 * std::max(i, j) + a, column = 3 * std::min(i, j) + b;
+            if (row >= column) entries.emplace_back(row, column, block[symmetric[a][b]]);
+        }
+    }
+}
+
+/// Free rows and columns of the matrix; 1 on the diagonal of the others.
+void assemble(const BlockMatrix& matrix, Triplets& entries) {
+    const Adjacency& pattern = *matrix.pattern;
+    entries.clear();
+    for (int i = 0; i < pattern.vertex_count; ++i) {
+        std::array<double, 6> block = {1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
+        for (int k = 0; k < 6 && matrix.free[i] > 0.0; ++k) block[k] = matrix.diagonal[k][i];
+        add_block(i, i, block, entries);
+    }
+    for (int s = 0; s < pattern.slices(); ++s) {
+        for (int e = pattern.start[s]; e < pattern.start[s + 1]; ++e) {
+            const int i = s * slice_lanes + (e - pattern.start[s]) % slice_lanes, j = pattern.other[e];
+            if (j <= i || matrix.free[i] == 0.0 || matrix.free[j] == 0.0) continue;
+            const auto [a, w] = spring_block(*matrix.springs, e);
+            add_block(i, j,
+                      {-a - w.x() * w.x(), -w.x() * w.y(), -w.x() * w.z(), -a - w.y() * w.y(), -w.y() * w.z(), -a - w.z() * w.z()},
+                      entries);
+        }
+    }
+    for (const ContactBlock& contact : matrix.contacts) {
+        for (int k = 0; k < 4 && contact.vertex[k] >= 0; ++k) {
+            for (int l = 0; l <= k; ++l) {
+                const int i = contact.vertex[k], j = contact.vertex[l];
+                if (matrix.free[i] == 0.0 || matrix.free[j] == 0.0) continue;
+                std::array<double, 6> block = contact.k;
+                for (double& entry : block) entry *= contact.weight[k] * contact.weight[l];
+                add_block(i, j, block, entries);
+            }
+        }
+    }
+}
+
+}  // namespace
+
+struct DirectSolver::Factor {
+    Eigen::SimplicialLDLT<Sparse> ldlt;
+    Sparse matrix;
+    Triplets entries;
+    std::vector<int> columns, rows;  // of the matrix that was analysed
+    Vectors product;
+    AlignedVector<double> points;
+
+    void factorise(const BlockMatrix& from) {
+        assemble(from, entries);
+        const Eigen::Index size = 3 * from.pattern->vertex_count;
+        matrix.resize(size, size);
+        matrix.setFromTriplets(entries.begin(), entries.end());
+        const std::vector<int> new_columns(matrix.outerIndexPtr(), matrix.outerIndexPtr() + size + 1);
+        const std::vector<int> new_rows(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+        if (new_columns != columns || new_rows != rows) ldlt.analyzePattern(matrix);
+        columns = new_columns;
+        rows = new_rows;
+        ldlt.factorize(matrix);
+    }
+};
+
+DirectSolver::DirectSolver() : factor_(std::make_unique<Factor>()) {}
+DirectSolver::~DirectSolver() = default;
+DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
+DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
+
+bool DirectSolver::solve(const BlockMatrix& matrix, const Vectors& b, Vectors& x) {
+    Factor& factor = *factor_;
+    factor.factorise(matrix);
+    if (factor.ldlt.info() != Eigen::Success || !(factor.ldlt.vectorD().array() > 0.0).all()) return false;
+    factor.product.resize(static_cast<int>(x.padded_size()));
+    multiply(matrix, x, factor.points, factor.product);
+    const int count = matrix.pattern->vertex_count;
+    Eigen::VectorXd right(3 * count);
+    for (int i = 0; i < count; ++i) right.segment<3>(3 * i) = matrix.free[i] * b.at(i) - factor.product.at(i);
+    const Eigen::VectorXd solution = factor.ldlt.solve(right);
+    for (int i = 0; i < count; ++i) {
+        if (matrix.free[i] > 0.0) x.add(i, solution.segment<3>(3 * i));
+    }
+    return true;
+}
+
+}  // namespace percale

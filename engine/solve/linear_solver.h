@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+
+#include "conjugate_gradient.h"
+#include "direct_solver.h"
+#include "model/cloth_model.h"
+#include "multigrid.h"
+#include "percale/settings.h"
+
+namespace percale {
+
+/// The step matrix with the solver that the settings or the counts so far choose.
+///
+/// `automatic` begins with block Jacobi and changes to multigrid when a solve has shown that to be dearer, in products with the
+/// matrix: a multigrid solve costs about 8 products for its coarser matrices and 8 an iteration, and needs about six iterations
+/// where block Jacobi needs more than fifty. Counts only, no clock: runs repeat bit for bit.
+class StepSolver {
+public:
+    /// Prepares for a model, which is viewed and must stay as it is.
+    void set_model(const Compute& compute, const ClothModel& model, LinearSolver wish);
+    bool is_for(const ClothModel& model) const { return matrix.pattern == &model.adjacency; }
+    void forget_model() { matrix.pattern = nullptr; }
+
+    /// Takes springs and contacts of a state.
+    void fill(const SpringTerms& springs, std::span<const ContactBlock> contacts);
+
+    /// A x = b on the free vertices, prescribed entries of x kept.
+    SolveReport solve(const Vectors& b, const SolveTarget& target, Vectors& x);
+
+    /// A cheap estimate of A^-1 r with the matrix last filled in: z = one application of the preconditioner. False where that is no
+    /// good estimate, as with block Jacobi.
+    bool estimate(const Vectors& r, Vectors& z);
+
+    LinearSolver in_use() const { return in_use_; }
+
+    BlockMatrix matrix;
+
+private:
+    const ClothModel* model_ = nullptr;
+    LinearSolver wish_ = LinearSolver::automatic;
+    LinearSolver in_use_ = LinearSolver::cg;
+    std::unique_ptr<Multigrid> multigrid_;
+    std::unique_ptr<DirectSolver> direct_;
+    SolveSpace space_;
+};
+
+}  // namespace percale

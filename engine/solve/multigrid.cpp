@@ -1,0 +1,360 @@
+#include "multigrid.h"
+
+#include <algorithm>
+
+namespace percale {
+namespace {
+
+// The block-Jacobi preconditioned matrix has eigenvalues up to about 2.6; the smoother works on the upper seven eighths.
+constexpr float largest_eigenvalue = 2.6f;
+constexpr float smoothed_from = largest_eigenvalue / 8.0f;
+
+using Block = std::array<double, 6>;
+
+Block block_product(const Block& a, const Block& b) {
+    // Symmetric because a is a function of b here: both have the same eigenvectors.
+    return {a[0] * b[0] + a[1] * b[1] + a[2] * b[2], a[0] * b[1] + a[1] * b[3] + a[2] * b[4],
+            a[0] * b[2] + a[1] * b[4] + a[2] * b[5], a[1] * b[1] + a[3] * b[3] + a[4] * b[4],
+            a[1] * b[2] + a[3] * b[4] + a[4] * b[5], a[2] * b[2] + a[4] * b[4] + a[5] * b[5]};
+}
+
+double trace(const Block& a) { return a[0] + a[3] + a[5]; }
+
+/// (A : B)/trace B: the size of A along B.
+double size_along(const Block& a, const Block& b) {
+    const double product = a[0] * b[0] + a[3] * b[3] + a[5] * b[5] + 2.0 * (a[1] * b[1] + a[2] * b[2] + a[4] * b[4]);
+    return product / trace(b);
+}
+
+std::array<float, 6> to_float(const Block& a) {
+    std::array<float, 6> result;
+    for (int k = 0; k < 6; ++k) result[k] = static_cast<float>(a[k]);
+    return result;
+}
+
+std::array<float, 3> times(const std::array<float, 6>& m, const std::array<float, 3>& u) {
+    return {m[0] * u[0] + m[1] * u[1] + m[2] * u[2], m[1] * u[0] + m[3] * u[1] + m[4] * u[2],
+            m[2] * u[0] + m[4] * u[1] + m[5] * u[2]};
+}
+
+std::array<float, 3> at(const FloatVectors& v, int i) { return {v.data[i], v.data[v.padded + i], v.data[2 * v.padded + i]}; }
+
+void set(const FloatVectors& v, int i, const std::array<float, 3>& value) {
+    for (int axis = 0; axis < 3; ++axis) v.data[axis * v.padded + i] = value[axis];
+}
+
+}  // namespace
+
+Multigrid::Multigrid(const Compute& compute, const Adjacency& pattern, std::span<const Vec3> rest)
+    : compute_(compute), adjacency_(pattern) {
+    // Pairs in the order of their entries: blocks are then expanded in one sweep.
+    std::vector<bool> first(pattern.other.size(), false);
+    for (const int entry : pattern.entry) first[entry] = true;
+    SpringGraph graph{.positions = {rest.begin(), rest.end()}, .pairs = {}, .strength = {}};
+    for (int s = 0; s < pattern.slices(); ++s) {
+        for (int e = pattern.start[s]; e < pattern.start[s + 1]; ++e) {
+            if (!first[e]) continue;
+            graph.pairs.push_back({s * slice_lanes + (e - pattern.start[s]) % slice_lanes, pattern.other[e]});
+            graph.strength.push_back(pattern.stiffness[e]);
+            pair_entry_.push_back(e);
+        }
+    }
+    patterns_ = make_hierarchy(std::move(graph));
+    Level fine = sized_level(pattern.pattern(), pattern.slices());
+    fine.ground.resize(fine.padded);
+    fine.blocks.assign(8 * (pair_entry_.size() + 1), 0.0f);
+    levels_.push_back(std::move(fine));
+    for (const LevelPattern& coarser : patterns_) add_level(coarser);
+    if (patterns_.empty() || patterns_.back().vertices > dense_vertices) return;
+    bottom_size_ = 3 * patterns_.back().vertices;
+    bottom_stride_ = (bottom_size_ + slice_lanes - 1) / slice_lanes * slice_lanes;
+    bottom_.resize(static_cast<std::size_t>(bottom_size_) * bottom_stride_);
+    bottom_inverse_.resize(bottom_.size());
+    for (auto* list : {&bottom_x_, &bottom_y_}) list->assign(bottom_stride_, 0.0f);
+}
+
+void Multigrid::add_level(const LevelPattern& pattern) {
+    Level level = sized_level(pattern.pattern(), pattern.slices());
+    level.own_values.resize(6 * pattern.other.size());
+    level.values = level.own_values.data();
+    level.blocks.assign(8 * (pattern.pairs.size() + 1), 0.0f);
+    level.ground.resize(6 * level.padded);
+    level.inverse.resize(6 * level.padded);
+    levels_.push_back(std::move(level));
+}
+
+Multigrid::Level Multigrid::sized_level(EntryPattern pattern, int slices) const {
+    Level level;
+    level.pattern = pattern;
+    level.slices = slices;
+    level.padded = static_cast<std::size_t>(level.slices) * slice_lanes;
+    for (auto* list : {&level.x, &level.b, &level.r, &level.p}) list->assign(3 * level.padded, 0.0f);
+    level.points.assign(4 * level.padded, 0.0f);
+    return level;
+}
+
+FloatVectors Multigrid::view(const AlignedVector<float>& data, const Level& level) const {
+    return {const_cast<float*>(data.data()), level.padded};
+}
+
+void Multigrid::pack(Level& level, const AlignedVector<float>& from) const {
+    for_chunks(compute_, level.slices, [&](Slices range) {
+        compute_.kernels->pack_float_points(view(from, level), level.points.data(), range);
+    });
+}
+
+void Multigrid::fill(const BlockMatrix& matrix) {
+    Level& fine = levels_[0];
+    fine.values = matrix.springs->values.data();
+    std::transform(matrix.mass.begin(), matrix.mass.end(), fine.ground.begin(), [](double m) { return static_cast<float>(m); });
+    fine.inverse = matrix.inverse;
+    set_filters(matrix);
+    expand_blocks(*matrix.springs);
+    for (int k = 1; k < levels(); ++k) fill_level(k);
+    if (bottom_size_ > 0) fill_bottom();
+}
+
+void Multigrid::set_filters(const BlockMatrix& matrix) {
+    filtered_.clear();
+    const auto diagonal = [&](int i) {
+        Block block;
+        for (int k = 0; k < 6; ++k) block[k] = matrix.diagonal[k][i];
+        return block;
+    };
+    for (int i = 0; i < adjacency_.vertex_count; ++i) {
+        if (matrix.free[i] > 0.0) continue;
+        Block ground = diagonal(i);
+        for (const int k : {0, 3, 5}) ground[k] -= matrix.mass[i];
+        filtered_.push_back({.vertex = i, .filter = {}, .contact = {}, .ground = ground});
+    }
+    for (const VertexContact& contact : matrix.contacts_by_vertex) {
+        if (!(trace(contact.k) > 0.0)) continue;
+        const double d = size_along(diagonal(contact.vertex), contact.k);
+        Block sum = contact.k;
+        for (const int k : {0, 3, 5}) sum[k] += d;
+        Block filter = inverse_block(sum);
+        for (double& entry : filter) entry *= d;
+        filtered_.push_back({.vertex = contact.vertex,
+                             .filter = to_float(filter),
+                             .contact = to_float(contact.k),
+                             .ground = block_product(filter, contact.k)});
+    }
+}
+
+void Multigrid::expand_blocks(const SpringTerms& springs) {
+    float* block = levels_[0].blocks.data();
+    for (const int entry : pair_entry_) {
+        const int lane = entry % slice_lanes;
+        const float* value = &springs.values[4 * static_cast<std::size_t>(entry - lane) + lane];
+        const float a = value[0], x = value[slice_lanes], y = value[2 * slice_lanes], z = value[3 * slice_lanes];
+        block[0] = a + x * x;
+        block[1] = x * y;
+        block[2] = x * z;
+        block[3] = a + y * y;
+        block[4] = y * z;
+        block[5] = a + z * z;
+        block += 8;
+    }
+}
+
+void Multigrid::fill_level(int k) {
+    const LevelPattern& pattern = patterns_[k - 1];
+    Level &level = levels_[k], &finer = levels_[k - 1];
+    const GalerkinPass sums{.start = pattern.term_start.data(),
+                            .pair = pattern.term_pair.data(),
+                            .coefficient = pattern.coefficient.data(),
+                            .fine = finer.blocks.data(),
+                            .coarse = level.blocks.data()};
+    compute_.kernels->galerkin(sums, 0, static_cast<int>(pattern.pairs.size()));
+    for (std::size_t e = 0; e < pattern.entry_pair.size(); ++e) {
+        const float* block = &level.blocks[8 * static_cast<std::size_t>(pattern.entry_pair[e])];
+        float* value = &level.own_values[6 * (e - e % slice_lanes) + e % slice_lanes];
+        for (int entry = 0; entry < 6; ++entry) value[entry * slice_lanes] = block[entry];
+    }
+    restrict_ground(k);
+    const DiagonalPass pass{.pattern = level.pattern,
+                            .values = level.values,
+                            .ground = nullptr,
+                            .blocks = level.ground.data(),
+                            .diagonal = nullptr,
+                            .inverse = level.inverse.data(),
+                            .padded = level.padded};
+    for_chunks(compute_, level.slices, [&](Slices range) { compute_.kernels->coarse_diagonal(pass, range); });
+}
+
+/// Row sums: what holds a finer vertex holds the coarser ones by its weights.
+void Multigrid::restrict_ground(int k) {
+    Level& level = levels_[k];
+    std::fill(level.ground.begin(), level.ground.end(), 0.0f);
+    if (k == 1) {
+        scatter_ground();
+    } else {
+        Level& finer = levels_[k - 1];
+        for (const std::size_t half : {0, 3}) {
+            const FloatVectors from{finer.ground.data() + half * finer.padded, finer.padded};
+            for_chunks(compute_, finer.slices,
+                       [&](Slices range) { compute_.kernels->pack_float_points(from, finer.points.data(), range); });
+            transfer(patterns_[k - 1].restriction, level.slices, finer.points,
+                     {level.ground.data() + half * level.padded, level.padded}, false);
+        }
+    }
+    for (const std::size_t entry : {0, 3, 5}) {
+        for (std::size_t i = patterns_[k - 1].vertices; i < level.padded; ++i) level.ground[entry * level.padded + i] = 1.0f;
+    }
+}
+
+void Multigrid::scatter_ground() {
+    Level& level = levels_[1];
+    const std::vector<InterpolationRow>& rows = patterns_[0].rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (int k = 0; k < rows[i].count; ++k) {
+            const float part = static_cast<float>(rows[i].weight[k]) * levels_[0].ground[i];
+            for (const std::size_t entry : {0, 3, 5}) level.ground[entry * level.padded + rows[i].vertex[k]] += part;
+        }
+    }
+    for (const Filtered& vertex : filtered_) {
+        const InterpolationRow& row = rows[vertex.vertex];
+        for (int k = 0; k < row.count; ++k) {
+            for (std::size_t entry = 0; entry < 6; ++entry) {
+                level.ground[entry * level.padded + row.vertex[k]] += static_cast<float>(row.weight[k] * vertex.ground[entry]);
+            }
+        }
+    }
+}
+
+void Multigrid::fill_bottom() {
+    constexpr int symmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+    const Level& level = levels_.back();
+    const LevelPattern& pattern = patterns_.back();
+    std::fill(bottom_.begin(), bottom_.end(), 0.0);
+    const auto add = [&](int i, int j, double sign, const auto& block) {
+        for (int a = 0; a < 3; ++a) {
+            for (int b = 0; b < 3; ++b) {
+                bottom_[static_cast<std::size_t>(3 * i + a) * bottom_stride_ + 3 * j + b] += sign * block(symmetric[a][b]);
+            }
+        }
+    };
+    for (int i = 0; i < pattern.vertices; ++i) {
+        add(i, i, 1.0, [&](int entry) { return level.ground[entry * level.padded + i]; });
+    }
+    for (std::size_t p = 0; p < pattern.pairs.size(); ++p) {
+        const auto [i, j] = pattern.pairs[p];
+        const auto block = [&](int entry) { return level.blocks[8 * p + entry]; };
+        add(i, i, 1.0, block);
+        add(j, j, 1.0, block);
+        add(i, j, -1.0, block);
+        add(j, i, -1.0, block);
+    }
+    compute_.kernels->invert(bottom_.data(), bottom_size_, bottom_stride_);
+    std::transform(bottom_.begin(), bottom_.end(), bottom_inverse_.begin(), [](double value) { return static_cast<float>(value); });
+}
+
+void Multigrid::apply(double scale, const Vectors& r, Vectors& z) {
+    Level& fine = levels_[0];
+    for_chunks(compute_, fine.slices,
+               [&](Slices range) { compute_.kernels->to_float(1.0 / scale, r.axes(), view(fine.b, fine), range); });
+    cycle(0);
+    for_chunks(compute_, fine.slices,
+               [&](Slices range) { compute_.kernels->to_double(scale, view(fine.x, fine), z.axes(), range); });
+}
+
+void Multigrid::cycle(int k) {
+    Level& level = levels_[k];
+    const bool bottom = k + 1 == levels();
+    if (bottom && bottom_size_ > 0) return solve_bottom(level);
+    smooth(k, true);
+    if (!bottom) {
+        residual(k);
+        if (k == 0) filter_residual();
+        pack(level, level.r);
+        Level& coarser = levels_[k + 1];
+        transfer(patterns_[k].restriction, coarser.slices, level.points, view(coarser.b, coarser), false);
+        cycle(k + 1);
+        prolong(k);
+    }
+    smooth(k, false);
+}
+
+/// Chebyshev iteration of degree two for A x = b (Saad, Iterative Methods for Sparse Linear Systems, 2003, section 12.3).
+void Multigrid::smooth(int k, bool fresh) {
+    Level& level = levels_[k];
+    constexpr float middle = 0.5f * (largest_eigenvalue + smoothed_from), half = 0.5f * (largest_eigenvalue - smoothed_from);
+    constexpr float sigma = middle / half, rho = 1.0f / sigma, next_rho = 1.0f / (2.0f * sigma - rho);
+    const auto step = [&](const AlignedVector<float>& r, float alpha, float beta, bool first) {
+        const SmoothPass pass{.inverse = level.inverse.data(),
+                              .r = view(r, level),
+                              .p = view(level.p, level),
+                              .x = view(level.x, level),
+                              .alpha = alpha,
+                              .beta = beta,
+                              .fresh = first};
+        for_chunks(compute_, level.slices, [&](Slices range) { compute_.kernels->smooth(pass, range); });
+    };
+    if (!fresh) residual(k);
+    step(fresh ? level.b : level.r, 1.0f / middle, 0.0f, fresh);
+    residual(k);
+    step(level.r, 2.0f * next_rho / half, next_rho * rho, false);
+}
+
+/// r = b - A x.
+void Multigrid::residual(int k) {
+    Level& level = levels_[k];
+    pack(level, level.x);
+    const FloatPass pass{.pattern = level.pattern,
+                         .values = level.values,
+                         .ground = level.ground.data(),
+                         .x = view(level.x, level),
+                         .y = view(level.r, level),
+                         .points = level.points.data(),
+                         .right = level.b.data()};
+    const auto multiply = k == 0 ? compute_.kernels->multiply_fine : compute_.kernels->multiply_coarse;
+    for_chunks(compute_, level.slices, [&](Slices range) { multiply(pass, range); });
+    if (k > 0) return;
+    const FloatVectors x = view(level.x, level), r = view(level.r, level);
+    for (const Filtered& vertex : filtered_) {
+        const std::array<float, 3> part = times(vertex.contact, at(x, vertex.vertex));
+        std::array<float, 3> rest = at(r, vertex.vertex);
+        for (int axis = 0; axis < 3; ++axis) rest[axis] -= part[axis];
+        set(r, vertex.vertex, rest);
+    }
+}
+
+void Multigrid::filter_residual() {
+    const FloatVectors r = view(levels_[0].r, levels_[0]);
+    for (const Filtered& vertex : filtered_) set(r, vertex.vertex, times(vertex.filter, at(r, vertex.vertex)));
+}
+
+/// x += P (coarser x), filtered at the finest level.
+void Multigrid::prolong(int k) {
+    Level &level = levels_[k], &coarser = levels_[k + 1];
+    const FloatVectors x = view(level.x, level);
+    before_.clear();
+    if (k == 0) {
+        for (const Filtered& vertex : filtered_) before_.push_back(at(x, vertex.vertex));
+    }
+    pack(coarser, coarser.x);
+    transfer(patterns_[k].prolongation, level.slices, coarser.points, x, true);
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+        const Filtered& vertex = filtered_[i];
+        std::array<float, 3> value = at(x, vertex.vertex);
+        for (int axis = 0; axis < 3; ++axis) value[axis] -= before_[i][axis];
+        value = times(vertex.filter, value);
+        for (int axis = 0; axis < 3; ++axis) value[axis] += before_[i][axis];
+        set(x, vertex.vertex, value);
+    }
+}
+
+void Multigrid::transfer(const TransferLists& lists, int slices, const AlignedVector<float>& points, FloatVectors to,
+                         bool add) const {
+    const TransferPass pass{
+        .pattern = lists.pattern(), .weights = lists.weight.data(), .points = points.data(), .y = to, .add = add};
+    for_chunks(compute_, slices, [&](Slices range) { compute_.kernels->transfer(pass, range); });
+}
+
+void Multigrid::solve_bottom(Level& level) {
+    for (int i = 0; i < bottom_size_; ++i) bottom_x_[i] = level.b[(i % 3) * level.padded + i / 3];
+    compute_.kernels->dense_multiply(bottom_inverse_.data(), bottom_size_, bottom_stride_, bottom_x_.data(), bottom_y_.data());
+    for (int i = 0; i < bottom_size_; ++i) level.x[(i % 3) * level.padded + i / 3] = bottom_y_[i];
+}
+
+}  // namespace percale

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "block_matrix.h"
+#include "hierarchy.h"
+
+namespace percale {
+
+/// One V-cycle as a preconditioner, in single precision: before and after each coarse correction a Chebyshev polynomial of degree
+/// two in the block-Jacobi preconditioned matrix; dense at the bottom. Symmetric and positive definite.
+///
+/// Contacts and prescribed vertices leave the hierarchy as it is. The transfers are filtered at such vertices: by 0 where the
+/// motion is prescribed, by S = d (d I + K)^-1 where contact adds K to a vertex whose own block has the size d along K; coarser
+/// diagonals get the parallel sum S K instead of K, since a stiff contact at one vertex does not hold its neighbours.
+class Multigrid {
+public:
+    /// The springs of `pattern` in rest positions (m, one a vertex). Everything given is viewed.
+    Multigrid(const Compute& compute, const Adjacency& pattern, std::span<const Vec3> rest);
+
+    /// Takes the values of a matrix with that pattern.
+    void fill(const BlockMatrix& matrix);
+
+    /// z = one cycle for A z = r; r is divided by `scale` meanwhile, which keeps it in the range of floats.
+    void apply(double scale, const Vectors& r, Vectors& z);
+
+    int levels() const { return static_cast<int>(levels_.size()); }
+
+private:
+    struct Level {
+        EntryPattern pattern;
+        int slices = 0;
+        std::size_t padded = 0;
+        const float* values = nullptr;
+        AlignedVector<float> own_values;  // of coarser levels
+        AlignedVector<float> blocks;      // eight numbers a pair (six used), one zero block more
+        AlignedVector<float> ground;      // the mass alone (finest), or six arrays
+        AlignedVector<float> inverse;
+        AlignedVector<float> x, b, r, p, points;
+    };
+    /// A vertex of the finest level whose transfers are filtered.
+    struct Filtered {
+        int vertex;
+        std::array<float, 6> filter;   // S
+        std::array<float, 6> contact;  // K, kg; applied by the smoother
+        std::array<double, 6> ground;  // kg, for the next level
+    };
+
+    void add_level(const LevelPattern& pattern);
+    Level sized_level(EntryPattern pattern, int slices) const;
+    void set_filters(const BlockMatrix& matrix);
+    void expand_blocks(const SpringTerms& springs);
+    void fill_level(int k);
+    void restrict_ground(int k);
+    void scatter_ground();
+    void fill_bottom();
+    void cycle(int k);
+    void smooth(int k, bool fresh);
+    void residual(int k);
+    void solve_bottom(Level& level);
+    void transfer(const TransferLists& lists, int slices, const AlignedVector<float>& points, FloatVectors to, bool add) const;
+    void filter_residual();
+    void prolong(int k);
+    FloatVectors view(const AlignedVector<float>& data, const Level& level) const;
+    void pack(Level& level, const AlignedVector<float>& from) const;
+
+    const Compute& compute_;
+    const Adjacency& adjacency_;
+    std::vector<int> pair_entry_;  // of the finest level: the entry of each pair
+    std::vector<LevelPattern> patterns_;
+    std::vector<Level> levels_;
+    std::vector<Filtered> filtered_;
+    std::vector<std::array<float, 3>> before_;  // work space of prolong
+    AlignedVector<double> bottom_;
+    AlignedVector<float> bottom_inverse_, bottom_x_, bottom_y_;
+    int bottom_size_ = 0, bottom_stride_ = 0;
+};
+
+}  // namespace percale
