@@ -48,7 +48,8 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
     return sum_chunks(compute, slices, [&](Slices range) { return compute.kernels->springs(pass, range); });
 }
 
-SpringBlock spring_block(const SpringTerms& terms, int entry) {
+SpringBlock spring_block(const Adjacency& adjacency, const SpringTerms& terms, int spring) {
+    const int entry = adjacency.entry[spring];
     const float* value = &terms.values[4 * static_cast<std::size_t>(entry - entry % slice_lanes) + entry % slice_lanes];
     return {value[0], Vec3(value[slice_lanes], value[2 * slice_lanes], value[3 * slice_lanes])};
 }

@@ -56,12 +56,12 @@ struct SpringMotion {
 double evaluate_springs(const Compute& compute, const StepSprings& springs, const SpringMotion& motion, bool with_matrix,
                         Vectors& forces, SpringTerms& terms);
 
-/// The block a I + w w^T of an entry.
+/// The block a I + w w^T of a spring.
 struct SpringBlock {
     double a;
     Vec3 w;
 };
-SpringBlock spring_block(const SpringTerms& terms, int entry);
+SpringBlock spring_block(const Adjacency& adjacency, const SpringTerms& terms, int spring);
 
 /// Elastic energy sum 1/2 ks (l - l0)^2 of the network, J.
 double elastic_energy(const SpringNetwork& network, const Vectors& positions);
