@@ -13,6 +13,7 @@
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
 #include "scene_build.h"
+#include "scene_text.h"
 #include "whole_file.h"
 
 namespace percale::program {
@@ -140,8 +141,9 @@ int drape_garment(const DrapeOptions& options) {
     }
     const FrameCheck check = write_and_certify(built, options);
     if (!options.quiet)
-        std::printf("%s: %.3g s simulated, fastest vertex %.3g m/s, %d intersecting pairs, smallest distance %.3g m\n",
-                    options.out.c_str(), drape.last.time, drape.last.largest_speed, check.intersections, check.smallest_distance);
+        std::printf("%s: %.3g s simulated, fastest vertex %.3g m/s, %d intersecting pairs, %s\n", options.out.c_str(),
+                    drape.last.time, drape.last.largest_speed, check.intersections,
+                    nearness_text(check.smallest_distance).c_str());
     return verdict(options, drape, check);
 }
 
