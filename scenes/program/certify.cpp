@@ -145,6 +145,7 @@ nlohmann::ordered_json check_object(const FrameCheck& check) {
 void print_json(const Verdict& verdict, double limit) {
     const Measures& m = verdict.measures;
     nlohmann::ordered_json json = {{"clean", verdict.clean},
+                                   {"has_obstacles", has_obstacles(verdict)},
                                    {"intersections", m.intersections},
                                    {"deepest_penetration", m.deepest_penetration},
                                    {"smallest_distance", m.smallest_distance},

@@ -61,7 +61,6 @@ void check_options(const DrapeOptions& options) {
 Scene drape_scene(const DrapeOptions& options) {
     Scene scene;
     scene.file = "drape";
-    const SourcePlace place{scene.file, 0, 0};
     scene.duration = options.seconds;
     scene.fabrics["garment"] = options.fabric;
     ClothSpec cloth;
@@ -70,14 +69,14 @@ Scene drape_scene(const DrapeOptions& options) {
     cloth.mesh = std::filesystem::absolute(options.garment).string();
     cloth.unit = metres("--garment-unit", options.garment_unit);
     cloth.pose.translation = Vec3(options.move[0], options.move[1], options.move[2]);
-    cloth.place = place;
+    cloth.place = {.file = options.garment};
     scene.cloths.push_back(cloth);
     ObstacleSpec body;
     body.name = "body";
     body.mesh = std::filesystem::absolute(options.body).string();
     body.unit = metres("--body-unit", options.body_unit);
     body.friction = options.friction;
-    body.place = place;
+    body.place = {.file = options.body};
     scene.obstacles.push_back(body);
     return scene;
 }

@@ -193,6 +193,8 @@ TEST_CASE("a name is told once, in quotes") {
     const std::string message = error_of([&] { build_scene(load_scene(file)); });
     CHECK(message.starts_with(file + ":7:1: 'body': the obstacle has no triangle"));
     CHECK(message.find("body", message.find("body") + 1) == std::string::npos);
+    const std::string folded = mesh_scene(folder, "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 1\nf 1 2 3\nf 2 1 4\n");
+    CHECK(error_of([&] { build_scene(load_scene(folded)); }).starts_with(folded + ":3:1: 'flag': vertices 2 and 3 "));
 }
 
 TEST_CASE("every detector carries the same scene through the same states") {

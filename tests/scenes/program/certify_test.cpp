@@ -43,6 +43,7 @@ TEST_CASE("a sheet above a box is clean, with its distance") {
     CHECK(run.exit_code == 0);
     const auto json = nlohmann::json::parse(run.out);
     CHECK(json.at("clean") == true);
+    CHECK(json.at("has_obstacles") == true);
     CHECK(json.at("intersections") == 0);
     CHECK(json.at("smallest_distance").get<double>() == Approx(0.015625));
     CHECK(json.at("worst_frame") == 0);
@@ -107,6 +108,8 @@ TEST_CASE("a run without obstacles leaves nothing to check against") {
     const ProgramRun run = run_program({"certify", "out"}, folder.path());
     CHECK(run.exit_code == 0);
     CHECK(run.out == "6 frames and no obstacle: there is nothing to check against\n");
+    const ProgramRun json = run_program({"certify", "out", "--json"}, folder.path());
+    CHECK(nlohmann::json::parse(json.out).at("has_obstacles") == false);
     folder.write("out/frames/sheet_00003.obj", "v 0 0 nan\n");
     CHECK(refused(run_program({"certify", "out"}, folder.path()), "sheet_00003.obj"));
 }
