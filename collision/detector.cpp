@@ -18,6 +18,18 @@ double floor_below(double d, double h) {
     return d > 1e-3 * h ? std::max(0.5 * d, 1e-3 * h) : 0.999 * d;
 }
 
+StartFault start_fault(int obstacle, const Certificate& certificate) {
+    StartFault fault{.obstacle = obstacle,
+                     .intersecting_pairs = static_cast<int>(certificate.pairs.size()),
+                     .vertices_inside = certificate.vertices_inside,
+                     .inside_vertex = certificate.deepest_vertex};
+    if (!certificate.pairs.empty()) {
+        fault.cloth_triangle = certificate.pairs[0].first;
+        fault.obstacle_triangle = certificate.pairs[0].second;
+    }
+    return fault;
+}
+
 class MeshDetector : public ContactDetector {
 public:
     explicit MeshDetector(TreeFactory make_tree) : make_tree_(make_tree) {}
@@ -38,23 +50,13 @@ public:
 
     StartFault check_start(std::span<const Vec3> positions) override {
         const TriangleMesh cloth{.vertices = {positions.begin(), positions.end()}, .triangles = triangles_};
-        StartFault fault;
         for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-            const double limit = 2.0 * *std::max_element(thickness_.begin(), thickness_.end());
-            const Certificate certificate = certify(cloth, obstacles_[i]->given_mesh(), limit);
+            // Only whether the distance is 0 matters here, so nothing is searched farther away.
+            const Certificate certificate = certify(cloth, obstacles_[i]->given_mesh(), 0.0);
             if (certificate.clean() && certificate.smallest_distance > 0.0) continue;
-            fault.obstacle = static_cast<int>(i);
-            fault.intersecting_pairs = static_cast<int>(certificate.pairs.size());
-            fault.vertices_inside = certificate.vertices_inside;
-            fault.inside_vertex = certificate.deepest_vertex;
-            fault.smallest_distance = 0.0;
-            if (!certificate.pairs.empty()) {
-                fault.cloth_triangle = certificate.pairs[0].first;
-                fault.obstacle_triangle = certificate.pairs[0].second;
-            }
-            return fault;
+            return start_fault(static_cast<int>(i), certificate);
         }
-        return fault;
+        return {};
     }
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {

@@ -70,6 +70,19 @@ void drop_unused_vertices(std::span<const Vec3> vertices, ObstacleSurface& surfa
         static_cast<int>(vertices.size() - surface.vertices.size()) - surface.cleaning.merged_vertices;
 }
 
+/// Vertices and triangles alone, without connectivity.
+ObstacleSurface clean(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+    ObstacleSurface surface;
+    keep_good_triangles(vertices, triangles, surface);
+    if (surface.triangles.empty()) {
+        throw SceneError("the obstacle has no triangle with an area (" + std::to_string(triangles.size()) +
+                         " given, all degenerate)");
+    }
+    drop_unused_vertices(vertices, surface);
+    surface.cleaning.triangles = static_cast<int>(surface.triangles.size());
+    return surface;
+}
+
 /// A half edge of a triangle, to be sorted by its vertices.
 struct HalfEdge {
     int low, high, triangle, corner;
@@ -208,17 +221,13 @@ void mark_touchable(ObstacleSurface& surface) {
 }  // namespace
 
 ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
-    ObstacleSurface surface;
-    keep_good_triangles(vertices, triangles, surface);
-    if (surface.triangles.empty()) {
-        throw SceneError("the obstacle has no triangle with an area (" + std::to_string(triangles.size()) +
-                         " given, all degenerate)");
-    }
-    drop_unused_vertices(vertices, surface);
+    ObstacleSurface surface = clean(vertices, triangles);
     connect_edges(surface);
     connect_vertices(surface);
     mark_touchable(surface);
     return surface;
 }
+
+CleaningReport cleaning_report(const TriangleMesh& mesh) { return clean(mesh.vertices, mesh.triangles).cleaning; }
 
 }  // namespace percale

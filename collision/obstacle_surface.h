@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "percale/cleaning.h"
 #include "percale/mesh.h"
 
 namespace percale {
@@ -15,14 +16,6 @@ struct SurfaceEdge {
     int owner = -1;  // the first triangle that has it
     /// Not flat edges, nor valleys of a closed surface that faces outwards: cloth meets the faces there first.
     bool can_touch = true;
-};
-
-/// What cleaning dropped.
-struct CleaningReport {
-    int merged_vertices = 0;       // at exactly the same place as another one
-    int degenerate_triangles = 0;  // without area
-    int duplicate_triangles = 0;
-    int unreferenced_vertices = 0;
 };
 
 /// A cleaned obstacle mesh and its connectivity. Positions are those it was made from; a moving obstacle moves its own copy.

@@ -88,22 +88,24 @@ struct Simulation::Implementation {
         return "vertex " + std::to_string(vertex_index);
     }
 
-    void check_start() {
-        const StartFault fault = world.detector->check_start(world.state.points);
-        if (!fault.any()) return;
-        const std::string obstacle_name = fault.obstacle >= 0 ? world.script.obstacles[fault.obstacle].name : "an obstacle";
+    std::string start_text(const StartFault& fault) const {
+        const std::string& obstacle_name = world.script.obstacles[fault.obstacle].name;
         if (fault.intersecting_pairs > 0) {
             const int corner = world.model.triangles[fault.cloth_triangle][0];
-            throw SceneError("the cloth starts through " + obstacle_name + ": " + std::to_string(fault.intersecting_pairs) +
-                             " intersecting triangle pairs, one of them at " + vertex_name(corner) + " and triangle " +
-                             std::to_string(fault.obstacle_triangle) + "; move the cloth or the obstacle apart");
+            return "the cloth starts through " + obstacle_name + ": " + std::to_string(fault.intersecting_pairs) +
+                   " intersecting triangle pairs, one of them at " + vertex_name(corner) + " and triangle " +
+                   std::to_string(fault.obstacle_triangle) + "; move the cloth or the obstacle apart";
         }
         if (fault.vertices_inside > 0) {
-            throw SceneError("the cloth starts inside " + obstacle_name + ": " + std::to_string(fault.vertices_inside) +
-                             " vertices, one of them " + vertex_name(fault.inside_vertex) +
-                             "; move the cloth or the obstacle apart");
+            return "the cloth starts inside " + obstacle_name + ": " + std::to_string(fault.vertices_inside) +
+                   " vertices, one of them " + vertex_name(fault.inside_vertex) + "; move the cloth or the obstacle apart";
         }
-        throw SceneError("the cloth starts touching " + obstacle_name + "; leave some distance");
+        return "the cloth starts touching " + obstacle_name + "; leave some distance";
+    }
+
+    void check_start() {
+        const StartFault fault = world.detector->check_start(world.state.points);
+        if (fault.any()) throw StartError(start_text(fault), fault);
     }
 
     void check_scheme() const {

@@ -24,6 +24,7 @@ const MeasureDescription measure_list[] = {
 
 // Six digits, or all of them where six would contradict the verdict.
 std::string value_text(const Expectation& expectation, double value) {
+    if (std::isinf(value)) return value > 0.0 ? "infinite" : "minus infinite";
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", value);
     const bool same_verdict = within(expectation, std::strtod(text, nullptr)) == within(expectation, value);

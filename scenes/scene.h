@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -129,12 +130,16 @@ struct OutputSpec {
 };
 
 enum class Detector { fcl, bullet, brute_force, none };
+/// How a scene file writes each Detector, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 4> detector_words = {"fcl", "bullet", "brute_force", "none"};
+inline constexpr std::string_view word_of(Detector detector) { return detector_words[static_cast<std::size_t>(detector)]; }
 
 struct Scene {
     std::string file;  // as given; "" for a scene made in memory
     std::string title;
-    double duration = 1.0;  // s
-    StepSettings step;      // gravity included
+    double duration = 1.0;     // s
+    StepSettings step;         // gravity included
+    SourcePlace scheme_place;  // of step.scheme; of the whole file where that is not said
     Detector detector = Detector::fcl;
     std::map<std::string, Fabric> fabrics;
     std::vector<ClothSpec> cloths;

@@ -16,14 +16,20 @@ namespace {
 constexpr int sphere_level = 4;
 constexpr int segments_around = 48;
 
-// Runs a part of the build; what it finds wrong is told with the place of the cloth or obstacle in the scene file.
-template <class Work>
-auto at_place(const SourcePlace& place, const std::string& name, Work work) {
+// The message with the name of its cloth or obstacle in front, in quotes, unless it says that already.
+std::string named(const std::string& name, const std::string& what) {
+    const std::string quoted = "'" + name + "'";
+    if (what.find(quoted) != std::string::npos) return what;
+    return quoted + (what.starts_with(name + ":") ? what.substr(name.size()) : ": " + what);
+}
+
+// Builds a cloth or an obstacle; what is wrong with it is told with its place in the scene file.
+template <class Spec, class Work>
+void at_place_of(const Spec& spec, Work work) {
     try {
-        return work();
+        work();
     } catch (const SceneError& error) {
-        const std::string what = error.what();
-        fail_at(place, what.find("'" + name + "'") == std::string::npos ? "'" + name + "': " + what : what);
+        fail_at(spec.place, named(spec.name, error.what()));
     }
 }
 
@@ -67,8 +73,10 @@ std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {
             break;
     }
     const ObstacleSpec& obstacle = scene.obstacles.front();
+    std::vector<std::string> valid(detector_words.begin(), detector_words.end());
+    std::erase(valid, word_of(Detector::none));
     fail_at(obstacle.place,
-            "obstacle '" + obstacle.name + "' needs a detector, but step.detector is none; valid: fcl, bullet, brute_force");
+            "obstacle '" + obstacle.name + "' needs a detector, but step.detector is none; valid: " + joined(valid));
 }
 
 const Fabric& fabric_of(const Scene& scene, const ClothSpec& cloth) {
@@ -77,9 +85,17 @@ const Fabric& fabric_of(const Scene& scene, const ClothSpec& cloth) {
     return found->second;
 }
 
+void check_shear(const ClothSpec& cloth, const TriangleMesh& mesh, double shear) {
+    if (mesh.is_grid() || shear == 0.0) return;
+    throw SceneError("cloth '" + cloth.name + "': fabric." + cloth.fabric + ".springs.shear = " + number_text(shear) +
+                     " N/m, but a free mesh has no shear springs; it must be 0");
+}
+
 void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
     TriangleMesh mesh = rest_mesh(built.scene, cloth);
-    const ClothId id = built.simulation.add_cloth(mesh, fabric_of(built.scene, cloth), {}, cloth.name);
+    const Fabric& fabric = fabric_of(built.scene, cloth);
+    check_shear(cloth, mesh, fabric.springs.shear);
+    const ClothId id = built.simulation.add_cloth(mesh, fabric, {}, cloth.name);
     for (const int vertex : select_vertices(cloth.pin, mesh, cloth.name)) built.simulation.pin(id, vertex);
     built.cloths.push_back(id);
     built.cloth_meshes.push_back(std::move(mesh));
@@ -92,6 +108,18 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     built.obstacle_meshes.push_back(std::move(mesh));
 }
 
+// Obstacles have the same numbers in the scene and in the simulation.
+void check_start(BuiltScene& built) {
+    const Scene& scene = built.scene;
+    try {
+        built.simulation.prepare();
+    } catch (const StartError& error) {
+        fail_at(scene.obstacles.at(static_cast<std::size_t>(error.fault().obstacle)).place, error.what());
+    } catch (const SceneError& error) {
+        fail_at(scene.scheme_place, std::string("step.scheme: ") + error.what());
+    }
+}
+
 }  // namespace
 
 std::string path_beside(const Scene& scene, const std::string& path) {
@@ -99,19 +127,17 @@ std::string path_beside(const Scene& scene, const std::string& path) {
 }
 
 BuiltScene build_scene(const Scene& scene) {
-    const SourcePlace whole{.file = scene.file};
     std::unique_ptr<ContactDetector> detector = make_detector(scene);
     BuiltScene built{.scene = scene,
-                     .simulation = at_place(whole, "step", [&] { return Simulation(scene.step, std::move(detector)); }),
+                     .simulation = Simulation(scene.step, std::move(detector)),
                      .cloths = {},
                      .cloth_meshes = {},
                      .obstacles = {},
                      .obstacle_meshes = {}};
-    for (const ClothSpec& cloth : scene.cloths) at_place(cloth.place, cloth.name, [&] { add_cloth(built, cloth); });
-    for (const ObstacleSpec& obstacle : scene.obstacles)
-        at_place(obstacle.place, obstacle.name, [&] { add_obstacle(built, obstacle); });
+    for (const ClothSpec& cloth : scene.cloths) at_place_of(cloth, [&] { add_cloth(built, cloth); });
+    for (const ObstacleSpec& obstacle : scene.obstacles) at_place_of(obstacle, [&] { add_obstacle(built, obstacle); });
     script_events(scene, built.cloth_meshes);
-    at_place(whole, "start", [&] { built.simulation.prepare(); });
+    check_start(built);
     return built;
 }
 

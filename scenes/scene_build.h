@@ -19,7 +19,7 @@ struct BuiltScene {
 };
 
 /// Reads meshes, selects pins, makes the detector and the simulation, and checks the start (Simulation::prepare). Throws
-/// SceneError with the place in the scene file.
+/// SceneError with the place of the cloth, obstacle, event or key in the scene file.
 BuiltScene build_scene(const Scene& scene);
 
 /// A path of the scene file as the program can open it: relative ones start at the scene file's folder.

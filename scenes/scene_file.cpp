@@ -45,6 +45,7 @@ void read_step(const TomlNode& document, Scene& scene) {
     const TomlNode* step = document.find("step");
     if (step == nullptr) return;
     for (const auto& option : step_options()) read_option(*step, option, scene.step);
+    if (const TomlNode* scheme = step->find("scheme")) scene.scheme_place = scheme->place;
     if (const TomlNode* detector = step->find("detector"))
         scene.detector = static_cast<Detector>(choice_index(find_scene_key("step.detector")->choices, detector->text));
 }
@@ -111,6 +112,7 @@ void check_references(const Scene& scene) {
 Scene scene_of(const TomlNode& document, const std::string& name) {
     Scene scene;
     scene.file = name;
+    scene.scheme_place = {.file = name};
     read_value(document, "title", scene.title);
     read_value(document, "duration", scene.duration);
     read_step(document, scene);

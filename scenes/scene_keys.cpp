@@ -95,10 +95,10 @@ void add_top(Keys& keys) {
 void add_step(Keys& keys) {
     keys.push_back(table_key("step", "How the simulation steps."));
     for (const auto& option : step_options()) keys.push_back(option_key("step", option));
-    SceneKey detector = word_key("step.detector", {"fcl", "bullet", "brute_force", "none"},
+    SceneKey detector = word_key("step.detector", {detector_words.begin(), detector_words.end()},
                                  "Which tree finds obstacle triangles near the cloth; all find the same contacts; none refuses "
                                  "obstacles.");
-    detector.default_text = detector.choices.at(static_cast<std::size_t>(Scene{}.detector));
+    detector.default_text = word_of(Scene{}.detector);
     keys.push_back(std::move(detector));
 }
 
@@ -107,7 +107,8 @@ void add_fabric(Keys& keys) {
     for (const auto& option : fabric_options()) {
         SceneKey key = option_key("fabric", option);
         if (key.path.starts_with("fabric.springs.") && keys.back().path.find(".springs") == std::string::npos)
-            keys.push_back(table_key("fabric.springs", "Constants of the springs, whatever their length."));
+            keys.push_back(required(table_key("fabric.springs", "Constants of the springs, whatever their length.")));
+        if (key.path == "fabric.springs.structural") key = required(with_default(std::move(key), ""));
         keys.push_back(std::move(key));
     }
 }

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "percale/error.h"
 
@@ -17,6 +18,13 @@ std::string number_text(double value) {
     const std::size_t first = text.find_first_not_of("+-0", exponent + 1);
     const std::string sign = text[exponent + 1] == '-' ? "-" : "";
     return text.substr(0, exponent + 1) + sign + text.substr(first);
+}
+
+std::string nearness_text(double smallest_distance) {
+    if (std::isinf(smallest_distance)) return "never near";
+    char text[64];
+    std::snprintf(text, sizeof text, "smallest distance %.3g m", smallest_distance);
+    return text;
 }
 
 std::string place_text(const SourcePlace& place) {

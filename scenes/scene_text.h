@@ -11,6 +11,9 @@ namespace percale::scenes {
 /// The shortest text that reads back as the same number: 0.3, 1e-6, inf.
 std::string number_text(double value);
 
+/// "smallest distance 0.0032 m", or "never near" where it is infinite.
+std::string nearness_text(double smallest_distance);
+
 /// "file:line:column", or only the file where the line is unknown.
 std::string place_text(const SourcePlace& place);
 

@@ -43,6 +43,10 @@ WholeFile::~WholeFile() {
     std::remove(temporary_.c_str());
 }
 
+void WholeFile::check() {
+    if (!out_) refuse(file_);
+}
+
 void WholeFile::commit() {
     if (out_) errno = 0;  // else it still says why writing failed
     out_.close();

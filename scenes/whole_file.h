@@ -16,6 +16,8 @@ public:
     WholeFile& operator=(const WholeFile&) = delete;
 
     std::ostream& out() { return out_; }
+    /// Throws SceneError if something that was written until now could not be.
+    void check();
     void commit();
 
 private:

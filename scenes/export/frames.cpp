@@ -57,18 +57,26 @@ FrameRecord FrameWriter::write(const Frame& frame) {
     FrameRecord record{frame.index, frame.time, {}, {}, frame.check};
     make_folder(folder_ + "/frames");
     if (!frame.obstacles.empty()) make_folder(folder_ + "/obstacles");
-    const auto write = [&](const std::string& name, const TriangleMesh& mesh) {
-        write_obj(folder_ + "/" + name, mesh.vertices, mesh.triangles);
-    };
     for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
         record.cloths.push_back(numbered("frames", cloth_names_[i], frame.index));
-        write(record.cloths.back(), frame.cloths[i]);
+        write_mesh(record.cloths.back(), frame.cloths[i]);
     }
     for (std::size_t i = 0; i < frame.obstacles.size(); ++i) {
         record.obstacles.push_back(numbered("obstacles", obstacle_names_[i], obstacle_moves_[i] ? frame.index : 0));
-        if (obstacle_moves_[i] || frame.index == 0) write(record.obstacles.back(), frame.obstacles[i]);
+        if (obstacle_moves_[i] || frame.index == 0) write_mesh(record.obstacles.back(), frame.obstacles[i]);
     }
     return record;
+}
+
+void FrameWriter::write_mesh(const std::string& name, const TriangleMesh& mesh) {
+    const std::string file = folder_ + "/" + name;
+    write_obj(file, mesh.vertices, mesh.triangles);
+    written_.push_back(file);
+}
+
+void FrameWriter::discard() {
+    for (const std::string& file : written_) std::remove(file.c_str());
+    written_.clear();
 }
 
 }  // namespace percale::scenes

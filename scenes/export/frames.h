@@ -25,11 +25,16 @@ public:
 
     /// Throws SceneError naming the file that cannot be written.
     FrameRecord write(const Frame& frame);
+    /// Removes every file written so far.
+    void discard();
 
 private:
+    void write_mesh(const std::string& name, const TriangleMesh& mesh);
+
     std::string folder_;
     std::vector<std::string> cloth_names_, obstacle_names_;
     std::vector<bool> obstacle_moves_;
+    std::vector<std::string> written_;
 };
 
 /// Whether an obstacle has more than one pose during a run.

@@ -16,6 +16,7 @@ struct CheckedScene {
     double wall_s = 0.0;
     std::vector<ExpectationResult> expectations;
 
+    bool finished() const { return error.empty() && reason.empty(); }
     int passed() const;
     int failed() const;  // an error and a run that did not finish count as one each
 };

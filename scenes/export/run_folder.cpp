@@ -1,5 +1,6 @@
 #include "export/run_folder.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
@@ -53,6 +54,12 @@ RunFolder::RunFolder(const std::string& folder, const Scene& scene, bool with_st
       with_state_hash_(with_state_hash),
       writer_(folder, scene) {}
 
+RunFolder::~RunFolder() {
+    if (finished_) return;
+    writer_.discard();
+    if (steps_written_) std::remove((folder_ + "/steps.csv").c_str());
+}
+
 void RunFolder::begin() {
     std::error_code error;
     fs::create_directories(folder_, error);
@@ -72,7 +79,9 @@ void RunFolder::add(const StepReport& report, const Simulation& simulation) {
 
 void RunFolder::finish(const BuiltScene& built, const RunResult& result, std::span<const ExpectationResult> expectations) {
     steps_->finish();
+    steps_written_ = true;
     write_whole_file(folder_ + "/report.json", run_report_text(built, result, frames_, expectations));
+    finished_ = true;
 }
 
 }  // namespace percale::scenes

@@ -10,11 +10,16 @@
 
 namespace percale::scenes {
 
-/// What a run leaves in its folder: frames, steps.csv, report.json.
+/// What a run leaves in its folder: frames, steps.csv, report.json. Without `finish` (a file could not be written) none of these
+/// files stays.
 class RunFolder {
 public:
     /// Creates nothing yet. Throws SceneError where a name of the scene cannot be part of a file name.
     RunFolder(const std::string& folder, const Scene& scene, bool with_state_hash);
+
+    ~RunFolder();
+    RunFolder(const RunFolder&) = delete;
+    RunFolder& operator=(const RunFolder&) = delete;
 
     /// Makes the folder, or takes what an earlier run's report lists out of it (report.json first: until `finish` there is
     /// none). Throws SceneError if that is not possible.
@@ -29,6 +34,7 @@ private:
     FrameWriter writer_;
     std::optional<StepTable> steps_;
     std::vector<FrameRecord> frames_;
+    bool steps_written_ = false, finished_ = false;
 };
 
 }  // namespace percale::scenes

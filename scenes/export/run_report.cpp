@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "export/run_settings.h"
+#include "percale/cleaning.h"
 #include "percale/error.h"
 
 namespace percale::scenes {
@@ -91,6 +92,20 @@ ordered_json frame_list(std::span<const FrameRecord> frames) {
     return list;
 }
 
+ordered_json obstacle_list(const BuiltScene& built) {
+    ordered_json list = ordered_json::array();
+    for (std::size_t i = 0; i < built.obstacle_meshes.size(); ++i) {
+        const CleaningReport cleaning = cleaning_report(built.obstacle_meshes[i]);
+        list.push_back({{"name", built.scene.obstacles[i].name},
+                        {"triangles", cleaning.triangles},
+                        {"merged_vertices", cleaning.merged_vertices},
+                        {"degenerate_triangles", cleaning.degenerate_triangles},
+                        {"duplicate_triangles", cleaning.duplicate_triangles},
+                        {"unreferenced_vertices", cleaning.unreferenced_vertices}});
+    }
+    return list;
+}
+
 ordered_json skipped_list(const BuiltScene& built) {
     ordered_json list = ordered_json::array();
     for (const SkippedPart& part : skipped_parts(built)) list.push_back({{"what", part.what}, {"why", part.why}});
@@ -134,6 +149,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     json["scene"] = built.scene.file;
     put_counts(json, built.scene, result.totals);
     put_costs(json, result.totals);
+    json["obstacles"] = obstacle_list(built);
     json["skipped"] = skipped_list(built);
     put_contact_and_energy(json, result.totals);
     put_measures(json, result.measures);
@@ -173,8 +189,11 @@ std::vector<FrameRecord> read_frame_records(const std::string& folder) {
         const ordered_json json = ordered_json::parse(in);
         for (const ordered_json& frame : json.at("frames")) records.push_back(frame_record(frame));
         return records;
-    } catch (const ordered_json::exception& error) {
-        throw SceneError(file + ": is not the report of a run: " + error.what());
+    } catch (const ordered_json::parse_error& error) {
+        throw SceneError(file + ": is not the report of a run: it is no JSON from its byte " + std::to_string(error.byte) +
+                         " on");
+    } catch (const ordered_json::exception&) {
+        throw SceneError(file + ": is not the report of a run: its 'frames' are not those that `percale run` lists");
     }
 }
 

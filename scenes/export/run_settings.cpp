@@ -34,20 +34,6 @@ ordered_json options_object(Owner owner, std::span<const Option<Owner>> options)
     return json;
 }
 
-const char* detector_word(Detector detector) {
-    switch (detector) {
-        case Detector::fcl:
-            return "fcl";
-        case Detector::bullet:
-            return "bullet";
-        case Detector::brute_force:
-            return "brute_force";
-        case Detector::none:
-            return "none";
-    }
-    return "unknown";
-}
-
 ordered_json list(const Rotation& q) { return {q.w, q.x, q.y, q.z}; }
 
 ordered_json pose_object(const Pose& pose) {
@@ -135,7 +121,7 @@ ordered_json event_object(const EventSpec& event) {
 
 ordered_json step_object(const Scene& scene) {
     ordered_json json = options_object(scene.step, step_options());
-    json["detector"] = detector_word(scene.detector);
+    json["detector"] = word_of(scene.detector);
     return json;
 }
 

@@ -1,5 +1,6 @@
 #include "export/step_table.h"
 
+#include <cerrno>
 #include <cstdio>
 
 namespace percale::scenes {
@@ -29,7 +30,9 @@ std::string step_table_line(const StepReport& report, std::optional<std::uint64_
 StepTable::StepTable(const std::string& file) : file_(file) { file_.out() << step_table_header() << '\n'; }
 
 void StepTable::add(const StepReport& report, std::optional<std::uint64_t> state_hash) {
+    errno = 0;
     file_.out() << step_table_line(report, state_hash) << '\n';
+    file_.check();
 }
 
 }  // namespace percale::scenes

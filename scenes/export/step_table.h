@@ -20,6 +20,7 @@ std::string step_table_line(const StepReport& report, std::optional<std::uint64_
 class StepTable {
 public:
     explicit StepTable(const std::string& file);
+    /// Throws SceneError if what was written until now could not be.
     void add(const StepReport& report, std::optional<std::uint64_t> state_hash);
     void finish() { file_.commit(); }
 

@@ -1,6 +1,7 @@
 #include "percale/certify.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -112,7 +113,16 @@ std::string distance_text(double distance, double limit) {
     return text;
 }
 
+bool has_obstacles(const Verdict& verdict) {
+    return std::any_of(verdict.frames.begin(), verdict.frames.end(),
+                       [](const CertifiedFrame& frame) { return !frame.obstacles.empty(); });
+}
+
 void print_verdict(const Verdict& verdict, double limit) {
+    if (!has_obstacles(verdict)) {
+        std::printf("%zu frames and no obstacle: there is nothing to check against\n", verdict.frames.size());
+        return;
+    }
     for (const CertifiedFrame& frame : verdict.frames)
         std::printf("%s: %d intersecting pairs, %d vertices inside, deepest %.6g m, smallest distance %s\n", frame.label.c_str(),
                     frame.check.intersections, frame.check.vertices_inside, frame.check.deepest_penetration,
@@ -135,6 +145,7 @@ nlohmann::ordered_json check_object(const FrameCheck& check) {
 void print_json(const Verdict& verdict, double limit) {
     const Measures& m = verdict.measures;
     nlohmann::ordered_json json = {{"clean", verdict.clean},
+                                   {"has_obstacles", has_obstacles(verdict)},
                                    {"intersections", m.intersections},
                                    {"deepest_penetration", m.deepest_penetration},
                                    {"smallest_distance", m.smallest_distance},

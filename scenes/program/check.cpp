@@ -30,8 +30,15 @@ struct CheckOptions {
 struct Outcome {
     CheckedScene scene;
     int exit_code = all_well;
+    std::string ending;            // "finished: 60 steps, 1 s"
     std::uint64_t state_hash = 0;  // of the last state
 };
+
+std::string rounded_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
 
 void run_into(Outcome& outcome, const std::vector<Override>& overrides, const StopSignals& signals) {
     BuiltScene built = build_scene(load_scene(outcome.scene.file, overrides));
@@ -39,6 +46,8 @@ void run_into(Outcome& outcome, const std::vector<Override>& overrides, const St
     hooks.stop_asked = [&] { return signals.asked(); };
     const RunResult result = run_scene(built, hooks);
     outcome.scene.reason = result.reason;
+    outcome.ending = std::string(status_word(result.status)) + ": " + std::to_string(result.totals.steps) + " steps, " +
+                     rounded_text(result.totals.simulated_s) + " s";
     outcome.scene.wall_s = result.totals.wall_s;
     outcome.scene.expectations = judge(built.scene.expectations, measure_values(result.measures));
     outcome.state_hash = built.simulation.state_hash();
@@ -66,8 +75,10 @@ void print_outcome(const CheckOptions& options, const Outcome& outcome) {
     if (!scene.error.empty()) std::fprintf(stderr, "percale: %s\n", scene.error.c_str());
     if (!scene.reason.empty())
         std::fprintf(stderr, "percale: %s: did not finish: %s\n", scene.file.c_str(), scene.reason.c_str());
-    if (options.common.quiet || !scene.error.empty()) return;
-    std::printf("%s\n", scene.file.c_str());
+    if (options.common.quiet) return;
+    std::printf("%s: %s\n", scene.file.c_str(), scene.error.empty() ? outcome.ending.c_str() : "did not run");
+    if (scene.error.empty() && scene.expectations.empty())
+        std::printf("  no expectations: the scene passes if its run finishes\n");
     for (const ExpectationResult& expectation : scene.expectations) std::printf("  %s\n", expectation.text.c_str());
     if (options.common.replay_hash) std::printf("  state_hash %016llx\n", static_cast<unsigned long long>(outcome.state_hash));
     std::fflush(stdout);
@@ -130,15 +141,19 @@ int check(const CheckOptions& options) {
     const StopSignals signals;
     const std::vector<Outcome> outcomes = Checker(options, signals).check_all();
     std::vector<CheckedScene> scenes;
-    int passed = 0, failed = 0, worst = all_well;
+    std::size_t finished = 0, expectations = 0, passed = 0;
+    int worst = all_well;
     for (const Outcome& outcome : outcomes) {
         scenes.push_back(outcome.scene);
-        passed += outcome.scene.passed();
-        failed += outcome.scene.failed();
+        finished += outcome.scene.finished() ? 1 : 0;
+        expectations += outcome.scene.expectations.size();
+        passed += static_cast<std::size_t>(outcome.scene.passed());
         worst = std::max(worst, outcome.exit_code);
     }
     if (!options.junit.empty()) write_whole_file(options.junit, junit_text(scenes));
-    if (!options.common.quiet) std::printf("%d passed, %d failed\n", passed, failed);
+    if (!options.common.quiet)
+        std::printf("%zu of %zu scenes finished, %zu of %zu expectations passed\n", finished, scenes.size(), passed,
+                    expectations);
     return worst;
 }
 

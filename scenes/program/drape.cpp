@@ -13,6 +13,7 @@
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
 #include "scene_build.h"
+#include "scene_text.h"
 #include "whole_file.h"
 
 namespace percale::program {
@@ -60,7 +61,6 @@ void check_options(const DrapeOptions& options) {
 Scene drape_scene(const DrapeOptions& options) {
     Scene scene;
     scene.file = "drape";
-    const SourcePlace place{scene.file, 0, 0};
     scene.duration = options.seconds;
     scene.fabrics["garment"] = options.fabric;
     ClothSpec cloth;
@@ -69,14 +69,14 @@ Scene drape_scene(const DrapeOptions& options) {
     cloth.mesh = std::filesystem::absolute(options.garment).string();
     cloth.unit = metres("--garment-unit", options.garment_unit);
     cloth.pose.translation = Vec3(options.move[0], options.move[1], options.move[2]);
-    cloth.place = place;
+    cloth.place = {.file = options.garment};
     scene.cloths.push_back(cloth);
     ObstacleSpec body;
     body.name = "body";
     body.mesh = std::filesystem::absolute(options.body).string();
     body.unit = metres("--body-unit", options.body_unit);
     body.friction = options.friction;
-    body.place = place;
+    body.place = {.file = options.body};
     scene.obstacles.push_back(body);
     return scene;
 }
@@ -140,8 +140,9 @@ int drape_garment(const DrapeOptions& options) {
     }
     const FrameCheck check = write_and_certify(built, options);
     if (!options.quiet)
-        std::printf("%s: %.3g s simulated, fastest vertex %.3g m/s, %d intersecting pairs, smallest distance %.3g m\n",
-                    options.out.c_str(), drape.last.time, drape.last.largest_speed, check.intersections, check.smallest_distance);
+        std::printf("%s: %.3g s simulated, fastest vertex %.3g m/s, %d intersecting pairs, %s\n", options.out.c_str(),
+                    drape.last.time, drape.last.largest_speed, check.intersections,
+                    nearness_text(check.smallest_distance).c_str());
     return verdict(options, drape, check);
 }
 

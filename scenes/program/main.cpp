@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,13 @@ void check_command_name(const std::string& word) {
     throw SceneError("no such command '" + word + "'" + scenes::suggestion(word, commands_here));
 }
 
+/// What was printed has also arrived: a report cut off by a full disk must not look like a good one.
+void check_output() {
+    std::cout.flush();
+    if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    throw SceneError("the standard output cannot be written");
+}
+
 int parse_and_act(int argc, char** argv) {
     CLI::App program("Simulates cloth over rigid mesh obstacles.", "percale");
     program.footer("Example: percale run data/scenes/poncho_on_mannequin.toml\n`percale COMMAND --help` says more.");
@@ -46,7 +54,9 @@ int parse_and_act(int argc, char** argv) {
         if (error.get_exit_code() == 0) return program.exit(error);
         throw SceneError(std::string(error.what()) + " (see --help)");
     }
-    return action();
+    const int exit_code = action();
+    check_output();
+    return exit_code;
 }
 
 int run_program(int argc, char** argv) {

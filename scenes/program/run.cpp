@@ -11,6 +11,7 @@
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
+#include "scene_text.h"
 
 namespace percale::program {
 
@@ -43,7 +44,7 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
                 status_word(result.status), result.totals.steps, result.totals.simulated_s, result.totals.wall_s,
                 result.totals.cpu_s, m.largest_strain, m.speed_at_end);
     if (!built.scene.obstacles.empty())
-        std::printf(", %d intersecting pairs, smallest distance %.3g m", m.intersections, m.smallest_distance);
+        std::printf(", %d intersecting pairs, %s", m.intersections, nearness_text(m.smallest_distance).c_str());
     std::printf("; %s/report.json\n", options.folder.c_str());
     for (const ExpectationResult& expectation : expectations) std::printf("  %s\n", expectation.text.c_str());
 }

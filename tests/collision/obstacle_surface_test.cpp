@@ -145,6 +145,13 @@ TEST_CASE("cleaning merges, drops and counts what is repeated, without area or u
     CHECK(surface.cleaning.duplicate_triangles == 2);
     CHECK(surface.cleaning.degenerate_triangles == 3);
     CHECK(surface.cleaning.unreferenced_vertices == 4);
+    CHECK(surface.cleaning.triangles == 12);
+    const CleaningReport report = cleaning_report(mesh);
+    CHECK(report.triangles == 12);
+    CHECK(report.merged_vertices == 1);
+    CHECK(report.duplicate_triangles == 2);
+    CHECK(report.degenerate_triangles == 3);
+    CHECK(report.unreferenced_vertices == 4);
     check_connectivity(surface);
     for (int i = 0; i < 12; ++i) {
         for (int k = 0; k < 3; ++k) {

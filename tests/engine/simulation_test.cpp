@@ -376,6 +376,7 @@ TEST_CASE("A start inside an obstacle is refused by prepare and by the first ste
     scene.simulation.set_positions(scene.cloth, positions);
     CHECK(mentions(scene_error([&] { scene.simulation.prepare(); }), {"inside", "floor", "vertex 9 of towel"}));
     CHECK(mentions(scene_error([&] { scene.simulation.step(); }), {"inside", "floor"}));
+    CHECK_THROWS_AS(scene.simulation.prepare(), StartError);
     positions[9].y() = 0.01;
     scene.simulation.set_positions(scene.cloth, positions);
     CHECK_NOTHROW(scene.simulation.prepare());

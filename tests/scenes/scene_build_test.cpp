@@ -4,6 +4,7 @@
 
 #include "scene_texts.h"
 #include "scenes/scene_file.h"
+#include "scenes/scene_text.h"
 #include "test_folder.h"
 #include "tests/support/catch.h"
 
@@ -141,7 +142,7 @@ TEST_CASE("shear springs on a free mesh are refused at the cloth") {
     const std::string file = mesh_scene(folder, square, "", "springs = { structural = 100.0, shear = 5.0 }");
     const std::string message = error_of([&] { build_scene(load_scene(file)); });
     CHECK(message.starts_with(file + ":3:1: "));
-    CHECK(message.find("shear") != std::string::npos);
+    CHECK(message.find("cloth 'flag': fabric.f.springs.shear = 5 N/m") != std::string::npos);
 }
 
 TEST_CASE("a pin out of range is refused at the cloth") {
@@ -161,12 +162,39 @@ TEST_CASE("obstacles need a detector; a scene without obstacles needs none") {
     CHECK(fault(none + small_scene()) == "nothing was thrown");
 }
 
-TEST_CASE("a cloth that starts through an obstacle is refused with the file's name") {
-    const std::string through = "[[obstacle]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\n";
-    const std::string message = fault(small_scene() + through);
-    CHECK(message.starts_with("t: "));
-    CHECK(message.find("ball") != std::string::npos);
-    CHECK(message.find("flag") != std::string::npos);
+TEST_CASE("a cloth that starts through, inside or touching an obstacle is refused at the obstacle") {
+    const auto start_on = [](const std::string& shape, double height) {
+        const std::string far = body("plane = {}");
+        return fault(small_scene() + far + "[[obstacle]]\nname = \"block\"\nshape = { " + shape +
+                     " }\npose = { translation = [0, " + number_text(height) + ", 0] }\n");
+    };
+    const std::string through = start_on("sphere = { radius = 0.1 }", 0.0);
+    CHECK(through.starts_with("t:12:1: the cloth starts through block: "));
+    CHECK(through.find(" of flag and triangle ") != std::string::npos);
+    CHECK(start_on("sphere = { radius = 2 }", 0.0).starts_with("t:12:1: the cloth starts inside block: 20 vertices"));
+    CHECK(start_on("capsule = { radius = 0.25, height = 0.5 }", -0.5) ==
+          "t:12:1: the cloth starts touching block; leave some distance");
+    CHECK(start_on("capsule = { radius = 0.25, height = 0.5 }", -0.51) == "nothing was thrown");
+}
+
+TEST_CASE("an explicit scheme with obstacles is refused where the scheme is said") {
+    const std::string text = "[step]\nscheme = \"rk4\"\ntime_step = 1e-4\n" + small_scene() + body("plane = {}");
+    CHECK(fault(text).starts_with("t:2:10: step.scheme: an explicit scheme takes no obstacles"));
+    const Override setting{"step.scheme", "rk4"};
+    const Scene set = parse_scene(small_scene() + body("plane = {}"), "t", {&setting, 1});
+    CHECK(error_of([&] { build_scene(set); }).starts_with("--set step.scheme: step.scheme: an explicit"));
+}
+
+TEST_CASE("a name is told once, in quotes") {
+    const test::TestFolder folder;
+    const std::string flat = "[[obstacle]]\nname = \"body\"\nmesh = \"flat.obj\"\npose = { translation = [0, -5, 0] }\n";
+    folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    const std::string file = mesh_scene(folder, square, flat);
+    const std::string message = error_of([&] { build_scene(load_scene(file)); });
+    CHECK(message.starts_with(file + ":7:1: 'body': the obstacle has no triangle"));
+    CHECK(message.find("body", message.find("body") + 1) == std::string::npos);
+    const std::string folded = mesh_scene(folder, "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 1\nf 1 2 3\nf 2 1 4\n");
+    CHECK(error_of([&] { build_scene(load_scene(folded)); }).starts_with(folded + ":3:1: 'flag': vertices 2 and 3 "));
 }
 
 TEST_CASE("every detector carries the same scene through the same states") {

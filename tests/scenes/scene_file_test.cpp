@@ -93,9 +93,18 @@ TEST_CASE("every field of a fabric is read") {
     CHECK(scene.fabrics.size() == 2);
 }
 
-TEST_CASE("a fabric of which nothing is said is the default one") {
-    const Scene scene = scene_with("", "[fabric.plain]\n");
-    CHECK(scene.fabrics.at("plain").springs.structural == Fabric{}.springs.structural);
+TEST_CASE("a fabric must say its springs; the rest is as in the struct") {
+    const Scene scene = scene_with("", "[fabric.plain]\nsprings = { structural = 70 }\n");
+    const Fabric& plain = scene.fabrics.at("plain");
+    CHECK(plain.springs.structural == 70.0);
+    CHECK(plain.springs.shear == 0.0);
+    CHECK(plain.springs.bend == 0.0);
+    CHECK(plain.area_density == Fabric{}.area_density);
+    CHECK(plain.spring_damping == Fabric{}.spring_damping);
+    CHECK(fault(small_scene() + "[fabric.plain]\n").starts_with("t:8:1: [fabric.plain] lacks 'springs': "));
+    CHECK(fault(small_scene() + "[fabric.plain]\nthickness = 0.01\n").starts_with("t:8:1: [fabric.plain] lacks 'springs': "));
+    CHECK(fault(small_scene() + "[fabric.plain]\nsprings = { shear = 5 }\n")
+              .starts_with("t:9:11: [fabric.plain.springs] lacks 'structural': "));
 }
 
 TEST_CASE("events are put in the order of their times, equal times in that of the file") {
@@ -115,7 +124,7 @@ TEST_CASE("overrides come before the checks and their faults name the key") {
     CHECK(error_of([] { scene_set("step.detector", "octree"); }).starts_with("--set step.detector: step.detector has no choice"));
     const Override good{"fabric.sheet.thickness", "0.01"};
     const std::string wrong =
-        "[fabric.sheet]\nthickness = -1\n[[cloth]]\nname = \"a\"\nfabric = \"sheet\"\n"
+        "[fabric.sheet]\nsprings = { structural = 1 }\nthickness = -1\n[[cloth]]\nname = \"a\"\nfabric = \"sheet\"\n"
         "grid = { size = [1, 1], vertices = [2, 2] }\n";
     CHECK(parse_scene(wrong, "t", {&good, 1}).fabrics.at("sheet").thickness == 0.01);
 }
@@ -132,8 +141,9 @@ TEST_CASE("a scene without cloth is an error") {
 
 TEST_CASE("an unknown fabric is named with the cloth and the nearest fabric") {
     const std::string text =
-        "[fabric.sheet]\n[[cloth]]\nname = \"flag\"\nfabric = \"shet\"\ngrid = { size = [1, 1], vertices = [2, 2] }\n";
-    CHECK(fault(text) == "t:2:1: cloth 'flag': no fabric 'shet'; did you mean 'sheet'? valid: sheet");
+        "[fabric.sheet]\nsprings = { structural = 1 }\n[[cloth]]\nname = \"flag\"\nfabric = \"shet\"\ngrid = { size = [1, 1], "
+        "vertices = [2, 2] }\n";
+    CHECK(fault(text) == "t:3:1: cloth 'flag': no fabric 'shet'; did you mean 'sheet'? valid: sheet");
     CHECK(fault("[[cloth]]\nname = \"flag\"\nfabric = \"shet\"\ngrid = { size = [1, 1], vertices = [2, 2] }\n") ==
           "t:1:1: cloth 'flag': no fabric 'shet'");
 }

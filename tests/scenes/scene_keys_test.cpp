@@ -76,7 +76,7 @@ TEST_CASE("every option of fabrics and steps is a key with the same range, unit 
 
 TEST_CASE("defaults are those of the structs") {
     CHECK(find_scene_key("fabric.area_density")->default_text == number_text(Fabric{}.area_density));
-    CHECK(find_scene_key("fabric.springs.structural")->default_text == number_text(Fabric{}.springs.structural));
+    CHECK(find_scene_key("fabric.springs.bend")->default_text == number_text(Fabric{}.springs.bend));
     CHECK(find_scene_key("step.time_step")->default_text == number_text(StepSettings{}.time_step));
     CHECK(find_scene_key("step.newton_tolerance")->default_text == "auto");
     CHECK(find_scene_key("step.scheme")->default_text == "backward_euler");

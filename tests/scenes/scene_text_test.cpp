@@ -34,6 +34,12 @@ TEST_CASE("number texts read back as the same number") {
     }
 }
 
+TEST_CASE("a distance is told in metres, an infinite one in words") {
+    CHECK(nearness_text(0.00321) == "smallest distance 0.00321 m");
+    CHECK(nearness_text(0.0) == "smallest distance 0 m");
+    CHECK(nearness_text(std::numeric_limits<double>::infinity()) == "never near");
+}
+
 TEST_CASE("a place with a line is file, line and column; without one the file") {
     CHECK(place_text({.file = "a.toml", .line = 3, .column = 7}) == "a.toml:3:7");
     CHECK(place_text({.file = "a.toml"}) == "a.toml");

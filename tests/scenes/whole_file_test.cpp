@@ -48,6 +48,16 @@ TEST_CASE("a file that cannot be written is named with the reason") {
     CHECK_THROWS_WITH(WholeFile(folder.path("absent/a.txt")), Catch::Contains("absent/a.txt") && Catch::Contains("No such file"));
 }
 
+TEST_CASE("what could not be written is told while writing, not only at the end") {
+    if (!std::filesystem::exists("/dev/full")) return;
+    const TestFolder folder;
+    std::filesystem::create_symlink("/dev/full", folder.path("a.txt.part"));
+    WholeFile file(folder.path("a.txt"));
+    CHECK_NOTHROW(file.check());
+    file.out() << std::string(1 << 20, 'x');
+    CHECK_THROWS_WITH(file.check(), Catch::Contains("a.txt") && Catch::Contains("No space left"));
+}
+
 TEST_CASE("a full disk is an error, not a short file") {
     if (!std::filesystem::exists("/dev/full")) return;
     const TestFolder folder;

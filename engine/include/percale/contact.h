@@ -2,8 +2,10 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "percale/error.h"
 #include "percale/mesh.h"
 
 namespace percale {
@@ -41,17 +43,26 @@ struct StepFraction {
     double to = 1.0;
 };
 
-/// What is wrong with a start position; all zero if nothing is.
+/// What is wrong with a start position: the first obstacle that the cloth crosses, is inside of or touches.
 struct StartFault {
-    int intersecting_pairs = 0;  // cloth triangles that cross an obstacle triangle
+    int obstacle = -1;           // -1 = nothing is wrong
+    int intersecting_pairs = 0;  // cloth triangles that cross a triangle of it
     int cloth_triangle = -1;     // one of them
-    int obstacle = -1;           // the obstacle it crosses or is inside of
     int obstacle_triangle = -1;
-    int vertices_inside = 0;          // cloth vertices inside a watertight obstacle
-    int inside_vertex = -1;           // one of them
-    double smallest_distance = -1.0;  // m, between cloth and obstacles; < 0 = not computed (nothing near)
+    int vertices_inside = 0;  // cloth vertices inside it, if it is watertight
+    int inside_vertex = -1;   // one of them
 
-    bool any() const { return intersecting_pairs > 0 || vertices_inside > 0 || smallest_distance == 0.0; }
+    bool any() const { return obstacle >= 0; }
+};
+
+/// Cloth that starts where no simulation may start.
+class StartError : public SceneError {
+public:
+    StartError(const std::string& message, const StartFault& fault) : SceneError(message), fault_(fault) {}
+    const StartFault& fault() const { return fault_; }
+
+private:
+    StartFault fault_;
 };
 
 /// Finds contacts between all cloth of a simulation and its obstacles. Whole batches, plain types.
@@ -70,7 +81,7 @@ public:
     /// Where the obstacle is at the two ends of the coming step. The scale must not change.
     virtual void move_obstacle(int obstacle, const Pose& start, const Pose& end) = 0;
 
-    /// Whether this start may be simulated: no crossing, no vertex inside a watertight obstacle.
+    /// Whether this start may be simulated: no crossing, no touching, no vertex inside a watertight obstacle.
     virtual StartFault check_start(std::span<const Vec3> positions) = 0;
 
     /// Once a step: makes the candidate lists good for moves between these positions. Outrunning them later is allowed:

@@ -51,7 +51,8 @@ public:
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
 
-    /// Checks the scene as a whole (no cloth starts inside or through an obstacle); throws SceneError. The first step calls it.
+    /// Checks the scene as a whole; the first step calls it. Throws StartError where cloth starts through, inside or touching an
+    /// obstacle, SceneError where the scheme takes no obstacles.
     void prepare();
     StepReport step();
 

@@ -51,6 +51,7 @@ TEST_CASE("a report holds every entry that users may rely on") {
                             "wall_s",
                             "peak_memory_bytes",
                             "stages",
+                            "obstacles",
                             "skipped",
                             "contacts_most",
                             "contact_stiffness",
@@ -82,6 +83,27 @@ TEST_CASE("a report holds every entry that users may rely on") {
     CHECK(json.at("lowest_vertex").get<double>() == result.measures.lowest_vertex);
     CHECK(json.at("peak_memory_bytes").get<double>() > 1e5);
     CHECK(json.at("linear_solver") == "cg");
+}
+
+TEST_CASE("a report says what is left of each obstacle mesh and what was dropped") {
+    const TestFolder folder;
+    folder.write("flap.obj", "v 0 -5 0\nv 1 -5 0\nv 0 -5 1\nv 0 -5 0\nv 2 -5 0\nv 9 9 9\nf 1 3 2\nf 4 3 2\nf 1 2 5\n");
+    folder.write("scene.toml", sheet_on_box() + "[[obstacle]]\nname = \"flap\"\nmesh = \"flap.obj\"\n");
+    const ordered_json list = report_of(build_scene(load_scene(folder.path("scene.toml"))), RunResult{}).at("obstacles");
+    REQUIRE(list.size() == 2);
+    CHECK(list[0] == ordered_json{{"name", "box"},
+                                  {"triangles", 12},
+                                  {"merged_vertices", 0},
+                                  {"degenerate_triangles", 0},
+                                  {"duplicate_triangles", 0},
+                                  {"unreferenced_vertices", 0}});
+    CHECK(list[1] == ordered_json{{"name", "flap"},
+                                  {"triangles", 1},
+                                  {"merged_vertices", 1},
+                                  {"degenerate_triangles", 1},
+                                  {"duplicate_triangles", 1},
+                                  {"unreferenced_vertices", 2}});
+    CHECK(report_of(built(falling_sheet()), RunResult{}).at("obstacles").empty());
 }
 
 TEST_CASE("what was not computed is left out, and infinity is null") {

@@ -43,6 +43,7 @@ TEST_CASE("a sheet above a box is clean, with its distance") {
     CHECK(run.exit_code == 0);
     const auto json = nlohmann::json::parse(run.out);
     CHECK(json.at("clean") == true);
+    CHECK(json.at("has_obstacles") == true);
     CHECK(json.at("intersections") == 0);
     CHECK(json.at("smallest_distance").get<double>() == Approx(0.015625));
     CHECK(json.at("worst_frame") == 0);
@@ -100,6 +101,19 @@ TEST_CASE("a frame that was changed after the run is found out") {
     CHECK(run.out.find("NOT clean") != std::string::npos);
 }
 
+TEST_CASE("a run without obstacles leaves nothing to check against") {
+    const TestFolder folder;
+    folder.write("sheet.toml", falling_sheet());
+    REQUIRE(run_program({"run", "sheet.toml", "-o", "out"}, folder.path()).exit_code == 0);
+    const ProgramRun run = run_program({"certify", "out"}, folder.path());
+    CHECK(run.exit_code == 0);
+    CHECK(run.out == "6 frames and no obstacle: there is nothing to check against\n");
+    const ProgramRun json = run_program({"certify", "out", "--json"}, folder.path());
+    CHECK(nlohmann::json::parse(json.out).at("has_obstacles") == false);
+    folder.write("out/frames/sheet_00003.obj", "v 0 0 nan\n");
+    CHECK(refused(run_program({"certify", "out"}, folder.path()), "sheet_00003.obj"));
+}
+
 TEST_CASE("what cannot be read is exit code 2 with one message") {
     const TestFolder folder;
     write_box(folder);
@@ -112,6 +126,13 @@ TEST_CASE("what cannot be read is exit code 2 with one message") {
     CHECK(refused(certified({"box.obj"}), "box.obj"));
     CHECK(refused(certified({".", "box.obj"}), "folder"));
     CHECK(refused(certified({"box.obj", "absent.obj"}), "absent.obj"));
+    for (const char* report :
+         {"", "not ours", "[1, 2]", "{}", "{\"frames\": [{\"index\": \"x\"}]}", "{\"frames\": {\"a\": 1}}"}) {
+        folder.write("report.json", report);
+        const ProgramRun foreign = certified({"."});
+        CHECK(refused(foreign, "report.json: is not the report of a run: "));
+        CHECK(foreign.error.find("exception") == std::string::npos);
+    }
     folder.write("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n");
     CHECK(refused(certified({"box.obj", "nan.obj"}), "nan.obj"));
     CHECK(refused(certified({"box.obj", "box.obj", "--distance-limit", "-1"}), "--distance-limit"));

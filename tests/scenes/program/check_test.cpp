@@ -20,9 +20,10 @@ TEST_CASE("check says of every expectation whether it passed, and writes nothing
     const ProgramRun run = run_program({"check", "good.toml"}, folder.path());
     CHECK(run.exit_code == 0);
     CHECK(run.error.empty());
+    CHECK(run.out.rfind("good.toml: finished: 12 steps, 0.2 s\n", 0) == 0);
     CHECK(run.out.find("intersections 0") != std::string::npos);
     CHECK(run.out.find("< 0.5") != std::string::npos);
-    CHECK(ends_with(run.out, "2 passed, 0 failed\n"));
+    CHECK(ends_with(run.out, "1 of 1 scenes finished, 2 of 2 expectations passed\n"));
     CHECK(folder.file_count() == 1);
 }
 
@@ -32,7 +33,7 @@ TEST_CASE("one failed expectation among many is exit code 1") {
     folder.write("bad.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 0.05 }\nlowest_vertex = { above = 0.0 }\n");
     const ProgramRun run = run_program({"check", "good.toml", "bad.toml", "good.toml"}, folder.path());
     CHECK(run.exit_code == 1);
-    CHECK(ends_with(run.out, "3 passed, 1 failed\n"));
+    CHECK(ends_with(run.out, "3 of 3 scenes finished, 3 of 4 expectations passed\n"));
 }
 
 TEST_CASE("a wrong scene does not keep the others from running, but decides the exit code") {
@@ -42,8 +43,28 @@ TEST_CASE("a wrong scene does not keep the others from running, but decides the 
     const ProgramRun run = run_program({"check", "absent.toml", "bad.toml", "good.toml"}, folder.path());
     CHECK(run.exit_code == 2);
     CHECK(run.error.find("absent.toml") != std::string::npos);
-    CHECK(run.out.find("good.toml") != std::string::npos);
-    CHECK(ends_with(run.out, "1 passed, 2 failed\n"));
+    CHECK(run.out.find("absent.toml: did not run\n") != std::string::npos);
+    CHECK(run.out.find("good.toml: finished: ") != std::string::npos);
+    CHECK(ends_with(run.out, "2 of 3 scenes finished, 1 of 2 expectations passed\n"));
+}
+
+TEST_CASE("a scene without expectations is told so, and passes exactly if its run finishes") {
+    const TestFolder folder;
+    folder.write("free.toml", falling_sheet());
+    const ProgramRun good = run_program({"check", "free.toml"}, folder.path());
+    CHECK(good.exit_code == 0);
+    CHECK(good.out.find("no expectations") != std::string::npos);
+    CHECK(ends_with(good.out, "1 of 1 scenes finished, 0 of 0 expectations passed\n"));
+
+    std::string dragged = sheet_on_box();
+    dragged.insert(dragged.find("[[obstacle]]"), "pin = [0]\n");
+    dragged += "\n[[event]]\ntime = 0.0\nmove = { cloth = \"sheet\", vertices = [0], to = [0.0, -0.2, 0.0], over = 0.1 }\n";
+    folder.write("drag.toml", dragged);
+    const ProgramRun bad = run_program({"check", "free.toml", "drag.toml"}, folder.path());
+    CHECK(bad.exit_code == 1);
+    CHECK(bad.out.find("drag.toml: failed: ") != std::string::npos);
+    CHECK(bad.error.find("drag.toml: did not finish: ") != std::string::npos);
+    CHECK(ends_with(bad.out, "1 of 2 scenes finished, 0 of 0 expectations passed\n"));
 }
 
 TEST_CASE("scenes that run side by side are printed in their order, with the same figures") {

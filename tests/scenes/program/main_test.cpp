@@ -36,3 +36,12 @@ TEST_CASE("a command line that cannot be read ends with exit code 2 and one mess
     CHECK(refused(run_program({"check", "a.toml", "--jobs", "many"}), "many"));
     CHECK(refused(run_program({"drape", "a.obj"}), "BODY"));
 }
+
+TEST_CASE("output that cannot be written is an error") {
+    if (!std::filesystem::is_character_file("/dev/full")) return;
+    const TestFolder folder;
+    const std::string error = folder.path("error");
+    const std::string call = quoted(PERCALE_PROGRAM) + " explain >/dev/full 2>" + quoted(error);
+    CHECK(WEXITSTATUS(std::system(call.c_str())) == 2);
+    CHECK(folder.read("error") == "percale: the standard output cannot be written\n");
+}

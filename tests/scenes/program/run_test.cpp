@@ -41,6 +41,34 @@ TEST_CASE("run writes into a folder of the scene's name where it is called") {
     CHECK_FALSE(folder.holds("sheet on box/obstacles/box_00001.obj"));
 }
 
+TEST_CASE("no text says that a distance is inf") {
+    const TestFolder folder;
+    std::string far = sheet_on_box();
+    far.replace(far.find("0.015"), 5, "9.000");
+    folder.write("far.toml", far + "[expect]\nsmallest_distance = { above = 0.1 }\n");
+    const ProgramRun run = run_program({"run", "far.toml", "-o", "out"}, folder.path());
+    CHECK(run.exit_code == 0);
+    CHECK(run.out.find("0 intersecting pairs, never near;") != std::string::npos);
+    CHECK(run.out.find("smallest_distance infinite, expected > 0.1: passed") != std::string::npos);
+    CHECK(report_in(folder, "out").at("smallest_distance").is_null());
+}
+
+TEST_CASE("a disk that is full while frames or steps are written leaves no file of the run") {
+    if (!std::filesystem::is_character_file("/dev/full")) return;
+    for (const std::string file : {"frames/sheet_00003.obj", "steps.csv", "report.json"}) {
+        CAPTURE(file);
+        const TestFolder folder;
+        folder.write("box.toml", sheet_on_box());
+        std::filesystem::create_directories(folder.path("out/frames"));
+        folder.write("out/frames/mine.obj", "mine");
+        std::filesystem::create_symlink("/dev/full", folder.path("out/" + file + ".part"));
+        const ProgramRun run = run_program({"run", "box.toml", "-o", "out", "--quiet"}, folder.path());
+        CHECK(refused(run, file + ": cannot be written: No space left on device"));
+        CHECK(folder.read("out/frames/mine.obj") == "mine");
+        CHECK(folder.file_count() == 2);
+    }
+}
+
 TEST_CASE("a failed expectation is exit code 1, the run still finished and every file there") {
     const TestFolder folder;
     folder.write("sheet.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 0.05 }\nintersections = 0\n");

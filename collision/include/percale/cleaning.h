@@ -1,0 +1,20 @@
+#pragma once
+
+#include "percale/mesh.h"
+
+namespace percale {
+
+/// What the cleaning of an obstacle mesh leaves, and what it drops.
+struct CleaningReport {
+    int triangles = 0;             // left
+    int merged_vertices = 0;       // at exactly the same place as another one
+    int degenerate_triangles = 0;  // without area
+    int duplicate_triangles = 0;
+    int unreferenced_vertices = 0;
+};
+
+/// What every detector makes of this mesh when it is added as an obstacle; in the mesh's own coordinates, before any pose. Throws
+/// SceneError if nothing is left.
+CleaningReport cleaning_report(const TriangleMesh& mesh);
+
+}  // namespace percale
