@@ -6,6 +6,9 @@
 namespace percale {
 namespace {
 
+/// Springs in bands are summed in longer chunks: each begins with the springs of the guard before it once more.
+constexpr int band_chunk_slices = 256;
+
 double length(const SpringNetwork& network, const Vectors& x, int k) {
     return (x.at(network.first[k]) - x.at(network.second[k])).norm();
 }
@@ -14,12 +17,13 @@ double length(const SpringNetwork& network, const Vectors& x, int k) {
 
 void set_step_springs(const Compute& compute, const SpringStart& start, StepSprings& springs) {
     const Adjacency& adjacency = start.adjacency;
+    springs.adjacency = &adjacency;
     springs.entries = adjacency.springs();
     springs.rate_damping = adjacency.damped && start.form == DampingForm::velocity;
     if (!adjacency.damped || start.form == DampingForm::velocity) return;
     springs.stiffness.resize(adjacency.other.size());
     springs.rest_length.resize(adjacency.other.size());
-    pack_points(compute, start.positions, springs.points);
+    pack_points(compute, adjacency, start.positions, springs.points);
     const StartPass pass{.springs = adjacency.springs(),
                          .positions = start.positions.axes(),
                          .points = springs.points.data(),
@@ -33,10 +37,13 @@ void set_step_springs(const Compute& compute, const SpringStart& start, StepSpri
 
 double evaluate_springs(const Compute& compute, const StepSprings& springs, const SpringMotion& motion, bool with_matrix,
                         Vectors& forces, SpringTerms& terms) {
-    pack_points(compute, motion.positions, terms.points);
-    if (springs.rate_damping) pack_points(compute, motion.velocities, terms.motion);
+    const Adjacency& adjacency = *springs.adjacency;
+    pack_points(compute, adjacency, motion.positions, terms.points);
+    if (springs.rate_damping) pack_points(compute, adjacency, motion.velocities, terms.motion);
     const int slices = motion.positions.slices();
-    if (with_matrix) terms.values.resize(4 * static_cast<std::size_t>(springs.entries.pattern.start[slices]));
+    if (with_matrix && terms.values.size() != adjacency.value_count()) terms.values.assign(adjacency.value_count(), 0.0f);
+    const BandPattern& bands = adjacency.bands;
+    terms.scratch.resize(3 * bands.count * (bands.guard + band_chunk_slices * slice_lanes));
     const SpringPass pass{.springs = springs.entries,
                           .positions = motion.positions.axes(),
                           .velocities = motion.velocities.axes(),
@@ -44,14 +51,20 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
                           .motion = springs.rate_damping ? terms.motion.data() : nullptr,
                           .dt = motion.dt,
                           .forces = forces.axes(),
-                          .values = with_matrix ? terms.values.data() : nullptr};
-    return sum_chunks(compute, slices, [&](Slices range) { return compute.kernels->springs(pass, range); });
+                          .values = with_matrix ? terms.values.data() : nullptr,
+                          .scratch = terms.scratch.data()};
+    double energy = 0.0;
+    const int chunk = bands.count > 0 ? band_chunk_slices : chunk_slices;
+    for (int first = 0; first < slices; first += chunk) {
+        energy += compute.kernels->springs(pass, {first, std::min(first + chunk, slices)});
+    }
+    return energy;
 }
 
 SpringBlock spring_block(const Adjacency& adjacency, const SpringTerms& terms, int spring) {
-    const int entry = adjacency.entry[spring];
-    const float* value = &terms.values[4 * static_cast<std::size_t>(entry - entry % slice_lanes) + entry % slice_lanes];
-    return {value[0], Vec3(value[slice_lanes], value[2 * slice_lanes], value[3 * slice_lanes])};
+    const auto [first, apart] = adjacency.value_place(spring);
+    const float* value = &terms.values[first];
+    return {value[0], Vec3(value[apart], value[2 * apart], value[3 * apart])};
 }
 
 double elastic_energy(const SpringNetwork& network, const Vectors& positions) {

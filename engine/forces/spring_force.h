@@ -11,9 +11,10 @@
 
 namespace percale {
 
-/// What the springs are during one step, one entry a spring end (Adjacency): tension T = k (l - l_rest) + c (v_ij . d), with
+/// What the springs are during one step, in the layout of the adjacency: tension T = k (l - l_rest) + c (v_ij . d), with
 /// d = x_ij / |x_ij|.
 struct StepSprings {
+    const Adjacency* adjacency = nullptr;
     SpringEntries entries;  // k N/m, l_rest m, c N s/m
     bool rate_damping = false;  // there is a c
     AlignedVector<double> stiffness, rest_length;  // of this step, where they are not those of the model
@@ -36,10 +37,9 @@ void set_step_springs(const Compute& compute, const SpringStart& start, StepSpri
 
 /// What an evaluation leaves behind: the blocks of the step matrix, and work space.
 struct SpringTerms {
-    /// kg: -dt^2 Jq - dt Jv between the two vertices of each entry, made positive definite, is a I + w w^T; a, wx, wy, wz of
-    /// slice_lanes entries at a time.
+    /// kg: -dt^2 Jq - dt Jv between the two vertices of each spring, made positive definite, is a I + w w^T (spring_block).
     AlignedVector<float> values;
-    AlignedVector<double> points, motion;  // positions and velocities as x y z 0
+    AlignedVector<double> points, motion, scratch;
 };
 
 /// The state that springs see; dt in s scales the matrix terms.

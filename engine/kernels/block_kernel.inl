@@ -26,7 +26,7 @@ PERCALE_INLINE void store_diagonal(double* diagonal, std::size_t apart, WideBloc
     store_wide(diagonal + 5 * apart, m.zz);
 }
 
-void fine_diagonal(const DiagonalPass& pass, Slices range) {
+void slice_diagonal(const DiagonalPass& pass, Slices range) {
     for (int s = range.first; s < range.last; ++s) {
         for (int lane = 0; lane < slice_lanes; lane += float_lanes) {
             const std::size_t at = static_cast<std::size_t>(s) * slice_lanes + lane;

@@ -23,6 +23,10 @@ namespace {
 
 #include "vector_kernel.inl"
 
+#include "band_kernel.inl"
+
+#include "layout_kernel.inl"
+
 }  // namespace
 
 #if PERCALE_PACK_BYTES == 64
@@ -43,7 +47,10 @@ const Kernels baseline_kernels
        .turn = turn,
        .jacobi = jacobi,
        .to_float = to_float,
-       .to_double = to_double,
+       .add_float = add_float,
+       .float_dot = float_dot,
+       .float_advance = float_advance,
+       .float_turn = float_turn,
        .multiply_fine = multiply_fine,
        .multiply_coarse = multiply_coarse,
        .smooth = smooth,

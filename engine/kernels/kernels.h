@@ -20,11 +20,22 @@ struct Slices {
 };
 
 /// Three arrays of doubles, one value a vertex.
-struct Axes {
-    double *x, *y, *z;
-};
 struct ConstAxes {
     const double *x, *y, *z;
+};
+struct Axes {
+    double *x, *y, *z;
+    operator ConstAxes() const { return {x, y, z}; }
+};
+
+/// Springs whose ends are one of a few numbers of vertices apart, as on a grid. Place i of a band is the spring between vertices i
+/// and i + offset; its numbers stand at band * padded + i. Positions and the like are then not packed as points but copied to
+/// three arrays of guard + padded + guard numbers, zero outside; blocks stand at 4 arrays a band of guard + padded numbers each.
+struct BandPattern {
+    static constexpr int most = 8;
+    int count = 0;
+    int offset[most] = {};  // > 0
+    std::size_t padded = 0, guard = 0;
 };
 
 /// Entries in slices (sliced ELL): entry e of lane l of slice s stands at start[s] + e * slice_lanes + l. Padding refers to the
@@ -32,6 +43,7 @@ struct ConstAxes {
 struct EntryPattern {
     const int* start;  // slices + 1
     const int* other;
+    const BandPattern* bands = nullptr;  // instead, if not null
 };
 
 /// The springs as every vertex sees them, one entry a spring end.
@@ -58,6 +70,7 @@ struct SpringPass {
     double dt;                        // s
     Axes forces;                      // N, added to
     float* values;                    // kg: a wx wy wz, slice_lanes each, for every slice_lanes entries; null without matrix
+    double* scratch;                  // with bands: 3 * count arrays of guard + the range's vertices
 };
 
 /// The block matrix D + sum over entries of (a I + w w^T) acting on differences x_i - x_j: y = A x, or y = b - A x.
@@ -133,7 +146,10 @@ struct Kernels {
     void (*turn)(double beta, ConstAxes z, Axes p, Slices range);                             // p = z + beta p
     void (*jacobi)(const float* inverse, std::size_t padded, ConstAxes r, Axes z, Slices range);  // z = D^-1 r
     void (*to_float)(double scale, ConstAxes from, FloatVectors to, Slices range);
-    void (*to_double)(double scale, FloatVectors from, Axes to, Slices range);
+    void (*add_float)(double scale, FloatVectors from, Axes to, Slices range);  // to += scale * from
+    double (*float_dot)(FloatVectors a, FloatVectors b, Slices range);
+    double (*float_advance)(float alpha, FloatVectors p, FloatVectors q, FloatVectors x, FloatVectors r, Slices range);
+    void (*float_turn)(float beta, FloatVectors z, FloatVectors p, Slices range);
     void (*multiply_fine)(const FloatPass& pass, Slices range);    // 4 numbers an entry
     void (*multiply_coarse)(const FloatPass& pass, Slices range);  // 6 numbers an entry
     void (*smooth)(const SmoothPass& pass, Slices range);

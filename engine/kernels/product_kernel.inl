@@ -1,7 +1,7 @@
 // Products with the step matrix. Springs act on differences x_i - x_j, so a common motion of all vertices costs no accuracy, whatever
 // the stiffness.
 
-double multiply(const BlockPass& pass, ConstAxes x, const double* points, const double* free, Axes y, Slices range) {
+double multiply_slices(const BlockPass& pass, ConstAxes x, const double* points, const double* free, Axes y, Slices range) {
     LaneSums sums;
     for (int s = range.first; s < range.last; ++s) {
         for (int lane = 0; lane < slice_lanes; lane += float_lanes) {
@@ -33,7 +33,7 @@ PERCALE_INLINE void store_product(const FloatPass& pass, std::size_t at, FloatPo
     store_float(pass.y, at, sum);
 }
 
-void multiply_fine(const FloatPass& pass, Slices range) {
+void multiply_fine_slices(const FloatPass& pass, Slices range) {
     for (int s = range.first; s < range.last; ++s) {
         for (int lane = 0; lane < slice_lanes; lane += float_lanes) {
             const std::size_t at = static_cast<std::size_t>(s) * slice_lanes + lane;

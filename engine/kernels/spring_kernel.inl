@@ -4,50 +4,93 @@
 /// Below this square a length gives no direction, m^2.
 constexpr double no_length_square = 1e-36;
 
-/// 1/sqrt(a), a > 0: from the single-precision root, two Newton steps y (3 - a y^2)/2.
+/// 1/sqrt(a), a > 0, to about 1e-15: half of the exponent, from the bits of a float, is right to 3.5 %; Newton's y (3 - a y^2)/2 then
+/// squares the error, twice in single and twice in double precision (Blinn, IEEE Computer Graphics and Applications 17, 1997).
+/// Roots and divisions would cost more than the whole rest of a spring.
 PERCALE_INLINE WidePack inverse_root(WidePack a) {
-    WidePack y = widen(all(1.0f) / root(narrow(a)));
+    const FloatPack rough = narrow(a), half_rough = all(0.5f) * rough;
+    IntPack bits;
+    __builtin_memcpy(&bits, &rough, sizeof bits);
+    bits = 0x5f3759df - (bits >> 1);
+    FloatPack first;
+    __builtin_memcpy(&first, &bits, sizeof first);
+    first = first * (all(1.5f) - half_rough * (first * first));
+    first = first * (all(1.5f) - half_rough * (first * first));
+    WidePack y = widen(first);
     const WidePack half = all_wide(0.5) * a, three_halves = all_wide(1.5);
     y = y * (three_halves - half * (y * y));
     return y * (three_halves - half * (y * y));
 }
 
-void start_springs(const StartPass& pass, Slices range) {
-    const SpringEntries& springs = pass.springs;
-    const WidePack rate_scale = all_wide(1.0 / pass.dt), smallest = all_wide(no_length_square), one = all_wide(1.0);
+/// One pack of springs.
+struct SpringState {
+    WidePoint x{};  // x_i - x_j
+    WidePack stiffness{}, rest{};
+    WidePack damping{};  // with the velocity v_i - v_j
+    WidePoint v{};
+};
+
+/// T/l, with which the force on i is -(T/l) x, and k (l - l_rest)^2.
+struct SpringPull {
+    WidePack pull, twice_energy, square, inverse;
+};
+
+template <bool with_motion>
+PERCALE_INLINE SpringPull evaluate(const SpringState& state) {
+    const WidePack square = dot(state.x, state.x), safe = larger(square, all_wide(no_length_square));
+    const WidePack inverse = inverse_root(safe);
+    const WidePack stretch = safe * inverse - state.rest;
+    WidePack tension = state.stiffness * stretch;
+    const WidePack twice_energy = tension * stretch;
+    if constexpr (with_motion) tension = tension + state.damping * inverse * dot(state.v, state.x);
+    return {tension * inverse, twice_energy, square, inverse};
+}
+
+/// -dt^2 Jq - dt Jv = along d d^T + across (I - d d^T) = across I + (along - across) d d^T, as a and w.
+template <bool with_motion>
+PERCALE_INLINE void store_block(float* values, std::size_t apart, double dt, const SpringState& state, const SpringPull& pull) {
+    const WidePack none = all_wide(0.0), scale = all_wide(dt * dt);
+    WidePack along = scale * state.stiffness;
+    if constexpr (with_motion) along = along + all_wide(dt) * state.damping;
+    WidePack across = smaller(larger(scale * pull.pull, none), along);
+    across = where_less(pull.square, all_wide(no_length_square), along, across);
+    const FloatPack w = root(narrow(along - across)) * narrow(pull.inverse);
+    store(values, narrow(across));
+    store(values + apart, w * narrow(state.x.x));
+    store(values + 2 * apart, w * narrow(state.x.y));
+    store(values + 3 * apart, w * narrow(state.x.z));
+}
+
+/// k = ks + kd/dt and l = (ks l0 + kd l_n/dt)/k at a place.
+PERCALE_INLINE void store_start(const StartPass& pass, std::size_t at, WidePoint x, WidePack rate_scale) {
+    const WidePack square = larger(dot(x, x), all_wide(no_length_square));
+    const WidePack length = square * inverse_root(square);
+    const WidePack elastic = load_wide(pass.springs.stiffness + at), rate = rate_scale * load_wide(pass.springs.damping + at);
+    const WidePack stiffness = elastic + rate;
+    const WidePack divisor = where_less(all_wide(0.0), stiffness, stiffness, all_wide(1.0));
+    const WidePack sum = elastic * load_wide(pass.springs.rest_length + at) + rate * length;
+    store_wide(pass.stiffness + at, stiffness);
+    store_wide(pass.rest + at, {sum.low / divisor.low, sum.high / divisor.high});
+}
+
+void start_slices(const StartPass& pass, Slices range) {
+    const EntryPattern& pattern = pass.springs.pattern;
+    const WidePack rate_scale = all_wide(1.0 / pass.dt);
     for (int s = range.first; s < range.last; ++s) {
         for (int lane = 0; lane < slice_lanes; lane += float_lanes) {
             const WidePoint own = load_wide(pass.positions, static_cast<std::size_t>(s) * slice_lanes + lane);
-            for (int e = springs.pattern.start[s] + lane; e < springs.pattern.start[s + 1]; e += slice_lanes) {
-                const WidePoint x = own - gather_wide(pass.points, springs.pattern.other + e);
-                const WidePack square = larger(dot(x, x), smallest);
-                const WidePack length = square * inverse_root(square);
-                const WidePack elastic = load_wide(springs.stiffness + e), rate = rate_scale * load_wide(springs.damping + e);
-                const WidePack stiffness = elastic + rate;
-                const WidePack divisor = where_less(all_wide(0.0), stiffness, stiffness, one);
-                const WidePack sum = elastic * load_wide(springs.rest_length + e) + rate * length;
-                store_wide(pass.stiffness + e, stiffness);
-                store_wide(pass.rest + e, {sum.low / divisor.low, sum.high / divisor.high});
+            for (int e = pattern.start[s] + lane; e < pattern.start[s + 1]; e += slice_lanes) {
+                store_start(pass, e, own - gather_wide(pass.points, pattern.other + e), rate_scale);
             }
         }
     }
 }
 
-/// -dt^2 Jq - dt Jv = along d d^T + across (I - d d^T) = across I + (along - across) d d^T, as a and w.
-PERCALE_INLINE void store_block(float* values, WidePack along, WidePack across, WidePoint d) {
-    const FloatPack w = root(narrow(along - across));
-    store(values, narrow(across));
-    store(values + slice_lanes, w * narrow(d.x));
-    store(values + 2 * slice_lanes, w * narrow(d.y));
-    store(values + 3 * slice_lanes, w * narrow(d.z));
-}
-
 template <bool with_matrix, bool with_motion>
 PERCALE_INLINE double spring_slices(const SpringPass& pass, Slices range) {
     const SpringEntries& springs = pass.springs;
-    const WidePack none = all_wide(0.0), smallest = all_wide(no_length_square), quarter = all_wide(0.25);
-    const WidePack stiffness_scale = all_wide(pass.dt * pass.dt);
-    const WidePack damping_scale = all_wide(pass.dt);
+    const EntryPattern& pattern = springs.pattern;
+    const WidePack none = all_wide(0.0), quarter = all_wide(0.25);
     LaneSums energy;
     for (int s = range.first; s < range.last; ++s) {
         for (int lane = 0; lane < slice_lanes; lane += float_lanes) {
@@ -56,40 +99,26 @@ PERCALE_INLINE double spring_slices(const SpringPass& pass, Slices range) {
             WidePoint own_velocity{none, none, none};
             if constexpr (with_motion) own_velocity = load_wide(pass.velocities, at);
             WidePoint force{none, none, none};
-            WidePack sum = none;
-            for (int e = springs.pattern.start[s] + lane; e < springs.pattern.start[s + 1]; e += slice_lanes) {
-                const WidePoint x = own - gather_wide(pass.points, springs.pattern.other + e);
-                const WidePack square = dot(x, x), safe = larger(square, smallest);
-                const WidePack inverse = inverse_root(safe);
-                const WidePoint d = inverse * x;
-                const WidePack stiffness = load_wide(springs.stiffness + e);
-                const WidePack stretch = safe * inverse - load_wide(springs.rest_length + e);
-                WidePack tension = stiffness * stretch, along = stiffness_scale * stiffness;
-                sum = sum + tension * stretch;
+            WidePack twice = none;
+            for (int e = pattern.start[s] + lane; e < pattern.start[s + 1]; e += slice_lanes) {
+                SpringState state{.x = own - gather_wide(pass.points, pattern.other + e),
+                                  .stiffness = load_wide(springs.stiffness + e),
+                                  .rest = load_wide(springs.rest_length + e)};
                 if constexpr (with_motion) {
-                    const WidePack damping = load_wide(springs.damping + e);
-                    const WidePoint v = own_velocity - gather_wide(pass.motion, springs.pattern.other + e);
-                    tension = tension + damping * dot(v, d);
-                    along = along + damping_scale * damping;
+                    state.damping = load_wide(springs.damping + e);
+                    state.v = own_velocity - gather_wide(pass.motion, pattern.other + e);
                 }
-                force = force - tension * d;
+                const SpringPull pull = evaluate<with_motion>(state);
+                twice = twice + pull.twice_energy;
+                force = force - pull.pull * state.x;
                 if constexpr (with_matrix) {
-                    const WidePack across = smaller(larger(stiffness_scale * (tension * inverse), none), along);
-                    store_block(pass.values + 4 * static_cast<std::size_t>(e - lane) + lane, along,
-                                where_less(square, smallest, along, across), d);
+                    float* value = pass.values + 4 * static_cast<std::size_t>(e - lane) + lane;
+                    store_block<with_motion>(value, slice_lanes, pass.dt, state, pull);
                 }
             }
-            energy.add(lane, quarter * sum);
-            const ConstAxes before{pass.forces.x, pass.forces.y, pass.forces.z};
-            store_wide(pass.forces, at, load_wide(before, at) + force);
+            energy.add(lane, quarter * twice);
+            store_wide(pass.forces, at, load_wide(pass.forces, at) + force);
         }
     }
     return energy.total();
-}
-
-double springs(const SpringPass& pass, Slices range) {
-    if (pass.values && pass.motion) return spring_slices<true, true>(pass, range);
-    if (pass.values) return spring_slices<true, false>(pass, range);
-    if (pass.motion) return spring_slices<false, true>(pass, range);
-    return spring_slices<false, false>(pass, range);
 }

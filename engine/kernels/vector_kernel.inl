@@ -29,8 +29,6 @@ PERCALE_INLINE void for_packs(Slices range, Body body) {
     }
 }
 
-PERCALE_INLINE ConstAxes view(Axes axes) { return {axes.x, axes.y, axes.z}; }
-
 double dot_range(ConstAxes a, ConstAxes b, Slices range) {
     LaneSums sums;
     for_packs(range, [&](std::size_t at, int lane) { sums.add(lane, dot(load_wide(a, at), load_wide(b, at))); });
@@ -41,8 +39,8 @@ double advance(double alpha, ConstAxes p, ConstAxes q, Axes x, Axes r, Slices ra
     LaneSums sums;
     const WidePack factor = all_wide(alpha);
     for_packs(range, [&](std::size_t at, int lane) {
-        store_wide(x, at, load_wide(view(x), at) + factor * load_wide(p, at));
-        const WidePoint residual = load_wide(view(r), at) - factor * load_wide(q, at);
+        store_wide(x, at, load_wide(x, at) + factor * load_wide(p, at));
+        const WidePoint residual = load_wide(r, at) - factor * load_wide(q, at);
         store_wide(r, at, residual);
         sums.add(lane, dot(residual, residual));
     });
@@ -51,7 +49,7 @@ double advance(double alpha, ConstAxes p, ConstAxes q, Axes x, Axes r, Slices ra
 
 void turn(double beta, ConstAxes z, Axes p, Slices range) {
     const WidePack factor = all_wide(beta);
-    for_packs(range, [&](std::size_t at, int) { store_wide(p, at, load_wide(z, at) + factor * load_wide(view(p), at)); });
+    for_packs(range, [&](std::size_t at, int) { store_wide(p, at, load_wide(z, at) + factor * load_wide(p, at)); });
 }
 
 void jacobi(const float* inverse, std::size_t padded, ConstAxes r, Axes z, Slices range) {
@@ -73,10 +71,35 @@ void to_float(double scale, ConstAxes from, FloatVectors to, Slices range) {
     });
 }
 
-void to_double(double scale, FloatVectors from, Axes to, Slices range) {
+void add_float(double scale, FloatVectors from, Axes to, Slices range) {
     const WidePack factor = all_wide(scale);
     for_packs(range, [&](std::size_t at, int) {
         const FloatPoint v = load_float(from, at);
-        store_wide(to, at, factor * WidePoint{widen(v.x), widen(v.y), widen(v.z)});
+        store_wide(to, at, load_wide(to, at) + factor * WidePoint{widen(v.x), widen(v.y), widen(v.z)});
     });
+}
+
+PERCALE_INLINE FloatPack dot(FloatPoint a, FloatPoint b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+double float_dot(FloatVectors a, FloatVectors b, Slices range) {
+    LaneSums sums;
+    for_packs(range, [&](std::size_t at, int lane) { sums.add(lane, widen(dot(load_float(a, at), load_float(b, at)))); });
+    return sums.total();
+}
+
+double float_advance(float alpha, FloatVectors p, FloatVectors q, FloatVectors x, FloatVectors r, Slices range) {
+    LaneSums sums;
+    const FloatPack factor = all(alpha);
+    for_packs(range, [&](std::size_t at, int lane) {
+        store_float(x, at, load_float(x, at) + factor * load_float(p, at));
+        const FloatPoint residual = load_float(r, at) - factor * load_float(q, at);
+        store_float(r, at, residual);
+        sums.add(lane, widen(dot(residual, residual)));
+    });
+    return sums.total();
+}
+
+void float_turn(float beta, FloatVectors z, FloatVectors p, Slices range) {
+    const FloatPack factor = all(beta);
+    for_packs(range, [&](std::size_t at, int) { store_float(p, at, load_float(z, at) + factor * load_float(p, at)); });
 }

@@ -1,6 +1,7 @@
 #include "adjacency.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace percale {
 namespace {
@@ -21,7 +22,8 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
                      .start = slice_starts(degree, slices),
                      .other = {},
                      .spring = {},
-                     .entry = std::vector<int>(spring_count),
+                     .bands = {},
+                     .place = std::vector<int>(spring_count),
                      .stiffness = {},
                      .rest_length = {},
                      .damping = {},
@@ -29,7 +31,6 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
     const std::size_t entries = result.start.back();
     result.other.resize(entries);
     result.spring.assign(entries, spring_count);
-    for (auto* list : {&result.stiffness, &result.rest_length, &result.damping}) list->assign(entries, 0.0);
     for (int s = 0; s < slices; ++s) {
         for (int i = result.start[s]; i < result.start[s + 1]; ++i) {
             result.other[i] = s * slice_lanes + (i - result.start[s]) % slice_lanes;
@@ -38,9 +39,62 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
     return result;
 }
 
+constexpr double least_filled = 0.7;  // of the places of all bands
+
+/// The bands of a network, if few bands hold all springs, each place at most one.
+BandPattern find_bands(const SpringNetwork& network, int vertex_count) {
+    BandPattern bands;
+    std::vector<std::vector<bool>> taken;
+    for (int k = 0; k < network.size(); ++k) {
+        const int offset = std::abs(network.second[k] - network.first[k]), at = std::min(network.first[k], network.second[k]);
+        int* band = std::find(bands.offset, bands.offset + bands.count, offset);
+        if (band == bands.offset + bands.count) {
+            if (bands.count == BandPattern::most) return {};
+            bands.offset[bands.count++] = offset;
+            taken.emplace_back(vertex_count, false);
+        }
+        auto place = taken[band - bands.offset].begin() + at;
+        if (*place) return {};
+        *place = true;
+    }
+    if (network.size() < least_filled * bands.count * vertex_count) return {};
+    const int widest = *std::max_element(bands.offset, bands.offset + bands.count);
+    bands.guard = static_cast<std::size_t>((widest + slice_lanes - 1) / slice_lanes) * slice_lanes;
+    bands.padded = static_cast<std::size_t>((vertex_count + slice_lanes - 1) / slice_lanes) * slice_lanes;
+    return bands;
+}
+
+void place_in_bands(const SpringNetwork& network, Adjacency& adjacency) {
+    const BandPattern& bands = adjacency.bands;
+    for (int k = 0; k < network.size(); ++k) {
+        const int offset = std::abs(network.second[k] - network.first[k]), at = std::min(network.first[k], network.second[k]);
+        const auto band = std::find(bands.offset, bands.offset + bands.count, offset) - bands.offset;
+        adjacency.place[k] = static_cast<int>(band * bands.padded) + at;
+    }
+}
+
+void copy_constants(const SpringNetwork& network, Adjacency& adjacency) {
+    const bool banded = adjacency.bands.count > 0;
+    const std::size_t places = banded ? adjacency.bands.count * adjacency.bands.padded : adjacency.other.size();
+    for (auto* list : {&adjacency.stiffness, &adjacency.rest_length, &adjacency.damping}) list->assign(places, 0.0);
+    const auto copy = [&](std::size_t place, int spring) {
+        adjacency.stiffness[place] = network.stiffness[spring];
+        adjacency.rest_length[place] = network.rest_length[spring];
+        adjacency.damping[place] = network.damping[spring];
+        adjacency.damped = adjacency.damped || network.damping[spring] > 0.0;
+    };
+    if (banded) {
+        for (int k = 0; k < network.size(); ++k) copy(adjacency.place[k], k);
+        return;
+    }
+    for (std::size_t e = 0; e < adjacency.other.size(); ++e) {
+        if (adjacency.spring[e] < network.size()) copy(e, adjacency.spring[e]);
+    }
+}
+
 }  // namespace
 
-Adjacency make_adjacency(const SpringNetwork& network, int vertex_count) {
+Adjacency make_adjacency(const SpringNetwork& network, int vertex_count, SpringLayout layout) {
     const int slices = (vertex_count + slice_lanes - 1) / slice_lanes;
     std::vector<int> degree(static_cast<std::size_t>(slices) * slice_lanes, 0);
     for (int k = 0; k < network.size(); ++k) {
@@ -53,17 +107,46 @@ Adjacency make_adjacency(const SpringNetwork& network, int vertex_count) {
         const int at = result.start[vertex / slice_lanes] + slice_lanes * filled[vertex]++ + vertex % slice_lanes;
         result.other[at] = other;
         result.spring[at] = spring;
-        result.stiffness[at] = network.stiffness[spring];
-        result.rest_length[at] = network.rest_length[spring];
-        result.damping[at] = network.damping[spring];
-        result.damped = result.damped || network.damping[spring] > 0.0;
         return at;
     };
     for (int k = 0; k < network.size(); ++k) {
-        result.entry[k] = enter(network.first[k], network.second[k], k);
+        result.place[k] = enter(network.first[k], network.second[k], k);
         enter(network.second[k], network.first[k], k);
     }
+    if (layout == SpringLayout::best) result.bands = find_bands(network, vertex_count);
+    if (result.bands.count > 0) place_in_bands(network, result);
+    copy_constants(network, result);
     return result;
+}
+
+std::size_t Adjacency::value_count() const {
+    return bands.count > 0 ? 4 * bands.count * (bands.guard + bands.padded) : 4 * other.size();
+}
+
+Adjacency::ValuePlace Adjacency::value_place(int k) const {
+    const std::size_t at = place[k];
+    if (bands.count == 0) return {4 * (at - at % slice_lanes) + at % slice_lanes, slice_lanes};
+    const std::size_t apart = bands.guard + bands.padded;
+    return {4 * (at / bands.padded) * apart + bands.guard + at % bands.padded, apart};
+}
+
+std::size_t Adjacency::point_count() const {
+    return bands.count > 0 ? 3 * (bands.padded + 2 * bands.guard) : 4 * static_cast<std::size_t>(slices()) * slice_lanes;
+}
+
+void pack_points(const Compute& compute, const Adjacency& adjacency, const Vectors& from, AlignedVector<double>& points) {
+    points.resize(adjacency.point_count());
+    const BandPattern& bands = adjacency.bands;
+    if (bands.count == 0) {
+        for_chunks(compute, from.slices(), [&](Slices range) { compute.kernels->pack_points(from.axes(), points.data(), range); });
+        return;
+    }
+    auto to = points.begin();
+    for (const auto* axis : {&from.x, &from.y, &from.z}) {
+        to = std::fill_n(to, bands.guard, 0.0);
+        to = std::copy(axis->begin(), axis->end(), to);
+        to = std::fill_n(to, bands.guard, 0.0);
+    }
 }
 
 }  // namespace percale

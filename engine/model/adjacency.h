@@ -2,9 +2,10 @@
 
 #include <vector>
 
-#include "kernels/kernels.h"
+#include "kernels/compute.h"
 #include "spring_network.h"
 #include "support/aligned.h"
+#include "vectors.h"
 
 namespace percale {
 
@@ -17,15 +18,31 @@ struct Adjacency {
     std::vector<int> start = {0};  // of each slice; one more at the end
     AlignedVector<int> other;      // the vertex at the other end
     std::vector<int> spring;       // which spring
-    std::vector<int> entry;        // of each spring, the entry at its first vertex
-    AlignedVector<double> stiffness, rest_length, damping;  // N/m, m, N s/m of each entry
+    BandPattern bands;             // count = 0 unless the springs lie in bands, as on a single grid
+    std::vector<int> place;        // of each spring, in the lists below: its place in the bands, or the entry at its first vertex
+    AlignedVector<double> stiffness, rest_length, damping;  // N/m, m, N s/m of each place
     bool damped = false;                                    // any spring has damping
 
+    /// How many numbers the blocks a, w of all places take, and where those of a spring stand, `apart` from each other.
+    std::size_t value_count() const;
+    struct ValuePlace {
+        std::size_t first, apart;
+    };
+    ValuePlace value_place(int k) const;
+    /// The size of a vector as kernels want it (pack_points).
+    std::size_t point_count() const;
+
     int slices() const { return static_cast<int>(start.size()) - 1; }
-    EntryPattern pattern() const { return {start.data(), other.data()}; }
+    EntryPattern pattern() const { return {start.data(), other.data(), bands.count > 0 ? &bands : nullptr}; }
     SpringEntries springs() const { return {pattern(), stiffness.data(), rest_length.data(), damping.data()}; }
 };
 
-Adjacency make_adjacency(const SpringNetwork& network, int vertex_count);
+/// A copy of vectors as the kernels want it for these springs: x y z 0 of every vertex, or with bands three guarded arrays.
+void pack_points(const Compute& compute, const Adjacency& adjacency, const Vectors& from, AlignedVector<double>& points);
+
+/// How the numbers of all springs are laid out.
+enum class SpringLayout { best, slices };
+
+Adjacency make_adjacency(const SpringNetwork& network, int vertex_count, SpringLayout layout = SpringLayout::best);
 
 }  // namespace percale

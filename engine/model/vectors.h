@@ -50,12 +50,6 @@ inline double dot(const Compute& compute, const Vectors& a, const Vectors& b) {
     return sum_chunks(compute, a.slices(), [&](Slices range) { return compute.kernels->dot(a.axes(), b.axes(), range); });
 }
 
-/// points = x y z 0 of every vertex, as kernels gather them.
-inline void pack_points(const Compute& compute, const Vectors& from, AlignedVector<double>& points) {
-    points.resize(4 * from.padded_size());
-    for_chunks(compute, from.slices(), [&](Slices range) { compute.kernels->pack_points(from.axes(), points.data(), range); });
-}
-
 inline void copy_out(const Vectors& from, std::span<Vec3> to) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = {from.x[i], from.y[i], from.z[i]};
 }

@@ -108,7 +108,7 @@ void fill_matrix(const SpringTerms& springs, std::span<const ContactBlock> conta
 
 double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y) {
     const Compute& compute = *matrix.compute;
-    pack_points(compute, x, points);
+    pack_points(compute, *matrix.pattern, x, points);
     const BlockPass pass{
         .pattern = matrix.pattern->pattern(), .values = matrix.springs->values.data(), .ground = matrix.mass.data()};
     const double sum = sum_chunks(compute, matrix.slices(), [&](Slices range) {

@@ -1,47 +1,22 @@
 #include "conjugate_gradient.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "multigrid.h"
+#include "gain_record.h"
 
 namespace percale {
 namespace {
 
-/// The sum of all gains and of those of the last few iterations.
-class GainRecord {
-public:
-    explicit GainRecord(int window) : window_size_(window) {}
-    void add(double gain) {
-        window_[count_++ % window_size_] = gain;
-        total_ += gain;
-    }
-    bool small_enough(const SolveTarget& target) const {
-        if ((target.relative_gain <= 0.0 && target.absolute_gain <= 0.0) || count_ < window_size_) return false;
-        double recent = 0.0;
-        for (int k = 0; k < window_size_; ++k) recent += window_[k];
-        return recent <= std::max(target.relative_gain * target.relative_gain * total_, target.absolute_gain);
-    }
-
-private:
-    std::array<double, 10> window_{};
-    int window_size_;
-    double total_ = 0.0;
-    int count_ = 0;
-};
-
 /// One solve: functions that share the system and its work space.
 class Solve {
 public:
-    Solve(const BlockMatrix& matrix, Multigrid* multigrid, SolveSpace& space)
-        : matrix_(matrix), compute_(*matrix.compute), multigrid_(multigrid), space_(space) {}
+    Solve(const BlockMatrix& matrix, SolveSpace& space) : matrix_(matrix), compute_(*matrix.compute), space_(space) {}
 
     SolveReport run(const Vectors& b, const SolveTarget& target, Vectors& x) {
         const double first_square = start(b, x);
         if (first_square == 0.0) return {.iterations = 0, .converged = true};
         const double tolerance = target.relative_residual * target.relative_residual * first_square;
-        GainRecord gains(multigrid_ ? 1 : 10);
+        GainRecord gains(10);
         double rz = apply_preconditioner();
         space_.p = space_.z;
         SolveReport report;
@@ -78,32 +53,24 @@ private:
         space_.r = b;
         filter(matrix_, space_.r);
         add_scaled(space_.r, -1.0, space_.q);
-        scale_ = dot(compute_, space_.r, space_.r);
-        return scale_;
+        return dot(compute_, space_.r, space_.r);
     }
 
     /// z = preconditioned r; returns r . z.
     double apply_preconditioner() {
-        if (multigrid_) {
-            multigrid_->apply(std::sqrt(scale_), space_.r, space_.z);
-        } else {
-            precondition(matrix_, space_.r, space_.z);
-        }
+        precondition(matrix_, space_.r, space_.z);
         return dot(compute_, space_.r, space_.z);
     }
 
     const BlockMatrix& matrix_;
     const Compute& compute_;
-    Multigrid* multigrid_;
     SolveSpace& space_;
-    double scale_ = 0.0;
 };
 
 }  // namespace
 
-SolveReport solve_cg(const BlockMatrix& matrix, Multigrid* multigrid, const Vectors& b, const SolveTarget& target,
-                     SolveSpace& space, Vectors& x) {
-    return Solve(matrix, multigrid, space).run(b, target, x);
+SolveReport solve_cg(const BlockMatrix& matrix, const Vectors& b, const SolveTarget& target, SolveSpace& space, Vectors& x) {
+    return Solve(matrix, space).run(b, target, x);
 }
 
 }  // namespace percale

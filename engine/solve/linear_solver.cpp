@@ -16,13 +16,16 @@ void StepSolver::set_model(const Compute& compute, const ClothModel& model, Line
     in_use_ = wish == LinearSolver::automatic ? LinearSolver::cg : wish;
     multigrid_.reset();
     direct_.reset();
+    stale_ = true;
 }
 
 void StepSolver::fill(const SpringTerms& springs, std::span<const ContactBlock> contacts) {
     fill_matrix(springs, contacts, matrix);
     if (in_use_ != LinearSolver::multigrid) return;
     if (!multigrid_) multigrid_ = std::make_unique<Multigrid>(*matrix.compute, model_->adjacency, model_->rest);
-    multigrid_->fill(matrix);
+    multigrid_->fill(matrix, stale_ ? Multigrid::Coarser::filled : Multigrid::Coarser::kept);
+    if (stale_) fresh_iterations_ = 0;
+    stale_ = false;
 }
 
 SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vectors& x) {
@@ -30,8 +33,14 @@ SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vecto
         if (!direct_) direct_ = std::make_unique<DirectSolver>();
         return {.iterations = 1, .converged = direct_->solve(matrix, b, x)};
     }
-    const SolveReport report = solve_cg(matrix, in_use_ == LinearSolver::multigrid ? multigrid_.get() : nullptr, b, target, space_, x);
-    if (wish_ == LinearSolver::automatic && in_use_ == LinearSolver::cg && report.iterations > dear_jacobi) {
+    if (in_use_ == LinearSolver::multigrid) {
+        const SolveReport report = solve_multigrid(matrix, *multigrid_, b, target, multigrid_space_, x);
+        if (fresh_iterations_ == 0) fresh_iterations_ = report.iterations;
+        stale_ = report.iterations > 2 * fresh_iterations_ + 2;
+        return report;
+    }
+    const SolveReport report = solve_cg(matrix, b, target, space_, x);
+    if (wish_ == LinearSolver::automatic && report.iterations > dear_jacobi) {
         in_use_ = LinearSolver::multigrid;
     }
     return report;
@@ -41,8 +50,17 @@ bool StepSolver::estimate(const Vectors& r, Vectors& z) {
     if (in_use_ != LinearSolver::multigrid || !multigrid_) return false;
     const double square = dot(*matrix.compute, r, r);
     if (!(square > 0.0) || !std::isfinite(square)) return false;
-    if (z.padded_size() != r.padded_size()) z.resize(static_cast<int>(r.padded_size()));
-    multigrid_->apply(std::sqrt(square), r, z);
+    const double scale = std::sqrt(square);
+    const Compute& compute = *matrix.compute;
+    const std::size_t padded = multigrid_->padded();
+    for_chunks(compute, matrix.slices(), [&](Slices range) {
+        compute.kernels->to_float(1.0 / scale, r.axes(), {multigrid_->residual().data(), padded}, range);
+    });
+    multigrid_->cycle();
+    z.resize(static_cast<int>(r.padded_size()));
+    for_chunks(compute, matrix.slices(), [&](Slices range) {
+        compute.kernels->add_float(scale, {multigrid_->correction().data(), padded}, z.axes(), range);
+    });
     return true;
 }
 

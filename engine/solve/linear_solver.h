@@ -5,7 +5,7 @@
 #include "conjugate_gradient.h"
 #include "direct_solver.h"
 #include "model/cloth_model.h"
-#include "multigrid.h"
+#include "multigrid_solve.h"
 #include "percale/settings.h"
 
 namespace percale {
@@ -21,6 +21,9 @@ public:
     void set_model(const Compute& compute, const ClothModel& model, LinearSolver wish);
     bool is_for(const ClothModel& model) const { return matrix.pattern == &model.adjacency; }
     void forget_model() { matrix.pattern = nullptr; }
+
+    /// A new step or part of one begins: what is taken over from earlier matrices is made anew.
+    void start_part() { stale_ = true; }
 
     /// Takes springs and contacts of a state.
     void fill(const SpringTerms& springs, std::span<const ContactBlock> contacts);
@@ -42,7 +45,10 @@ private:
     LinearSolver in_use_ = LinearSolver::cg;
     std::unique_ptr<Multigrid> multigrid_;
     std::unique_ptr<DirectSolver> direct_;
+    bool stale_ = true;          // multigrid's coarser levels are to be made anew
+    int fresh_iterations_ = 0;  // of the first solve with them
     SolveSpace space_;
+    MultigridSpace multigrid_space_;
 };
 
 }  // namespace percale

@@ -5,9 +5,9 @@
 namespace percale {
 namespace {
 
-// The block-Jacobi preconditioned matrix has eigenvalues up to about 2.6; the smoother works on the upper seven eighths.
+// The block-Jacobi preconditioned matrix has eigenvalues up to about 2.6; the smoother works on the upper four fifths.
 constexpr float largest_eigenvalue = 2.6f;
-constexpr float smoothed_from = largest_eigenvalue / 8.0f;
+constexpr float smoothed_from = largest_eigenvalue / 5.0f;
 
 using Block = std::array<double, 6>;
 
@@ -43,26 +43,47 @@ void set(const FloatVectors& v, int i, const std::array<float, 3>& value) {
     for (int axis = 0; axis < 3; ++axis) v.data[axis * v.padded + i] = value[axis];
 }
 
+/// Adds the rows' product at vertices that are not prescribed.
+void add_contacts(std::span<const ContactBlock> contacts, FloatVectors x, FloatVectors y) {
+    for (const ContactBlock& block : contacts) {
+        std::array<float, 3> u{};
+        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
+            const std::array<float, 3> value = at(x, block.vertex[k]);
+            for (int axis = 0; axis < 3; ++axis) u[axis] += static_cast<float>(block.weight[k]) * value[axis];
+        }
+        const std::array<float, 3> f = times(to_float(block.k), u);
+        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
+            std::array<float, 3> value = at(y, block.vertex[k]);
+            for (int axis = 0; axis < 3; ++axis) value[axis] += static_cast<float>(block.weight[k]) * f[axis];
+            set(y, block.vertex[k], value);
+        }
+    }
+}
+
 }  // namespace
 
 Multigrid::Multigrid(const Compute& compute, const Adjacency& pattern, std::span<const Vec3> rest)
     : compute_(compute), adjacency_(pattern) {
-    // Pairs in the order of their entries: blocks are then expanded in one sweep.
-    std::vector<bool> first(pattern.other.size(), false);
-    for (const int entry : pattern.entry) first[entry] = true;
     SpringGraph graph{.positions = {rest.begin(), rest.end()}, .pairs = {}, .strength = {}};
+    // Pairs in the order of their vertices: what is near is then near in memory, too.
+    std::vector<bool> seen(pattern.place.size(), false);
     for (int s = 0; s < pattern.slices(); ++s) {
-        for (int e = pattern.start[s]; e < pattern.start[s + 1]; ++e) {
-            if (!first[e]) continue;
-            graph.pairs.push_back({s * slice_lanes + (e - pattern.start[s]) % slice_lanes, pattern.other[e]});
-            graph.strength.push_back(pattern.stiffness[e]);
-            pair_entry_.push_back(e);
+        for (int lane = 0; lane < slice_lanes; ++lane) {
+            for (int e = pattern.start[s] + lane; e < pattern.start[s + 1]; e += slice_lanes) {
+                const std::size_t spring = pattern.spring[e];
+                if (spring >= seen.size() || seen[spring]) continue;
+                seen[spring] = true;
+                graph.pairs.push_back({s * slice_lanes + lane, pattern.other[e]});
+                graph.strength.push_back(pattern.stiffness[pattern.place[spring]]);
+                pair_value_.push_back(pattern.value_place(static_cast<int>(spring)));
+            }
         }
     }
     patterns_ = make_hierarchy(std::move(graph));
     Level fine = sized_level(pattern.pattern(), pattern.slices());
     fine.ground.resize(fine.padded);
-    fine.blocks.assign(8 * (pair_entry_.size() + 1), 0.0f);
+    fine.blocks.assign(8 * (pair_value_.size() + 1), 0.0f);
+    guarded_.assign(pattern.bands.count > 0 ? pattern.point_count() : 0, 0.0f);
     levels_.push_back(std::move(fine));
     for (const LevelPattern& coarser : patterns_) add_level(coarser);
     if (patterns_.empty() || patterns_.back().vertices > dense_vertices) return;
@@ -103,12 +124,21 @@ void Multigrid::pack(Level& level, const AlignedVector<float>& from) const {
     });
 }
 
-void Multigrid::fill(const BlockMatrix& matrix) {
+void Multigrid::copy_guarded(const BandPattern& bands, const AlignedVector<float>& from) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto first = from.begin() + axis * bands.padded;
+        std::copy(first, first + bands.padded, guarded_.begin() + axis * (bands.padded + 2 * bands.guard) + bands.guard);
+    }
+}
+
+void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {
     Level& fine = levels_[0];
     fine.values = matrix.springs->values.data();
     std::transform(matrix.mass.begin(), matrix.mass.end(), fine.ground.begin(), [](double m) { return static_cast<float>(m); });
     fine.inverse = matrix.inverse;
+    contacts_ = matrix.contacts;
     set_filters(matrix);
+    if (coarser == Coarser::kept) return;
     expand_blocks(*matrix.springs);
     for (int k = 1; k < levels(); ++k) fill_level(k);
     if (bottom_size_ > 0) fill_bottom();
@@ -127,6 +157,7 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
         for (const int k : {0, 3, 5}) ground[k] -= matrix.mass[i];
         filtered_.push_back({.vertex = i, .filter = {}, .contact = {}, .ground = ground});
     }
+    prescribed_ = filtered_.size();
     for (const VertexContact& contact : matrix.contacts_by_vertex) {
         if (!(trace(contact.k) > 0.0)) continue;
         const double d = size_along(diagonal(contact.vertex), contact.k);
@@ -143,10 +174,9 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
 
 void Multigrid::expand_blocks(const SpringTerms& springs) {
     float* block = levels_[0].blocks.data();
-    for (const int entry : pair_entry_) {
-        const int lane = entry % slice_lanes;
-        const float* value = &springs.values[4 * static_cast<std::size_t>(entry - lane) + lane];
-        const float a = value[0], x = value[slice_lanes], y = value[2 * slice_lanes], z = value[3 * slice_lanes];
+    for (const auto& [first, apart] : pair_value_) {
+        const float* value = &springs.values[first];
+        const float a = value[0], x = value[apart], y = value[2 * apart], z = value[3 * apart];
         block[0] = a + x * x;
         block[1] = x * y;
         block[2] = x * z;
@@ -249,13 +279,11 @@ void Multigrid::fill_bottom() {
     std::transform(bottom_.begin(), bottom_.end(), bottom_inverse_.begin(), [](double value) { return static_cast<float>(value); });
 }
 
-void Multigrid::apply(double scale, const Vectors& r, Vectors& z) {
-    Level& fine = levels_[0];
-    for_chunks(compute_, fine.slices,
-               [&](Slices range) { compute_.kernels->to_float(1.0 / scale, r.axes(), view(fine.b, fine), range); });
-    cycle(0);
-    for_chunks(compute_, fine.slices,
-               [&](Slices range) { compute_.kernels->to_double(scale, view(fine.x, fine), z.axes(), range); });
+void Multigrid::multiply(const AlignedVector<float>& x, AlignedVector<float>& y) {
+    multiply_level(0, x, nullptr, y);
+    const FloatVectors result = view(y, levels_[0]);
+    add_contacts(contacts_, view(x, levels_[0]), result);
+    for (std::size_t i = 0; i < prescribed_; ++i) set(result, filtered_[i].vertex, {});
 }
 
 void Multigrid::cycle(int k) {
@@ -264,7 +292,7 @@ void Multigrid::cycle(int k) {
     if (bottom && bottom_size_ > 0) return solve_bottom(level);
     smooth(k, true);
     if (!bottom) {
-        residual(k);
+        set_residual(k);
         if (k == 0) filter_residual();
         pack(level, level.r);
         Level& coarser = levels_[k + 1];
@@ -290,25 +318,32 @@ void Multigrid::smooth(int k, bool fresh) {
                               .fresh = first};
         for_chunks(compute_, level.slices, [&](Slices range) { compute_.kernels->smooth(pass, range); });
     };
-    if (!fresh) residual(k);
+    if (!fresh) set_residual(k);
     step(fresh ? level.b : level.r, 1.0f / middle, 0.0f, fresh);
-    residual(k);
+    set_residual(k);
     step(level.r, 2.0f * next_rho / half, next_rho * rho, false);
 }
 
-/// r = b - A x.
-void Multigrid::residual(int k) {
+/// y = A x, or right - A x; springs and ground only.
+void Multigrid::multiply_level(int k, const AlignedVector<float>& x, const float* right, AlignedVector<float>& y) {
     Level& level = levels_[k];
-    pack(level, level.x);
+    const BandPattern* bands = level.pattern.bands;
+    bands ? copy_guarded(*bands, x) : pack(level, x);
     const FloatPass pass{.pattern = level.pattern,
                          .values = level.values,
                          .ground = level.ground.data(),
-                         .x = view(level.x, level),
-                         .y = view(level.r, level),
-                         .points = level.points.data(),
-                         .right = level.b.data()};
-    const auto multiply = k == 0 ? compute_.kernels->multiply_fine : compute_.kernels->multiply_coarse;
-    for_chunks(compute_, level.slices, [&](Slices range) { multiply(pass, range); });
+                         .x = view(x, level),
+                         .y = view(y, level),
+                         .points = bands ? guarded_.data() : level.points.data(),
+                         .right = right};
+    const auto kernel = k == 0 ? compute_.kernels->multiply_fine : compute_.kernels->multiply_coarse;
+    for_chunks(compute_, level.slices, [&](Slices range) { kernel(pass, range); });
+}
+
+/// r = b - A x.
+void Multigrid::set_residual(int k) {
+    Level& level = levels_[k];
+    multiply_level(k, level.x, level.b.data(), level.r);
     if (k > 0) return;
     const FloatVectors x = view(level.x, level), r = view(level.r, level);
     for (const Filtered& vertex : filtered_) {

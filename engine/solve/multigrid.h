@@ -19,12 +19,22 @@ public:
     /// The springs of `pattern` in rest positions (m, one a vertex). Everything given is viewed.
     Multigrid(const Compute& compute, const Adjacency& pattern, std::span<const Vec3> rest);
 
-    /// Takes the values of a matrix with that pattern.
-    void fill(const BlockMatrix& matrix);
+    enum class Coarser { filled, kept };
+    /// Takes the values of a matrix with that pattern; coarser levels may be kept from an earlier one, which is as good a
+    /// preconditioner where little has changed.
+    void fill(const BlockMatrix& matrix, Coarser coarser);
 
-    /// z = one cycle for A z = r; r is divided by `scale` meanwhile, which keeps it in the range of floats.
-    void apply(double scale, const Vectors& r, Vectors& z);
+    /// One cycle for A z = r at the finest level: r in residual(), z in correction(). r should be of about unit size.
+    void cycle() { cycle(0); }
+    AlignedVector<float>& residual() { return levels_[0].b; }
+    AlignedVector<float>& correction() { return levels_[0].x; }
 
+    /// y = A x at the finest level, contact rows exact; x and y are 0 at prescribed vertices.
+    void multiply(const AlignedVector<float>& x, AlignedVector<float>& y);
+
+    std::size_t padded() const { return levels_[0].padded; }
+    int slices() const { return levels_[0].slices; }
+    const Compute& compute() const { return compute_; }
     int levels() const { return static_cast<int>(levels_.size()); }
 
 private:
@@ -57,20 +67,25 @@ private:
     void fill_bottom();
     void cycle(int k);
     void smooth(int k, bool fresh);
-    void residual(int k);
+    void multiply_level(int k, const AlignedVector<float>& x, const float* right, AlignedVector<float>& y);
+    void set_residual(int k);
     void solve_bottom(Level& level);
     void transfer(const TransferLists& lists, int slices, const AlignedVector<float>& points, FloatVectors to, bool add) const;
     void filter_residual();
     void prolong(int k);
     FloatVectors view(const AlignedVector<float>& data, const Level& level) const;
+    void copy_guarded(const BandPattern& bands, const AlignedVector<float>& from);
     void pack(Level& level, const AlignedVector<float>& from) const;
 
     const Compute& compute_;
     const Adjacency& adjacency_;
-    std::vector<int> pair_entry_;  // of the finest level: the entry of each pair
+    std::vector<Adjacency::ValuePlace> pair_value_;  // of the finest level: where each pair's block stands
+    AlignedVector<float> guarded_;                   // work space of products with bands
     std::vector<LevelPattern> patterns_;
     std::vector<Level> levels_;
-    std::vector<Filtered> filtered_;
+    std::span<const ContactBlock> contacts_;
+    std::vector<Filtered> filtered_;  // prescribed vertices first
+    std::size_t prescribed_ = 0;
     std::vector<std::array<float, 3>> before_;  // work space of prolong
     AlignedVector<double> bottom_;
     AlignedVector<float> bottom_inverse_, bottom_x_, bottom_y_;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double energy_accuracy = 0.05;      // of the linear solve, in the energy norm
 constexpr double share_of_time_error = 0.25;  // solver error over time error
+constexpr double estimated_share = 0.1;       // likewise where the solver error is only estimated
 constexpr double smallest_change = 1e-7;      // m, below it iterations are pointless
 constexpr double smallest_share = 2e-4;       // likewise in contact, of the thickness
 constexpr int most_trials = 10;               // of one line search
@@ -43,6 +44,7 @@ private:
         space_.frozen_diagonal.padded = 0;
         if (!space_.solver.is_for(model_)) space_.solver.set_model(*part_.compute, model_, part_.settings->linear_solver);
         space_.solver.matrix.free = *part_.free;
+        space_.solver.start_part();
         for (auto* vectors : {&space_.direction, &space_.right_side}) vectors->resize(model_.vertex_count());
         set_step_springs(*part_.compute, {model_.adjacency, state.positions, part_.plan->damping, part_.dt}, space_.springs);
     }
@@ -171,6 +173,10 @@ private:
             if (norm == 0.0 || !std::isfinite(norm)) return end_here(norm == 0.0);
             if (arrived() && part_.settings->newton_tolerance && report_.residual <= *part_.settings->newton_tolerance) return;
             if (iteration == most) break;
+            if (iteration > 0 && estimate_is_small()) {
+                converged_ = true;
+                return;
+            }
             solve_direction(iteration, norm, last_norm);
             last_norm = norm;
             ++report_.newton_iterations;
@@ -283,7 +289,7 @@ private:
         LineTrial line{.start_objective = space_.current.objective, .start_slope = slope};
         double fraction = 1.0, kept = 1.0;
         move(fraction);
-        const bool small = change_is_small();
+        const bool small = change_is_small(space_.trial.velocities, share_of_time_error);
         bool accepted = false;
         for (int trial = 0; trial < most_trials && !accepted; ++trial) {
             if (trial > 0) move(fraction);
@@ -307,10 +313,21 @@ private:
         return !converged_;
     }
 
-    /// Whether the direction changes every cloth by less than its share of the time error, in the mean and at its worst vertex.
-    /// The trial must be the full, uncut move.
-    bool change_is_small() const {
-        const Vectors& ahead = space_.trial.velocities;
+    /// Whether another iteration would change little, by what the preconditioner makes of the residual: far cheaper than the
+    /// iteration.
+    bool estimate_is_small() {
+        if (part_.settings->newton_tolerance || !arrived()) return false;
+        StageTimer timer(stages_.solve);
+        if (!space_.solver.estimate(space_.current.residual, space_.direction)) return false;
+        for (auto* axis : {&space_.direction.x, &space_.direction.y, &space_.direction.z}) {
+            for (double& value : *axis) value = -value;
+        }
+        return change_is_small(space_.current.velocities, estimated_share);
+    }
+
+    /// Whether the direction, which leads to the velocities `ahead`, changes every cloth by less than a share of the time error, in
+    /// the mean and at its worst vertex by twice that.
+    bool change_is_small(const Vectors& ahead, double share) const {
         return std::all_of(model_.cloths.begin(), model_.cloths.end(), [&](const ClothRange& cloth) {
             double gain = 0.0, worst = 0.0, worst_error = 0.0;
             for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
@@ -322,8 +339,8 @@ private:
             const double time_error = 0.5 * part_.dt * std::sqrt(velocity_change(cloth, ahead) / cloth.mass);
             const double floor =
                 space_.current.forces.rows.size() > 0 ? smallest_share * model_.thickness[cloth.first] : smallest_change;
-            return change <= share_of_time_error * time_error + floor &&
-                   part_.dt * worst <= 0.5 * part_.dt * worst_error + 10.0 * floor;
+            return change <= share * time_error + floor &&
+                   part_.dt * worst <= 2.0 * share * part_.dt * worst_error + 10.0 * floor;
         });
     }
 
