@@ -53,6 +53,7 @@ stage_format() {
 stage_layers() {
     python3 .ci/layers.py
     python3 .ci/layers_test.py
+    python3 .ci/perf_gate_test.py
 }
 
 stage_gcc() {

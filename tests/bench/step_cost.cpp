@@ -1,74 +1,26 @@
 // Prints what a 1/60 s step costs on the scenes S1 (sheet hanging from two corners), S2 (sheet onto a sphere) and S3 (sheet
 // onto a bunny scan, if there is one), by stage, in ms and in machine units U: one pass of a plain scalar force loop over an
-// array of spring structs on the same machine in the same run. Usage: percale_step_cost [seconds simulated, default 2]
+// array of spring structs on the same machine in the same run.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <vector>
 
 #include "percale/detectors.h"
 #include "percale/simulation.h"
 #include "scenes/mesh_import.h"
-#include "tests/support/cpu_time.h"
+#include "tests/bench/bench_report.h"
+#include "tests/support/bench_unit.h"
 #include "tests/support/real_meshes.h"
 
 namespace {
 
 using percale::Vec3;
-
-struct PlainSpring {
-    int a, b;
-    double rest, stiffness, damping;
-};
-
-/// The springs of an N x N grid of 1 m as a plain list: structural, shear, bend.
-std::vector<PlainSpring> plain_springs(int n) {
-    std::vector<PlainSpring> springs;
-    const double h = 1.0 / (n - 1);
-    const int families[6][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 0}, {0, 2}};
-    const double stiffness[6] = {1000, 1000, 500, 500, 10, 10};
-    for (int family = 0; family < 6; ++family) {
-        const auto [dx, dy] = families[family];
-        for (int y = 0; y + dy < n; ++y) {
-            for (int x = std::max(0, -dx); x < n - std::max(0, dx); ++x) {
-                springs.push_back({y * n + x, (y + dy) * n + x + dx, h * std::hypot(dx, dy), stiffness[family], 0.1});
-            }
-        }
-    }
-    return springs;
-}
-
-/// CPU milliseconds of one pass, the least of many.
-double machine_unit(int n) {
-    const std::vector<PlainSpring> springs = plain_springs(n);
-    std::vector<Vec3> positions, velocities(static_cast<std::size_t>(n) * n, Vec3(0.1, 0.2, 0.3)), forces(velocities.size());
-    for (int i = 0; i < n * n; ++i) positions.emplace_back(1.01 * (i % n) / (n - 1), 0.0, 1.02 * (i / n) / (n - 1));
-    double least = 1e300, sink = 0.0;
-    for (int pass = 0; pass < 200; ++pass) {
-        const double start = percale::test::cpu_seconds();
-        std::fill(forces.begin(), forces.end(), Vec3(0, -9.81, 0));
-        for (const PlainSpring& s : springs) {
-            const Vec3 x = positions[s.a] - positions[s.b];
-            const double length = x.norm();
-            const Vec3 d = x / length;
-            const Vec3 f = -(s.stiffness * (length - s.rest) + s.damping * (velocities[s.a] - velocities[s.b]).dot(d)) * d;
-            forces[s.a] += f;
-            forces[s.b] -= f;
-        }
-        least = std::min(least, percale::test::cpu_seconds() - start);
-        sink += forces[static_cast<std::size_t>(pass)].x();
-    }
-    if (!std::isfinite(sink)) std::puts("the plain loop is broken");
-    return 1e3 * least;
-}
+using percale::test::Figures;
 
 percale::Simulation make_scene(int n, const percale::TriangleMesh* body, double drop) {
-    percale::Fabric fabric;
-    fabric.springs = {.structural = 1000.0, .shear = 500.0, .bend = 10.0};
     percale::Simulation simulation({}, body ? percale::make_fcl_detector() : nullptr);
-    const percale::ClothId cloth =
-        simulation.add_cloth(percale::make_grid(1.0, 1.0, n, n), fabric, {.translation = {0.0, drop, 0.0}});
+    const percale::ClothId cloth = simulation.add_cloth(percale::make_grid(1.0, 1.0, n, n), percale::test::bench_fabric(),
+                                                        {.translation = {0.0, drop, 0.0}});
     if (body) {
         simulation.add_obstacle(*body);
     } else {
@@ -78,29 +30,60 @@ percale::Simulation make_scene(int n, const percale::TriangleMesh* body, double 
     return simulation;
 }
 
-void report(const char* name, int n, percale::Simulation simulation, double seconds) {
-    const int steps = static_cast<int>(std::lround(60.0 * seconds));
-    percale::StageTimes stages;
+/// What the steps of one run add up to.
+struct Cost {
+    int steps = 0;
+    double seconds = 0.0, strain = 0.0;
     long newton = 0, linear = 0;
-    double strain = 0.0;
+    percale::StageTimes stages;
+};
+
+/// Throws if a step fails.
+Cost run(percale::Simulation& simulation, int steps) {
+    Cost cost;
+    cost.steps = steps;
     simulation.prepare();
     const double start = percale::test::cpu_seconds();
     for (int i = 0; i < steps; ++i) {
         const percale::StepReport step = simulation.step();
-        if (!step.ok()) {
-            step.explain(stdout);
-            return;
-        }
-        stages += step.stages;
-        newton += step.newton_iterations;
-        linear += step.linear_iterations;
-        strain = std::max(strain, step.largest_strain);
+        if (!step.ok()) throw std::runtime_error(step.explanation());
+        cost.stages += step.stages;
+        cost.newton += step.newton_iterations;
+        cost.linear += step.linear_iterations;
+        cost.strain = std::max(cost.strain, step.largest_strain);
     }
-    const double ms = 1e3 * (percale::test::cpu_seconds() - start) / steps, per = 1e3 / steps;
-    std::printf("%-3s %4d %8.2f %7.0f  %7.2f %8.2f %6.2f %6.2f %7.2f %6.2f %8.2f  %6.1f %7.0f %7.1f\n", name, n, ms,
-                ms / machine_unit(n), per * stages.refresh, per * stages.evaluate, per * stages.force, per * stages.setup,
-                per * stages.solve, per * stages.cut, per * stages.measure, static_cast<double>(newton) / steps,
-                static_cast<double>(linear) / steps, 100.0 * strain);
+    cost.seconds = percale::test::cpu_seconds() - start;
+    return cost;
+}
+
+Figures figures_of(const char* scene, int n, const Cost& cost) {
+    const double ms = 1e3 * cost.seconds / cost.steps, per = 1e3 / cost.steps;
+    const percale::StageTimes& stages = cost.stages;
+    return {{"scene", scene},
+            {"n", n},
+            {"ms", ms},
+            {"units", ms / percale::test::machine_unit(n)},
+            {"refresh_ms", per * stages.refresh},
+            {"evaluate_ms", per * stages.evaluate},
+            {"force_ms", per * stages.force},
+            {"setup_ms", per * stages.setup},
+            {"solve_ms", per * stages.solve},
+            {"cut_ms", per * stages.cut},
+            {"measure_ms", per * stages.measure},
+            {"newton", static_cast<double>(cost.newton) / cost.steps},
+            {"linear", static_cast<double>(cost.linear) / cost.steps},
+            {"largest_strain", cost.strain}};
+}
+
+Figures report(const char* scene, int n, percale::Simulation simulation, double seconds) {
+    const Figures row = figures_of(scene, n, run(simulation, std::max(1, static_cast<int>(std::lround(60.0 * seconds)))));
+    const auto value = [&row](const char* key) { return row[key].get<double>(); };
+    std::printf("%-3s %4d %8.2f %7.0f  %7.2f %8.2f %6.2f %6.2f %7.2f %6.2f %8.2f  %6.1f %7.0f %7.1f\n", scene, n, value("ms"),
+                value("units"), value("refresh_ms"), value("evaluate_ms"), value("force_ms"), value("setup_ms"),
+                value("solve_ms"), value("cut_ms"), value("measure_ms"), value("newton"), value("linear"),
+                100.0 * value("largest_strain"));
+    std::fflush(stdout);
+    return row;
 }
 
 /// The bunny scan half a metre high, centred; no triangles where it is absent.
@@ -117,22 +100,25 @@ percale::TriangleMesh bunny() {
     return mesh;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    const double seconds = argc > 1 ? std::atof(argv[1]) : 2.0;
-    if (!(seconds > 0.0)) {
-        std::fprintf(stderr, "usage: percale_step_cost [seconds simulated > 0]\n");
-        return 2;
-    }
+Figures measure(double seconds) {
     const percale::TriangleMesh ball = percale::make_sphere(0.25, 4), scan = bunny();
     std::printf("%-3s %4s %8s %7s  %7s %8s %6s %6s %7s %6s %8s  %6s %7s %7s\n", "", "N", "ms/step", "U", "refresh", "evaluate",
                 "force", "setup", "solve", "cut", "measure", "newton", "linear", "strain%");
+    Figures rows = Figures::array();
     for (const int n : {33, 65}) {
-        report("S1", n, make_scene(n, nullptr, 0.0), seconds);
-        report("S2", n, make_scene(n, &ball, 0.6), seconds);
-        if (!scan.triangles.empty()) report("S3", n, make_scene(n, &scan, 0.6), seconds);
+        rows.push_back(report("S1", n, make_scene(n, nullptr, 0.0), seconds));
+        rows.push_back(report("S2", n, make_scene(n, &ball, 0.6), seconds));
+        if (!scan.triangles.empty()) rows.push_back(report("S3", n, make_scene(n, &scan, 0.6), seconds));
     }
     if (scan.triangles.empty()) std::puts("S3 left out: no bunny00.off (PERCALE_REAL_MESHES names its folder)");
-    return 0;
+    return rows;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("What a 1/60 s step costs on three scenes, by stage.", "percale_step_cost");
+    double seconds = 2.0;
+    app.add_option("seconds", seconds, "seconds simulated")->capture_default_str()->check(CLI::Range(1e-3, 1e4));
+    return percale::test::run_bench(app, argc, argv, [&] { return measure(seconds); });
 }
