@@ -8,6 +8,7 @@
 #include "percale/contact.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
+#include "percale/plan.h"
 #include "percale/report.h"
 #include "percale/settings.h"
 
@@ -54,6 +55,8 @@ public:
     /// Checks the scene as a whole (no cloth starts inside or through an obstacle); throws SceneError. The first step calls it.
     void prepare();
     StepReport step();
+    /// What the coming steps are made of and what is left out; runs nothing. `to_come`: what will change later on.
+    ScenePlan plan(const ScriptedChanges& to_come = {}) const;
 
     double time() const;  // s
     int cloth_count() const;
