@@ -178,6 +178,8 @@ RunResult run_scene(BuiltScene& built, const RunHooks& hooks) {
     result.skipped = plan_of(built).skipped;
     result.totals.energy = built.simulation.energy();
     run_steps(built, hooks, result);
+    if (std::isnan(result.totals.energy.elastic))
+        result.measures.largest_strain = result.measures.energy_gain = result.totals.energy.elastic;
     add_end(result.measures, built.simulation, built.cloths);
     if (reference) result.measures.matches = largest_vertex_distance(built.simulation, built.cloths, *reference);
     result.totals.simulated_s = built.simulation.time();

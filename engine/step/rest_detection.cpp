@@ -44,6 +44,7 @@ void fall_asleep(World& world) {
     RestState& rest = world.rest;
     rest.asleep = true;
     world.state.velocities.resize(world.model.vertex_count());
+    // Zero, or still NaN where it is not measured.
     world.report.largest_speed *= 0.0;
     world.report.energy.kinetic *= 0.0;
     const StepReport& last = world.report;
