@@ -13,6 +13,7 @@ constexpr std::string_view scheme_words[] = {"symplectic_euler", "rk4", "backwar
 constexpr std::string_view solver_words[] = {"auto", "cg", "multigrid", "direct"};
 constexpr std::string_view response_words[] = {"penalty"};
 constexpr std::string_view damping_words[] = {"length_rate", "velocity"};
+constexpr std::string_view measure_words[] = {"all", "none"};
 
 constexpr Option<Fabric> fabric_list[] = {
     {.key = "area_density",
@@ -104,6 +105,16 @@ constexpr Option<StepSettings> step_list[] = {
      .choices = damping_words,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.damping_form); },
      .set_choice = [](StepSettings& s, int i) { s.damping_form = static_cast<DampingForm>(i); }},
+    {.key = "measure",
+     .unit = "",
+     .sentence = "What each step reports besides contacts: all = energy, strain and speed; none leaves them out.",
+     .choices = measure_words,
+     .get_choice = [](const StepSettings& s) { return static_cast<int>(s.measure); },
+     .set_choice = [](StepSettings& s, int i) { s.measure = static_cast<StepMeasures>(i); }},
+    {.key = "skip",
+     .unit = "",
+     .sentence = "Whether work that the scene does not need is left out (percale plan lists it); false runs everything.",
+     .flag = [](StepSettings& s) { return &s.skip; }},
 };
 
 void check_number(std::string_view owner, std::string_view key, std::string_view unit, double value, double low, double high) {

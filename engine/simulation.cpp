@@ -7,6 +7,7 @@
 #include "percale/error.h"
 #include "percale/options.h"
 #include "step/measure.h"
+#include "step/planning.h"
 #include "step/step.h"
 #include "support/hash.h"
 
@@ -72,6 +73,11 @@ struct Simulation::Implementation {
         const int at = vertex(id, index);
         if (world.script.free[at] == 0.0) return at;
         throw SceneError(cloth(id).name + ": " + call + " of vertex " + std::to_string(index) + ", which is not pinned");
+    }
+
+    void change(const StepSettings& settings) {
+        if (settings.gravity != world.settings.gravity || settings.time_step != world.settings.time_step) scene_changed(world);
+        world.settings = settings;
     }
 
     void pass_cloth_to_detector() {
@@ -156,6 +162,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     world.script.pin_targets = std::move(targets);
     implementation_->pass_cloth_to_detector();
     world.changed = true;
+    scene_changed(world);
     return {static_cast<int>(world.model.cloths.size()) - 1};
 }
 
@@ -170,8 +177,9 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
     check_mesh(mesh, settings.name, false);
     const Pose placed = normalised(pose);
     world.detector->add_obstacle(mesh, placed, settings.friction);
-    world.script.obstacles.push_back({settings.name, placed, placed});
+    world.script.obstacles.push_back({settings.name, placed, placed, static_cast<int>(mesh.triangles.size())});
     world.changed = true;
+    scene_changed(world);
     return {static_cast<int>(world.script.obstacles.size()) - 1};
 }
 
@@ -181,16 +189,21 @@ void Simulation::pin(ClothId cloth, int vertex) {
     world.script.free[at] = 0.0;
     world.script.pin_targets.set(at, world.state.positions.at(at));
     world.state.velocities.set(at, Vec3::Zero());
+    scene_changed(world);
 }
 
 void Simulation::unpin(ClothId cloth, int vertex) {
-    implementation_->world.script.free[implementation_->pinned_vertex(cloth, vertex, "unpin")] = 1.0;
+    World& world = implementation_->world;
+    world.script.free[implementation_->pinned_vertex(cloth, vertex, "unpin")] = 1.0;
+    scene_changed(world);
 }
 
 void Simulation::move_pin(ClothId cloth, int vertex, const Vec3& target) {
     const int at = implementation_->pinned_vertex(cloth, vertex, "move_pin");
     check_finite(target, implementation_->cloth(cloth).name + ": the target of pinned vertex " + std::to_string(vertex));
-    implementation_->world.script.pin_targets.set(at, target);
+    World& world = implementation_->world;
+    if (target != world.state.positions.at(at)) wake(world.rest);
+    world.script.pin_targets.set(at, target);
 }
 
 void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
@@ -200,20 +213,21 @@ void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
         throw SceneError(state.name + ": the scale of an obstacle cannot change, it is " + number_text(state.start.scale));
     }
     state.end = normalised(end);
+    if (state.end != state.start) wake(implementation_->world.rest);
 }
 
 void Simulation::set_gravity(const Vec3& gravity) {
     StepSettings settings = implementation_->world.settings;
     settings.gravity = gravity;
     check_options(settings, "set_gravity");
-    implementation_->world.settings = settings;
+    implementation_->change(settings);
 }
 
 void Simulation::set_time_step(double time_step) {
     StepSettings settings = implementation_->world.settings;
     settings.time_step = time_step;
     check_options(settings, "set_time_step");
-    implementation_->world.settings = settings;
+    implementation_->change(settings);
 }
 
 void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
@@ -231,6 +245,7 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     update_points(world.state);
     world.contact_energy = 0.0;  // known again after the next step
     world.changed = true;
+    wake(world.rest);
 }
 
 void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities) {
@@ -245,6 +260,7 @@ void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities)
         const bool free = world.script.free[range.first + i] > 0.0;
         world.state.velocities.set(range.first + i, free ? velocities[i] : Vec3(Vec3::Zero()));
     }
+    wake(world.rest);
 }
 
 void Simulation::prepare() {
@@ -259,6 +275,8 @@ StepReport Simulation::step() {
     prepare();
     return percale::step(implementation_->world);
 }
+
+ScenePlan Simulation::plan(const ScriptedChanges& to_come) const { return scene_plan(implementation_->world, to_come); }
 
 double Simulation::time() const { return implementation_->world.time; }
 

@@ -1,5 +1,6 @@
 #include "expectations.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -59,6 +60,12 @@ bool within(const Expectation& expectation, double value) {
     const bool high_enough = expectation.lowest_included ? value >= expectation.lowest : value > expectation.lowest;
     const bool low_enough = expectation.highest_included ? value <= expectation.highest : value < expectation.highest;
     return high_enough && low_enough;
+}
+
+bool read_step_measures(std::span<const Expectation> expectations) {
+    return std::any_of(expectations.begin(), expectations.end(), [](const Expectation& expectation) {
+        return expectation.measure == "largest_strain" || expectation.measure == "energy_gain";
+    });
 }
 
 std::vector<ExpectationResult> judge(std::span<const Expectation> expectations, const std::map<std::string, double>& measures) {

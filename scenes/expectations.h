@@ -34,6 +34,9 @@ std::string limit_text(const Expectation& expectation);
 /// Whether a value lies within the limits; NaN never does.
 bool within(const Expectation& expectation, double value);
 
+/// Whether one of them reads what steps report besides contacts (StepSettings::measure).
+bool read_step_measures(std::span<const Expectation> expectations);
+
 /// Judges every expectation by the measures of a run, by name.
 std::vector<ExpectationResult> judge(std::span<const Expectation> expectations, const std::map<std::string, double>& measures);
 

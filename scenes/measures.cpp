@@ -73,6 +73,7 @@ std::map<std::string, double> measure_values(const Measures& measures) {
         {"energy_gain", measures.energy_gain},
         {"lowest_vertex", measures.lowest_vertex},
     };
+    std::erase_if(values, [](const auto& value) { return std::isnan(value.second); });
     if (measures.matches) values["matches"] = *measures.matches;
     return values;
 }

@@ -31,12 +31,12 @@ struct Measures {
     double deepest_penetration = 0.0;                                    // m, largest over the frames
     double smallest_distance = std::numeric_limits<double>::infinity();  // m, over steps and frames; infinity: never near
     int worst_frame = -1;                                                // frame with the smallest distance; -1: never near
-    double largest_strain = 0.0;                                         // (l - l0)/l0 of structural springs, over the steps
-    double speed_at_end = 0.0;                                           // m/s, largest of a vertex
-    double rms_speed_at_end = 0.0;                                       // m/s, over all vertices
-    double energy_gain = 0.0;                                            // J, largest rise in a step beyond its work
-    double lowest_vertex = std::numeric_limits<double>::infinity();      // m, height at the end
-    std::optional<double> matches;                                       // m, largest distance from the reference at the end
+    double largest_strain = 0.0;    // (l - l0)/l0 of structural springs, over the steps; NaN: not measured
+    double speed_at_end = 0.0;      // m/s, largest of a vertex
+    double rms_speed_at_end = 0.0;  // m/s, over all vertices
+    double energy_gain = 0.0;       // J, largest rise in a step beyond its work; NaN: not measured
+    double lowest_vertex = std::numeric_limits<double>::infinity();  // m, height at the end
+    std::optional<double> matches;                                   // m, largest distance from the reference at the end
 
     FrameCheck worst;  // of the frame `worst_frame`
 };
@@ -53,7 +53,7 @@ void add_end(Measures& measures, const Simulation& simulation, std::span<const C
 /// Largest distance between the cloths' vertices, taken in order, and the reference's, m. The counts must be equal.
 double largest_vertex_distance(const Simulation& simulation, std::span<const ClothId> cloths, std::span<const Vec3> reference);
 
-/// By name, as expectations use them; worst_frame included, `matches` only where there is one.
+/// By name, as expectations use them; worst_frame included, without what was not measured.
 std::map<std::string, double> measure_values(const Measures& measures);
 
 }  // namespace percale::scenes

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "mesh_import.h"
+#include "scene_plan.h"
 #include "scene_text.h"
 #include "timeline.h"
 
@@ -112,6 +113,7 @@ void add_cost(RunTotals& totals, const StepReport& report) {
 
 void add_accepted(RunTotals& totals, const StepReport& report) {
     ++totals.steps;
+    totals.sleeping_steps += report.slept;
     totals.smallest_step_s = std::min(totals.smallest_step_s, report.smallest_dt);
     totals.largest_step_s = std::max(totals.largest_step_s, report.dt);
     totals.largest_residual = std::max(totals.largest_residual, report.residual);
@@ -173,8 +175,11 @@ RunResult run_scene(BuiltScene& built, const RunHooks& hooks) {
     const std::optional<std::vector<Vec3>> reference = read_reference(built);
     if (hooks.begin) hooks.begin();
     RunResult result;
+    result.skipped = plan_of(built).skipped;
     result.totals.energy = built.simulation.energy();
     run_steps(built, hooks, result);
+    if (std::isnan(result.totals.energy.elastic))
+        result.measures.largest_strain = result.measures.energy_gain = result.totals.energy.elastic;
     add_end(result.measures, built.simulation, built.cloths);
     if (reference) result.measures.matches = largest_vertex_distance(built.simulation, built.cloths, *reference);
     result.totals.simulated_s = built.simulation.time();

@@ -26,6 +26,7 @@ struct Frame {
 struct RunTotals {
     int steps = 0;           // accepted
     int rejected_steps = 0;  // steps that were redone as shorter ones
+    int sleeping_steps = 0;  // in which all cloth was at rest: not solved
     double simulated_s = 0.0;
     double smallest_step_s =
         std::numeric_limits<double>::infinity();  // of the parts that steps were solved in; infinity if none was accepted
@@ -45,6 +46,7 @@ struct RunResult {
     RunStatus status = RunStatus::finished;
     std::string reason;  // why it failed or was stopped
     RunTotals totals;
+    std::vector<Skip> skipped;  // as planned before the first step
     Measures measures;
 };
 

@@ -61,7 +61,7 @@ TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle) {
 }
 
 std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {
-    if (scene.obstacles.empty()) return nullptr;
+    if (scene.obstacles.empty() && (scene.step.skip || scene.detector == Detector::none)) return nullptr;
     switch (scene.detector) {
         case Detector::fcl:
             return make_fcl_detector();

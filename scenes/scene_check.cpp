@@ -137,6 +137,9 @@ void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot) {
             return;
         case KeyKind::word:
             return check_word(node, key, spot.shown);
+        case KeyKind::flag:
+            if (node.kind != TomlKind::boolean) fail_kind(node, key, spot.shown);
+            return;
         case KeyKind::number:
             return check_number(node, key, spot.shown);
         case KeyKind::integer:

@@ -32,6 +32,8 @@ void read_option(const TomlNode& table, const Option<Owner>& option, Owner& owne
         *option.number(owner) = node->number;
     } else if (option.integer) {
         *option.integer(owner) = static_cast<int>(node->integer);
+    } else if (option.flag) {
+        *option.flag(owner) = node->text == "true";
     } else if (option.number_or_auto) {
         *option.number_or_auto(owner) = node->is_number() ? std::optional(node->number) : std::nullopt;
     } else {

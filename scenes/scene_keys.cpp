@@ -34,6 +34,9 @@ SceneKey option_key(const std::string& table, const Option<Owner>& option) {
     } else if (option.integer) {
         key.kind = KeyKind::integer;
         key.default_text = std::to_string(*option.integer(defaults));
+    } else if (option.flag) {
+        key.kind = KeyKind::flag;
+        key.default_text = *option.flag(defaults) ? "true" : "false";
     } else if (option.number_or_auto) {
         key.kind = KeyKind::number_or_auto;
         const std::optional<double>& value = *option.number_or_auto(defaults);
@@ -301,6 +304,8 @@ std::string kind_text(const SceneKey& key) {
             return "a text";
         case KeyKind::word:
             return "one of " + joined(key.choices);
+        case KeyKind::flag:
+            return "true or false";
         case KeyKind::number:
             return "a number";
         case KeyKind::integer:

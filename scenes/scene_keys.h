@@ -10,6 +10,7 @@ namespace percale::scenes {
 enum class KeyKind {
     text,
     word,            // one of `choices`
+    flag,            // true or false
     number,          // in [lowest, highest]
     integer,         // in [lowest, highest]
     number_or_auto,  // or the word "auto"

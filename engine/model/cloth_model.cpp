@@ -11,6 +11,8 @@ void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fab
     const int first = model.vertex_count();
     append_springs(model.springs, rest, fabric, first, name);
     ClothRange range{.name = name, .first = first, .count = static_cast<int>(rest.vertices.size())};
+    range.grid = rest.is_grid();
+    range.fabric = fabric;
     for (const double mass : lumped_masses(rest, fabric.area_density)) {
         model.mass.push_back(mass);
         range.mass += mass;

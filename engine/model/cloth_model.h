@@ -17,6 +17,8 @@ struct ClothRange {
     int first = 0;
     int count = 0;
     double mass = 0.0;  // kg
+    bool grid = false;  // otherwise a free mesh
+    Fabric fabric = {};
 };
 
 /// All cloth of a simulation as one system: what does not change from step to step.

@@ -1,27 +1,62 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "percale/fabric.h"
+#include "percale/plan.h"
 #include "percale/settings.h"
 
 namespace percale {
 
-/// What a step of this scene needs, decided once when the scene changes.
+/// What a step of this scene needs, decided once when the scene changes. Motion alone is known step by step (set_motion).
 struct StepPlan {
     bool implicit = true;         // Newton and a matrix; otherwise an explicit update
-    bool contacts = false;        // there is cloth and an obstacle: lists, rows, cuts
+    bool free_vertices = true;    // there are vertices that are not pinned
+    bool solve = true;            // the coming step: a vertex is free, a pin moves, or contact has to be checked
+    bool contacts = false;        // detector: lists, rows, cuts
     bool obstacles_move = false;  // in the coming step
     bool pins_move = false;       // in the coming step
     DampingForm damping = DampingForm::length_rate;
+    bool pins = true;             // a vertex is pinned: targets are compared with places
+    bool pin_work = false;        // work of pins in the coming step is summed
+    bool still_obstacles = true;  // the detector is told about obstacles that stay where it knows them, too
+    bool gravity_energy = true;   // is measured
+    bool keep_work_space = true;  // pattern of the matrix and all sizes stay from step to step
+    bool measures = true;         // energy, strain and speed
+    bool rest = true;             // cloth at rest falls asleep
+    bool everything = false;      // nothing is skipped that could be done
+};
+
+/// What is known of one cloth.
+struct ClothFacts {
+    std::string name = {};
+    bool grid = true;
+    Fabric fabric = {};
 };
 
 /// What the plan is made from.
 struct SceneFacts {
     int cloth_vertices = 0;
+    int pinned_vertices = 0;
+    int cloth_triangles = 0;
+    SpringCounts springs = {};
+    bool damped = true;  // a spring has damping
     int obstacles = 0;
-    bool obstacles_move = false;
-    bool pins_move = false;
+    long obstacle_triangles = 0;
+    bool detector = false;         // there is one, with or without obstacles
+    ScriptedChanges changes = {};  // that are known of
+    std::vector<ClothFacts> cloths = {};
 };
 
-/// Explicit schemes use velocity damping, whatever the setting says about the implicit ones.
+/// Explicit schemes use velocity damping, whatever the setting says about the implicit ones. Without damping the velocity form is
+/// planned, too: it is the same force and needs no start lengths.
 StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts);
+
+/// Enters what moves in the coming step.
+void set_motion(StepPlan& plan, const ScriptedChanges& changes);
+
+/// Everything that a plan leaves out, with reasons; the plan must be that of the settings and facts.
+std::vector<Skip> skipped_by(const StepPlan& plan, const StepSettings& settings, const SceneFacts& facts);
 
 }  // namespace percale

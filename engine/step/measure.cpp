@@ -30,23 +30,37 @@ double largest_speed(const World& world) {
 
 }  // namespace
 
-StepEnergy current_energy(const World& world) {
+namespace {
+
+StepEnergy energy_of(const World& world, bool with_gravity) {
     StepEnergy energy;
     for (int i = 0; i < world.model.vertex_count(); ++i) {
         energy.kinetic += 0.5 * world.model.mass[i] * world.state.velocities.at(i).squaredNorm();
     }
-    energy.gravity = gravity_energy(world.model.mass, world.settings.gravity, world.state.positions);
+    if (with_gravity) energy.gravity = gravity_energy(world.model.mass, world.settings.gravity, world.state.positions);
     energy.elastic = elastic_energy(world.model.springs, world.state.positions);
     energy.contact = world.contact_energy;
     return energy;
 }
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+void leave_out(StepReport& report) {
+    report.energy = {.kinetic = unknown, .gravity = unknown, .elastic = unknown, .contact = unknown, .work = unknown};
+    report.largest_strain = report.largest_speed = unknown;
+}
+
+}  // namespace
+
+StepEnergy current_energy(const World& world) { return energy_of(world, true); }
+
 void measure_kept(World& world) {
     StepReport& report = world.report;
-    report.energy = current_energy(world);
+    report.smallest_distance = std::numeric_limits<double>::infinity();
+    if (!world.plan.measures) return leave_out(report);
+    report.energy = energy_of(world, world.plan.gravity_energy);
     report.largest_strain = largest_strain(world.model.springs, world.state.positions);
     report.largest_speed = largest_speed(world);
-    report.smallest_distance = std::numeric_limits<double>::infinity();
 }
 
 void measure(World& world) {
@@ -55,7 +69,7 @@ void measure(World& world) {
     const double work = report.energy.work;
     world.contact_energy = world.plan.contacts ? world.newton.current.forces.contact.energy : 0.0;
     measure_kept(world);
-    report.energy.work = work;
+    if (world.plan.measures) report.energy.work = work;
     if (!world.plan.contacts) return;
     const ContactRows& rows = world.newton.current.forces.rows;
     report.contacts = static_cast<int>(rows.size());

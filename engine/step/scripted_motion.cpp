@@ -1,23 +1,18 @@
 #include "scripted_motion.h"
 
+#include "planning.h"
+
 namespace percale {
-namespace {
-
-bool pin_moves(const World& world, int i) {
-    return world.script.free[i] == 0.0 && world.script.pin_targets.at(i) != world.state.positions.at(i);
-}
-
-}  // namespace
 
 void set_targets(World& world) {
-    SceneFacts facts{.cloth_vertices = world.model.vertex_count(), .obstacles = static_cast<int>(world.script.obstacles.size())};
-    for (int i = 0; i < world.model.vertex_count() && !facts.pins_move; ++i) facts.pins_move = pin_moves(world, i);
+    update_plan(world);
     for (std::size_t k = 0; k < world.script.obstacles.size(); ++k) {
-        const ObstacleState& obstacle = world.script.obstacles[k];
-        facts.obstacles_move = facts.obstacles_move || obstacle.start != obstacle.end;
+        ObstacleState& obstacle = world.script.obstacles[k];
+        const bool stays = obstacle.start == obstacle.end;
+        if (stays && obstacle.settled && !world.plan.still_obstacles) continue;
         world.detector->move_obstacle(static_cast<int>(k), obstacle.start, obstacle.end);
+        obstacle.settled = stays;
     }
-    world.plan = make_step_plan(world.settings, facts);
 }
 
 void finish_motion(World& world) {

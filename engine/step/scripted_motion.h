@@ -4,7 +4,8 @@
 
 namespace percale {
 
-/// Tells the detector where obstacles are at the ends of the coming step, and the plan what moves.
+/// Brings the plan up to date and tells the detector where obstacles are at the ends of the coming step, where it does not know
+/// it yet.
 void set_targets(World& world);
 
 /// After a good step: obstacles stay where they arrived.

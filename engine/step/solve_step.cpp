@@ -56,14 +56,14 @@ void solve_explicit(World& world) {
     } else {
         step_symplectic_euler(part, world.explicit_space, world.state);
     }
-    if (world.plan.pins_move) world.report.energy.work = explicit_work(world);
+    if (world.plan.pin_work) world.report.energy.work = explicit_work(world);
 }
 
 /// Work of pins and obstacles during the part just solved, J: a pin's reaction is what its residual lacks, M (v - v_n) - dt f.
 double script_work(const World& world, double dt) {
     const NewtonPoint& end = world.newton.current;
     double work = world.plan.contacts ? dt * end.forces.contact.obstacle_power : 0.0;
-    if (!world.plan.pins_move) return work;
+    if (!world.plan.pin_work) return work;
     for (int i = 0; i < world.model.vertex_count(); ++i) {
         if (world.script.free[i] > 0.0) continue;
         const Vec3 change = end.velocities.at(i) - world.newton.start_velocities.at(i);
@@ -168,7 +168,9 @@ bool solve_span(World& world, StepFraction span, int depth) {
 }  // namespace
 
 void solve_step(World& world) {
+    if (!world.plan.solve) return world.state.velocities.resize(world.model.vertex_count());
     if (!world.plan.implicit) return solve_explicit(world);
+    if (!world.plan.keep_work_space) world.newton = NewtonSpace{};
     const bool good = solve_span(world, {0.0, 1.0}, 0);
     if (good && world.report.halvings > 0 && world.report.status == StepStatus::ok) world.report.status = StepStatus::halved;
 }

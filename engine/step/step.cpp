@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "measure.h"
+#include "rest_detection.h"
 #include "scripted_motion.h"
 #include "solve_step.h"
 
@@ -30,6 +31,10 @@ void advance_time(World& world) {
 }  // namespace
 
 StepReport step(World& world) {
+    if (world.rest.asleep) {
+        advance_time(world);
+        return sleep_through(world);
+    }
     world.report = {};
     world.report.dt = world.report.smallest_dt = world.settings.time_step;
     world.before = world.state;
@@ -40,8 +45,10 @@ StepReport step(World& world) {
         finish_motion(world);
         advance_time(world);
         measure(world);
+        update_rest(world);
     } else {
         world.state = world.before;
+        wake(world.rest);
         measure_kept(world);
     }
     world.report.time = world.time;

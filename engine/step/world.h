@@ -9,6 +9,7 @@
 #include "model/step_plan.h"
 #include "percale/contact.h"
 #include "percale/report.h"
+#include "rest_detection.h"
 #include "solve/explicit_update.h"
 #include "solve/newton.h"
 
@@ -17,6 +18,8 @@ namespace percale {
 struct ObstacleState {
     std::string name;
     Pose start, end;  // of the coming step
+    int triangles = 0;
+    bool settled = true;  // the detector knows that it stays at `start`
 };
 
 /// What the script says about the coming step.
@@ -34,6 +37,8 @@ struct World {
     ClothState state;
     Script script;
     StepPlan plan;
+    bool plan_outdated = true;  // the scene has changed since the plan was made
+    RestState rest;
     std::unique_ptr<ContactDetector> detector;
     double time = 0.0;        // s
     double time_error = 0.0;  // s, what rounding has added to it

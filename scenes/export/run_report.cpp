@@ -31,6 +31,7 @@ void put_counts(ordered_json& json, const Scene& scene, const RunTotals& totals)
     json["simulated_s"] = totals.simulated_s;
     json["steps"] = totals.steps;
     json["rejected_steps"] = totals.rejected_steps;
+    json["sleeping_steps"] = totals.sleeping_steps;
     json["smallest_step_s"] = totals.smallest_step_s;
     json["largest_step_s"] = totals.largest_step_s;
     json["newton_iterations"] = totals.newton_iterations;
@@ -106,39 +107,13 @@ ordered_json obstacle_list(const BuiltScene& built) {
     return list;
 }
 
-ordered_json skipped_list(const BuiltScene& built) {
+ordered_json skipped_list(std::span<const Skip> skipped) {
     ordered_json list = ordered_json::array();
-    for (const SkippedPart& part : skipped_parts(built)) list.push_back({{"what", part.what}, {"why", part.why}});
+    for (const Skip& skip : skipped) list.push_back({{"what", skip.what}, {"why", skip.why}});
     return list;
 }
 
-void add_skipped_springs(const Scene& scene, const ClothSpec& cloth, std::vector<SkippedPart>& parts) {
-    const auto fabric = scene.fabrics.find(cloth.fabric);
-    if (fabric == scene.fabrics.end()) return;
-    const std::string key = "fabric." + cloth.fabric + ".";
-    const SpringConstants& springs = fabric->second.springs;
-    if (springs.structural == 0.0) parts.push_back({"structural springs of " + cloth.name, key + "springs.structural is 0"});
-    if (!cloth.grid)
-        parts.push_back({"shear springs of " + cloth.name, "a free mesh has none"});
-    else if (springs.shear == 0.0)
-        parts.push_back({"shear springs of " + cloth.name, key + "springs.shear is 0"});
-    if (springs.bend == 0.0) parts.push_back({"bending springs of " + cloth.name, key + "springs.bend is 0"});
-    if (fabric->second.spring_damping == 0.0) parts.push_back({"damping of " + cloth.name, key + "spring_damping is 0"});
-}
-
 }  // namespace
-
-std::vector<SkippedPart> skipped_parts(const BuiltScene& built) {
-    const Scene& scene = built.scene;
-    std::vector<SkippedPart> parts;
-    if (scene.obstacles.empty())
-        parts.push_back({"contact", "the scene has no obstacle"});
-    else if (scene.detector == Detector::none)
-        parts.push_back({"contact", "step.detector is none"});
-    if (is_explicit(scene.step.scheme)) parts.push_back({"linear solver", "step.scheme is explicit"});
-    for (const ClothSpec& cloth : scene.cloths) add_skipped_springs(scene, cloth, parts);
-    return parts;
-}
 
 std::string run_report_text(const BuiltScene& built, const RunResult& result, std::span<const FrameRecord> frames,
                             std::span<const ExpectationResult> expectations) {
@@ -150,7 +125,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     put_counts(json, built.scene, result.totals);
     put_costs(json, result.totals);
     json["obstacles"] = obstacle_list(built);
-    json["skipped"] = skipped_list(built);
+    json["skipped"] = skipped_list(result.skipped);
     put_contact_and_energy(json, result.totals);
     put_measures(json, result.measures);
     json["expectations"] = expectation_list(expectations);

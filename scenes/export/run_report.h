@@ -10,12 +10,6 @@
 
 namespace percale::scenes {
 
-/// A part of the work that a scene does not need.
-struct SkippedPart {
-    std::string what, why;
-};
-std::vector<SkippedPart> skipped_parts(const BuiltScene& built);
-
 /// report.json as text: status, counts, costs, energies, measures, expectations, frames and every setting used. SI units; what
 /// JSON cannot say (infinity) is null; the order of the entries is fixed.
 std::string run_report_text(const BuiltScene& built, const RunResult& result, std::span<const FrameRecord> frames,

@@ -16,6 +16,7 @@ template <class Owner>
 ordered_json option_value(Owner& owner, const Option<Owner>& option) {
     if (option.number) return *option.number(owner);
     if (option.integer) return *option.integer(owner);
+    if (option.flag) return *option.flag(owner);
     if (option.get_choice) return std::string(option.choices[static_cast<std::size_t>(option.get_choice(owner))]);
     const std::optional<double>& value = *option.number_or_auto(owner);
     return value ? ordered_json(*value) : ordered_json("auto");

@@ -13,7 +13,7 @@ namespace percale::scenes {
 std::string step_table_header();
 
 /// One line, without its end. Times in s, distance in m, energy (total) in J, 17 digits; an infinite distance is written as
-/// `inf`, hashes as 16 hexadecimal digits, an absent state hash as nothing.
+/// `inf`, an energy that was not measured as `nan`, hashes as 16 hexadecimal digits, an absent state hash as nothing.
 std::string step_table_line(const StepReport& report, std::optional<std::uint64_t> state_hash);
 
 /// steps.csv: one line a step, a failed one included.

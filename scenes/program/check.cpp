@@ -41,7 +41,10 @@ std::string rounded_text(double value) {
 }
 
 void run_into(Outcome& outcome, const std::vector<Override>& overrides, const StopSignals& signals) {
-    BuiltScene built = build_scene(load_scene(outcome.scene.file, overrides));
+    Scene scene = load_scene(outcome.scene.file, overrides);
+    // Nothing else of this command reads them.
+    if (!read_step_measures(scene.expectations)) scene.step.measure = StepMeasures::none;
+    BuiltScene built = build_scene(scene);
     RunHooks hooks;
     hooks.stop_asked = [&] { return signals.asked(); };
     const RunResult result = run_scene(built, hooks);

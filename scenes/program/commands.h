@@ -13,6 +13,7 @@ using Action = std::function<int()>;
 
 // Each adds one subcommand to the program, which sets the action when it is given.
 void add_run_command(CLI::App& program, Action& action);
+void add_plan_command(CLI::App& program, Action& action);
 void add_check_command(CLI::App& program, Action& action);
 void add_explain_command(CLI::App& program, Action& action);
 void add_certify_command(CLI::App& program, Action& action);

@@ -8,10 +8,15 @@
 
 namespace percale::program {
 
-void add_common_options(CLI::App& command, CommonOptions& options) {
+void add_scene_options(CLI::App& command, CommonOptions& options) {
     command.add_option("--set", options.set, "Override one key of the scene file; may be given several times")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+    command.add_flag("--no-skip", options.no_skip, "Run also what the scene does not need (step.skip = false)");
+}
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+    add_scene_options(command, options);
     command.add_option("--threads", options.threads, "Threads of the simulation; 1 in this version")->type_name("N");
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
     command.add_option("--frames", options.frames, "Format of the frames: none or obj")->type_name("FORMAT");
@@ -55,6 +60,7 @@ std::vector<scenes::Override> scene_overrides(const CommonOptions& options) {
             throw SceneError("--set " + text + ": must be KEY=VALUE, such as --set step.time_step=0.01");
         overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
     }
+    if (options.no_skip) overrides.push_back({"step.skip", "false"});
     if (!options.frames.empty()) overrides.push_back({"output.frames", "\"" + options.frames + "\""});
     if (!options.fps.empty()) overrides.push_back({"output.fps", options.fps});
     return overrides;

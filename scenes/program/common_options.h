@@ -19,8 +19,12 @@ struct CommonOptions {
     int threads = 1;
     bool quiet = false;
     bool replay_hash = false;
+    bool no_skip = false;
 };
 
+/// --set and --no-skip: what changes the scene.
+void add_scene_options(CLI::App& command, CommonOptions& options);
+/// These and all others.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
 /// Throws SceneError for what this build lacks or what is out of range.

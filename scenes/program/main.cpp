@@ -15,8 +15,8 @@ namespace percale::program {
 
 namespace {
 
-const std::vector<std::string> commands_here = {"run", "check", "explain", "certify", "drape"};
-const std::vector<std::string> commands_later = {"plan", "doctor", "compare", "stress", "report", "render"};
+const std::vector<std::string> commands_here = {"run", "plan", "check", "explain", "certify", "drape"};
+const std::vector<std::string> commands_later = {"doctor", "compare", "stress", "report", "render"};
 
 bool holds(const std::vector<std::string>& list, const std::string& word) {
     return std::find(list.begin(), list.end(), word) != list.end();
@@ -43,6 +43,7 @@ int parse_and_act(int argc, char** argv) {
     program.require_subcommand(1);
     Action action;
     add_run_command(program, action);
+    add_plan_command(program, action);
     add_check_command(program, action);
     add_explain_command(program, action);
     add_certify_command(program, action);

@@ -19,7 +19,7 @@ void check_descriptions(std::span<const Option<Owner>> options) {
         CHECK(option.sentence.size() > 10);
         CHECK(option.sentence.back() == '.');
         const int fields = (option.number != nullptr) + (option.integer != nullptr) + (option.number_or_auto != nullptr) +
-                           (option.get_choice != nullptr);
+                           (option.flag != nullptr) + (option.get_choice != nullptr);
         CHECK(fields == 1);
         CHECK((option.get_choice != nullptr) == (option.set_choice != nullptr));
         CHECK((option.get_choice != nullptr) == !option.choices.empty());
@@ -40,7 +40,7 @@ std::string refusal(const Option<Owner>& option, double value) {
 template <class Owner>
 void check_ranges(std::span<const Option<Owner>> options) {
     for (const Option<Owner>& option : options) {
-        if (option.get_choice) continue;
+        if (option.get_choice || option.flag) continue;
         CAPTURE(option.key);
         CHECK(refusal(option, option.lowest) == "");
         CHECK(refusal(option, option.highest) == "");

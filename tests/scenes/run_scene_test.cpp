@@ -229,6 +229,20 @@ TEST_CASE("a reference that is missing or of another size is refused before anyt
     CHECK_FALSE(begun);
 }
 
+TEST_CASE("what steps do not measure is left open, and the rest is the same bit for bit") {
+    const Recorded all = record(scene_of(sheet_on_box()));
+    const Recorded none = record(scene_of(sheet_on_box(), {{"step.measure", "none"}}));
+    CHECK(std::isnan(none.result.measures.largest_strain));
+    CHECK(std::isnan(none.result.measures.energy_gain));
+    CHECK(std::isnan(none.result.totals.energy.total()));
+    const std::map<std::string, double> values = measure_values(none.result.measures);
+    CHECK_FALSE((values.contains("largest_strain") || values.contains("energy_gain")));
+    CHECK(values.at("speed_at_end") == all.result.measures.speed_at_end);
+    CHECK(values.at("smallest_distance") == all.result.measures.smallest_distance);
+    CHECK(none.hashes == all.hashes);
+    for (std::size_t i = 0; i < all.steps.size(); ++i) CHECK(none.steps[i].contact_hash == all.steps[i].contact_hash);
+}
+
 TEST_CASE("statuses have the words of the report") {
     CHECK(std::string(status_word(RunStatus::finished)) == "finished");
     CHECK(std::string(status_word(RunStatus::failed)) == "failed");

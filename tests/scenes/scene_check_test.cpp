@@ -78,6 +78,13 @@ TEST_CASE("a number out of range is told with key, value, unit and allowed range
     CHECK(fault("gravity = [0, -9.81]\n") == "t:1:11: gravity must be a list of 3 numbers (m/s^2), not a list of 2");
 }
 
+TEST_CASE("a flag is true or false and nothing like it") {
+    for (const char* good : {"true", "false"}) CHECK(fault_after(std::string("[step]\nskip = ") + good + "\n") == no_fault);
+    for (const char* bad : {"0", "\"true\"", "[true]"})
+        CHECK(fault_after(std::string("[step]\nskip = ") + bad + "\n").find("step.skip must be true or false") !=
+              std::string::npos);
+}
+
 TEST_CASE("the ends of every option's range are allowed and what lies beyond is not") {
     const auto try_value = [](const std::string& table, const std::string& key, double value) {
         return fault_after("[" + table + "]\n" + key + " = " + number_text(value) + "\n");
@@ -95,7 +102,7 @@ TEST_CASE("the ends of every option's range are allowed and what lies beyond is 
         CHECK(try_fabric(key, option.lowest - 1.0).find("is out of range") != std::string::npos);
     }
     for (const auto& option : step_options()) {
-        if (!option.choices.empty()) continue;
+        if (!option.choices.empty() || option.flag) continue;
         const std::string key(option.key);
         CAPTURE(key);
         CHECK(try_value("step", key, option.lowest) == no_fault);

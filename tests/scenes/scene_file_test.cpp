@@ -49,7 +49,7 @@ TEST_CASE("top-level keys, steps and output are read") {
     const Scene scene = scene_with(
         "title = \"flag\"\nduration = 2\ngravity = [0, -1.5, 0.5]\n"
         "[step]\ntime_step = 0.01\nscheme = \"rk4\"\nnewton_tolerance = 1e-6\nnewton_iterations = 3\nlinear_solver = \"cg\"\n"
-        "contact_response = \"penalty\"\ndetector = \"none\"\ndamping_form = \"velocity\"\n"
+        "contact_response = \"penalty\"\ndetector = \"none\"\ndamping_form = \"velocity\"\nmeasure = \"none\"\nskip = false\n"
         "[output]\nframes = \"none\"\nfps = 60\n");
     CHECK(scene.title == "flag");
     CHECK(scene.duration == 2.0);
@@ -61,6 +61,8 @@ TEST_CASE("top-level keys, steps and output are read") {
     CHECK(scene.step.linear_solver == LinearSolver::cg);
     CHECK(scene.step.contact_response == ContactResponse::penalty);
     CHECK(scene.step.damping_form == DampingForm::velocity);
+    CHECK(scene.step.measure == StepMeasures::none);
+    CHECK_FALSE(scene.step.skip);
     CHECK(scene.detector == Detector::none);
     CHECK(scene.output.frames == FrameFormat::none);
     CHECK(scene.output.fps == 60.0);
@@ -71,6 +73,7 @@ TEST_CASE("every word of a choice means its value") {
     CHECK(scene_set("step.scheme", "backward_euler").step.scheme == Scheme::backward_euler);
     CHECK(scene_set("step.linear_solver", "auto").step.linear_solver == LinearSolver::automatic);
     CHECK(scene_set("step.damping_form", "length_rate").step.damping_form == DampingForm::length_rate);
+    CHECK(scene_set("step.skip", "true").step.skip);
     CHECK(scene_set("step.detector", "fcl").detector == Detector::fcl);
     CHECK(scene_set("step.detector", "bullet").detector == Detector::bullet);
     CHECK(scene_set("step.detector", "brute_force").detector == Detector::brute_force);

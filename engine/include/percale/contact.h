@@ -78,7 +78,8 @@ public:
     /// Returns the obstacle's number. Throws SceneError if nothing is left of the mesh after cleaning.
     virtual int add_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) = 0;
 
-    /// Where the obstacle is at the two ends of the coming step. The scale must not change.
+    /// Where the obstacle is at the two ends of the coming step and of all later ones until the next call. The scale must not
+    /// change.
     virtual void move_obstacle(int obstacle, const Pose& start, const Pose& end) = 0;
 
     /// Whether this start may be simulated: no crossing, no touching, no vertex inside a watertight obstacle.

@@ -24,6 +24,7 @@ struct Option {
     // Exactly one of these is set; it names the field.
     double* (*number)(Owner&) = nullptr;
     int* (*integer)(Owner&) = nullptr;
+    bool* (*flag)(Owner&) = nullptr;
     std::optional<double>* (*number_or_auto)(Owner&) = nullptr;  // the word "auto" stands for empty
     int (*get_choice)(const Owner&) = nullptr;                   // index into choices
     void (*set_choice)(Owner&, int) = nullptr;

@@ -6,6 +6,7 @@
 #include "percale/fabric.h"
 #include "percale/mesh.h"
 #include "percale/options.h"
+#include "percale/plan.h"
 #include "percale/report.h"
 #include "percale/settings.h"
 #include "percale/simulation.h"

@@ -39,7 +39,8 @@ struct StepEnergy {
     double total() const { return kinetic + gravity + elastic + contact; }
 };
 
-/// What one step did. A failed step leaves positions and velocities as they were.
+/// What one step did. A failed step leaves positions and velocities as they were. Energy, strain and speed are NaN where
+/// StepSettings::measure leaves them out.
 struct StepReport {
     StepStatus status = StepStatus::ok;
     double time = 0.0;         // s, at the end of the step
@@ -51,6 +52,8 @@ struct StepReport {
     int halvings = 0;                // how often the step was redone shorter
     double residual = 0.0;           // relative to the first of the step, or to gravity's impulse where that is larger
     double smallest_fraction = 1.0;  // smallest part of a move that was free of crossing
+    int sleeping_cloths = 0;         // at rest
+    bool slept = false;              // all were: the step was not solved, the figures are those of the last one that was
     int contacts = 0;                // contact rows at the end
     double smallest_distance = 0.0;  // m; infinity if nothing was near
     double contact_stiffness = 0.0;  // N/m, largest of the step

@@ -10,6 +10,7 @@ enum class Scheme { symplectic_euler, rk4, backward_euler };
 enum class LinearSolver { automatic, cg, multigrid, direct };
 enum class ContactResponse { penalty };
 enum class DampingForm { length_rate, velocity };
+enum class StepMeasures { all, none };
 
 /// How the simulation steps. Ranges and sentences of every field: options.h.
 struct StepSettings {
@@ -22,7 +23,10 @@ struct StepSettings {
     ContactResponse contact_response = ContactResponse::penalty;
     /// length_rate: kd (l - l_n)/dt along the current direction, backward Euler only; velocity: kd (v_ij . d).
     DampingForm damping_form = DampingForm::length_rate;
-    int threads = 1;                       // of one simulation; this version has one
+    int threads = 1;  // of one simulation; this version has one
+    /// none: a step report has no energy, strain and speed (NaN); Simulation::energy still tells on demand.
+    StepMeasures measure = StepMeasures::all;
+    bool skip = true;                      // leave out what the scene does not need (Simulation::plan); false runs everything
     Vec3 gravity = Vec3(0.0, -9.81, 0.0);  // m/s^2
 };
 

@@ -8,6 +8,7 @@
 #include "percale/contact.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
+#include "percale/plan.h"
 #include "percale/report.h"
 #include "percale/settings.h"
 
@@ -55,6 +56,8 @@ public:
     /// obstacle, SceneError where the scheme takes no obstacles.
     void prepare();
     StepReport step();
+    /// What the coming steps are made of and what is left out; runs nothing. `to_come`: what will change later on.
+    ScenePlan plan(const ScriptedChanges& to_come = {}) const;
 
     double time() const;  // s
     int cloth_count() const;

@@ -1,5 +1,6 @@
 #include "engine/step/measure.h"
 
+#include <cmath>
 #include <limits>
 
 #include "engine/step/step.h"
@@ -41,6 +42,20 @@ TEST_CASE("Strain and speed are the largest ones; without contact nothing is nea
     CHECK(world.report.contacts == 0);
     CHECK(world.report.energy.work == 7.0);  // counted by the solve, kept by the measure
     CHECK(world.report.stages.measure >= 0.0);
+}
+
+TEST_CASE("What is not to be measured is NaN in the report and still told on demand") {
+    for (const bool skip : {true, false}) {
+        World world = moving_pair();
+        world.settings.measure = StepMeasures::none;
+        world.settings.skip = skip;
+        const StepReport report = step(world);
+        CHECK(std::isnan(report.energy.total()) == skip);
+        CHECK(std::isnan(report.energy.work) == skip);
+        CHECK(std::isnan(report.largest_strain) == skip);
+        CHECK(std::isnan(report.largest_speed) == skip);
+        CHECK(std::isfinite(current_energy(world).total()));
+    }
 }
 
 TEST_CASE("Contacts are counted and hashed, and the hash follows their distances") {

@@ -25,9 +25,9 @@ ordered_json report_of(const BuiltScene& scene, const RunResult& result, const s
     return ordered_json::parse(run_report_text(scene, result, frames, expectations));
 }
 
-bool skips(const BuiltScene& scene, const std::string& what) {
-    for (const SkippedPart& part : skipped_parts(scene))
-        if (part.what == what) return !part.why.empty();
+bool skips(const ordered_json& report, const std::string& what) {
+    for (const ordered_json& part : report.at("skipped"))
+        if (part.at("what") == what) return !part.at("why").get<std::string>().empty();
     return false;
 }
 
@@ -41,6 +41,7 @@ TEST_CASE("a report holds every entry that users may rely on") {
                             "simulated_s",
                             "steps",
                             "rejected_steps",
+                            "sleeping_steps",
                             "smallest_step_s",
                             "largest_step_s",
                             "newton_iterations",
@@ -145,17 +146,29 @@ TEST_CASE("expectations are listed with measure, value, limit and outcome") {
 }
 
 TEST_CASE("what a scene does not need is listed as skipped, what it needs is not") {
-    const BuiltScene plain = built(sheet_on_box());
-    CHECK_FALSE(skips(plain, "contact"));
-    CHECK_FALSE(skips(plain, "linear solver"));
-    CHECK_FALSE(skips(plain, "shear springs of sheet"));
-    CHECK_FALSE(skips(plain, "damping of sheet"));
-    const BuiltScene bare = built(falling_sheet(), {{"fabric.sheet.springs.shear", "0"}, {"fabric.sheet.springs.bend", "0"}});
-    CHECK(skips(bare, "contact"));
-    CHECK(skips(bare, "linear solver"));
-    CHECK(skips(bare, "shear springs of sheet"));
-    CHECK(skips(bare, "bending springs of sheet"));
-    CHECK(skips(bare, "damping of sheet"));
+    const std::string contact = "contact detection, rows, cuts and predicted positions";
+    BuiltScene plain = built(sheet_on_box());
+    const ordered_json report = report_of(plain, run_scene(plain));
+    CHECK_FALSE(skips(report, contact));
+    CHECK_FALSE(skips(report, "matrix and linear solve"));
+    CHECK_FALSE(skips(report, "shear springs of sheet"));
+    CHECK(skips(report, "motion of obstacles"));
+    BuiltScene bare = built(falling_sheet(), {{"fabric.sheet.springs.shear", "0"}, {"fabric.sheet.springs.bend", "0"}});
+    const ordered_json bare_report = report_of(bare, run_scene(bare));
+    CHECK(skips(bare_report, contact));
+    CHECK(skips(bare_report, "matrix and linear solve"));
+    CHECK(skips(bare_report, "shear springs of sheet"));
+    CHECK(skips(bare_report, "bending springs of sheet"));
+}
+
+TEST_CASE("steps in which all cloth slept are counted, and none where nothing is skipped") {
+    const Override shifted{"obstacle.box.pose.translation", "[0.1, -0.25, 0.03]"};
+    BuiltScene scene = built(sheet_on_box(), {{"duration", "2"}, shifted});
+    const RunResult result = run_scene(scene);
+    CHECK(result.totals.sleeping_steps > 30);
+    CHECK(report_of(scene, result).at("sleeping_steps") == result.totals.sleeping_steps);
+    BuiltScene whole = built(sheet_on_box(), {{"duration", "2"}, shifted, {"step.skip", "false"}});
+    CHECK(run_scene(whole).totals.sleeping_steps == 0);
 }
 
 TEST_CASE("frames read back from a report are those that were listed") {

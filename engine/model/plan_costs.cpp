@@ -1,0 +1,43 @@
+#include "plan_costs.h"
+
+#include <algorithm>
+
+#include "schemes.h"
+
+namespace percale {
+namespace {
+
+// Bytes, as allocated after some steps of grids of 33 to 97 vertices a side.
+struct MemoryShare {
+    double vertex, spring;
+};
+constexpr MemoryShare implicit_memory = {1054.0, 233.0};
+constexpr MemoryShare explicit_memory = {520.0, 112.0};
+constexpr double more_stages = 168.0;  // a vertex, of Runge-Kutta
+constexpr double near_cloth_triangle = 270.0;
+constexpr double obstacle_triangle = 475.0;
+
+// Newton iterations of a step and linear iterations of each, the mean over the scenes in data/scenes.
+constexpr int free_newton = 3, contact_newton = 5;
+constexpr double linear_iterations = 42.0;
+// Cost over that of one evaluation of all springs.
+constexpr double linear_cost = 1.2, newton_cost = 2.3, step_cost = 2.0;
+
+}  // namespace
+
+double predicted_memory(const StepPlan& plan, const StepSettings& settings, const SceneFacts& facts) {
+    const MemoryShare share = plan.implicit ? implicit_memory : explicit_memory;
+    double bytes = share.vertex * facts.cloth_vertices + share.spring * facts.springs.total();
+    if (settings.scheme == Scheme::rk4) bytes += more_stages * facts.cloth_vertices;
+    if (plan.contacts) bytes += near_cloth_triangle * facts.cloth_triangles;
+    return bytes + obstacle_triangle * static_cast<double>(facts.obstacle_triangles);
+}
+
+double predicted_evaluations(const StepPlan& plan, const StepSettings& settings) {
+    if (!plan.solve) return 0.0;
+    if (!plan.implicit) return facts_of(settings.scheme).force_evaluations;
+    const int newton = std::min(plan.contacts ? contact_newton : free_newton, settings.newton_iterations);
+    return newton * (linear_iterations * linear_cost + newton_cost) + step_cost;
+}
+
+}  // namespace percale

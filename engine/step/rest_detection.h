@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "model/vectors.h"
+#include "percale/report.h"
+
+namespace percale {
+
+struct World;
+
+/// For how long a cloth has been still.
+struct ClothRest {
+    double still_time = 0.0;  // s
+    bool asleep = false;
+};
+
+struct RestState {
+    std::vector<ClothRest> cloths;
+    Vectors anchor;       // m, where each vertex was when its cloth became still
+    bool asleep = false;  // all cloths: steps are not solved
+    StepReport figures;   // of the last step that was solved
+};
+
+/// After a good step: follows how long each cloth has been still, and lets all fall asleep (velocities become zero) once every
+/// one is at rest. A cloth is at rest if for 0.5 s
+/// - no vertex was farther than 0.002 of the thickness from where it was when that time began, and now
+/// - the net force on each free vertex (springs, gravity, contact, friction) is below 0.02 of its weight (without gravity: below
+/// what moves
+///   it by that distance in that time),
+/// while no pin and no obstacle moved and every step converged. Two conditions, as a swing is slow where it turns and
+/// balanced where it is fast.
+void update_rest(World& world);
+
+/// Whatever changes the scene calls this.
+void wake(RestState& rest);
+
+/// A step of a simulation asleep: time passes, the state stays, the report repeats the last figures.
+StepReport sleep_through(World& world);
+
+}  // namespace percale

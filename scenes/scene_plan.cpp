@@ -1,0 +1,104 @@
+#include "scene_plan.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "percale/options.h"
+#include "run_scene.h"
+#include "scene_text.h"
+
+namespace percale::scenes {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ScriptedChanges changes_of(const Scene& scene) {
+    ScriptedChanges changes;
+    changes.obstacles = std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
+                                    [](const ObstacleSpec& obstacle) { return !obstacle.motion.empty() || obstacle.spin; });
+    for (const EventSpec& event : scene.events) {
+        const bool gravity = std::holds_alternative<GravityEvent>(event.what);
+        changes.gravity = changes.gravity || gravity;
+        changes.pins = changes.pins || !gravity;
+    }
+    return changes;
+}
+
+std::string scheme_word(const StepSettings& settings) {
+    for (const Option<StepSettings>& option : step_options())
+        if (option.key == "scheme") return std::string(option.choices[static_cast<std::size_t>(option.get_choice(settings))]);
+    return "";
+}
+
+std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
+
+std::string line(const std::string& label, const std::string& value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%-11s", label.c_str());
+    return text + value + "\n";
+}
+
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+std::string steps_text(const Scene& scene) {
+    const StepCount count = count_steps(scene.duration, scene.step.time_step);
+    return counted(count.steps, "step") + " of " + short_number(scene.step.time_step) + " s, " + scheme_word(scene.step);
+}
+
+std::string springs_text(const SpringCounts& springs) {
+    return std::to_string(springs.total()) + " (" + std::to_string(springs.structural) + " structural, " +
+           std::to_string(springs.shear) + " shear, " + std::to_string(springs.bend) + " bending)";
+}
+
+}  // namespace
+
+ScenePlan plan_of(const BuiltScene& built) { return built.simulation.plan(changes_of(built.scene)); }
+
+std::string plan_text(const BuiltScene& built) {
+    const ScenePlan plan = plan_of(built);
+    std::string text = line("title", built.scene.title) + line("steps", steps_text(built.scene));
+    text += line("vertices", std::to_string(plan.vertices) + ", " + std::to_string(plan.pinned_vertices) + " pinned");
+    text += line("springs", springs_text(plan.springs));
+    for (std::size_t i = 0; i < built.obstacles.size(); ++i)
+        text += line("obstacle", built.scene.obstacles[i].name + ", " +
+                                     counted(static_cast<long>(built.obstacle_meshes[i].triangles.size()), "triangle"));
+    const bool detects = plan.obstacles > 0;
+    text += line("memory",
+                 short_number(1e-6 * plan.memory_bytes) + " MB predicted" + (detects ? ", lists of near pairs on top" : ""));
+    text += line("cost", short_number(plan.evaluations_a_step) + " evaluations of all springs a step predicted" +
+                             (detects ? ", detection on top" : ""));
+    text += plan.skipped.empty() ? line("skipped", "nothing") : "skipped\n";
+    for (const Skip& skip : plan.skipped) text += "  " + skip.what + ": " + skip.why + "\n";
+    return text;
+}
+
+std::string plan_json(const BuiltScene& built) {
+    const ScenePlan plan = plan_of(built);
+    const StepCount count = count_steps(built.scene.duration, built.scene.step.time_step);
+    ordered_json json;
+    json["title"] = built.scene.title;
+    json["scene"] = built.scene.file;
+    json["scheme"] = scheme_word(built.scene.step);
+    json["time_step_s"] = built.scene.step.time_step;
+    json["steps"] = count.steps;
+    json["vertices"] = plan.vertices;
+    json["pinned_vertices"] = plan.pinned_vertices;
+    json["springs"] = {{"structural", plan.springs.structural}, {"shear", plan.springs.shear}, {"bend", plan.springs.bend}};
+    json["obstacles"] = ordered_json::array();
+    for (std::size_t i = 0; i < built.obstacles.size(); ++i)
+        json["obstacles"].push_back(
+            {{"name", built.scene.obstacles[i].name}, {"triangles", built.obstacle_meshes[i].triangles.size()}});
+    json["memory_bytes"] = plan.memory_bytes;
+    json["evaluations_a_step"] = plan.evaluations_a_step;
+    json["skipped"] = ordered_json::array();
+    for (const Skip& skip : plan.skipped) json["skipped"].push_back({{"what", skip.what}, {"why", skip.why}});
+    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "percale/plan.h"
+#include "scene_build.h"
+
+namespace percale::scenes {
+
+/// The plan of a built scene before its first step, with the motion and events that its file holds.
+ScenePlan plan_of(const BuiltScene& built);
+
+/// The plan for people: title, scheme, counts, obstacles with their triangles, what is left out and why, predicted memory and
+/// cost.
+std::string plan_text(const BuiltScene& built);
+
+/// The same as a JSON object; SI units, memory in bytes.
+std::string plan_json(const BuiltScene& built);
+
+}  // namespace percale::scenes

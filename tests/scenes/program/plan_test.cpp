@@ -1,0 +1,43 @@
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenes/program/run_program.h"
+#include "tests/scenes/small_scenes.h"
+#include "tests/support/catch.h"
+
+using namespace percale::program::test;
+using percale::scenes::test::sheet_on_box;
+
+TEST_CASE("plan prints the plan of a scene and writes nothing") {
+    const TestFolder folder;
+    folder.write("sheet.toml", sheet_on_box());
+    const ProgramRun run = run_program({"plan", "sheet.toml"}, folder.path());
+    CHECK(run.exit_code == 0);
+    CHECK(run.error.empty());
+    CHECK(run.out.find("36, 0 pinned") != std::string::npos);
+    CHECK(run.out.find("motion of obstacles: ") != std::string::npos);
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) files += entry.exists();
+    CHECK(files == 1);
+}
+
+TEST_CASE("plan takes overrides, --no-skip and --json") {
+    const TestFolder folder;
+    folder.write("sheet.toml", sheet_on_box());
+    const ProgramRun run = run_program(
+        {"plan", "sheet.toml", "--json", "--no-skip", "--set", "cloth.sheet.pin=[0]", "--set", "fabric.sheet.springs.bend=0"},
+        folder.path());
+    CHECK(run.exit_code == 0);
+    const auto json = nlohmann::json::parse(run.out);
+    CHECK(json.at("pinned_vertices") == 1);
+    REQUIRE(json.at("skipped").size() == 1);
+    CHECK(json.at("skipped").at(0).at("what") == "bending springs of sheet");
+}
+
+TEST_CASE("plan refuses what run refuses") {
+    const TestFolder folder;
+    folder.write("sheet.toml", sheet_on_box());
+    CHECK(refused(run_program({"plan", "none.toml"}, folder.path()), "none.toml"));
+    CHECK(refused(run_program({"plan", "sheet.toml", "--set", "step.skip=maybe"}, folder.path()), "true or false"));
+    CHECK(refused(run_program({"plan", "sheet.toml", "--set", "step.skpi=true"}, folder.path()), "skip"));
+}
