@@ -19,11 +19,11 @@ struct SheetSystem {
     BlockMatrix matrix;
     Vectors right;  // dt f, kg m/s
 
-    /// Vertices moved at random by up to `noise` times their distance; two corners pinned.
-    SheetSystem(unsigned seed, int side, double noise)
+    /// Stretched along its axes, then vertices moved at random by up to `noise` times their distance; two corners pinned.
+    SheetSystem(unsigned seed, int side, double noise, const Vec3& stretch = Vec3::Ones())
         : random(seed), model(cloth_model(make_grid(1.0, 1.0, side, side), sheet_fabric())) {
         std::vector<Vec3> places = model.rest;
-        for (Vec3& x : places) x += random.point(noise / (side - 1));
+        for (Vec3& x : places) x = x.cwiseProduct(stretch) + random.point(noise / (side - 1));
         const Vectors positions = to_vectors(places), start = to_vectors(model.rest);
         StepSprings springs;
         set_step_springs(compute, {model.adjacency, start, DampingForm::length_rate, dt}, springs);
