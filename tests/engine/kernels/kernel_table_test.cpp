@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cstring>
+#include <limits>
 
 #include "tests/support/catch.h"
 #include "tests/support/kernel_cases.h"
@@ -81,6 +82,8 @@ Case float_product_case(bool coarse, bool with_right) {
 Case smooth_case(bool fresh) {
     return {"smooth", 1e-6,
             [=](const Kernels& kernels, KernelProblem p, const Ranges& ranges) {
+                // With beta = 0 nothing of p is read.
+                if (fresh) std::fill(p.float_y.begin(), p.float_y.end(), std::numeric_limits<float>::quiet_NaN());
                 const SmoothPass pass{.inverse = p.blocks.data(),
                                       .r = {p.float_r.data(), p.padded},
                                       .p = {p.float_y.data(), p.padded},

@@ -102,6 +102,26 @@ TEST_CASE("Another model starts anew") {
     CHECK_FALSE(prepared.solver.is_for(other.model));
 }
 
+TEST_CASE("A solver that was asked for serves one model after the other") {
+    const SheetSystem sheet(8, 21, 0.3), other(9, 21, 0.3);
+    for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct}) {
+        Prepared prepared(sheet, choice), fresh(other, choice);
+        Vectors x, expected;
+        prepared.solve(sheet, 1e-8, x);
+        prepared.prepare(other, choice);
+        prepared.solve(other, 1e-8, x);
+        fresh.solve(other, 1e-8, expected);
+        CHECK(same_bits(x, expected));
+    }
+    Prepared prepared(sheet, LinearSolver::multigrid);
+    const SheetSystem larger(10, 33, 0.3);
+    Vectors x;
+    prepared.solve(sheet, 1e-8, x);
+    prepared.prepare(larger, LinearSolver::multigrid);
+    CHECK(prepared.solve(larger, 1e-8, x).converged);
+    CHECK(larger.residual(larger.right, x) <= 1e-6);
+}
+
 TEST_CASE("The estimate is near the solution with multigrid and refused without") {
     SheetSystem sheet(7, 25, 0.3);
     Vectors b = sheet.right, exact, estimate;
