@@ -15,6 +15,9 @@
 
 namespace percale::test {
 
+/// What tests compute with: the best kernels of this machine.
+inline const Compute compute;
+
 /// The sheet that every measured figure refers to.
 inline Fabric sheet_fabric() {
     return {.area_density = 0.2,
@@ -107,7 +110,7 @@ struct SolverScene {
     ClothModel model;
     ClothState state;
     StepPlan plan;
-    std::vector<double> free;
+    AlignedVector<double> free;
     Vectors targets;
     std::unique_ptr<ContactDetector> detector;
     NewtonOptions options;
@@ -118,7 +121,8 @@ struct SolverScene {
     void pin(int vertex) { free[vertex] = 0.0; }
 
     NewtonReport step_implicit() {
-        const ImplicitPart part{.model = &model,
+        const ImplicitPart part{.compute = &compute,
+                                .model = &model,
                                 .settings = &settings,
                                 .plan = &plan,
                                 .detector = detector.get(),
@@ -132,8 +136,12 @@ struct SolverScene {
     }
 
     void step_explicit() {
-        const ExplicitPart part{
-            .model = &model, .settings = &settings, .targets = &targets, .free = &free, .dt = settings.time_step};
+        const ExplicitPart part{.compute = &compute,
+                                .model = &model,
+                                .settings = &settings,
+                                .targets = &targets,
+                                .free = &free,
+                                .dt = settings.time_step};
         settings.scheme == Scheme::rk4 ? step_rk4(part, explicit_space, state)
                                        : step_symplectic_euler(part, explicit_space, state);
     }
@@ -148,6 +156,7 @@ inline SolverScene solver_scene(ClothModel model, const std::vector<Vec3>& posit
     SolverScene scene;
     scene.settings = settings;
     scene.model = std::move(model);
+    if (scene.model.rest.empty()) scene.model.rest = positions;
     scene.state.positions = to_vectors(positions);
     scene.state.velocities.resize(scene.model.vertex_count());
     scene.state.points = positions;

@@ -28,29 +28,46 @@ inline Eigen::Matrix3d full_block(const std::array<double, 6>& k) {
     return m;
 }
 
+inline Eigen::Matrix3d full_block(const SpringBlock& block) {
+    return block.a * Eigen::Matrix3d::Identity() + block.w * block.w.transpose();
+}
+
 /// A random network in a random state, with contacts and prescribed vertices: the engine's matrix and all it was made of.
 struct RandomSystem {
     Random random;
     ClothModel model;
+    Vectors positions, velocities;
     SpringTerms terms;
     std::vector<ContactBlock> contacts;
     BlockMatrix matrix;
 
     explicit RandomSystem(unsigned seed, int count) : random(seed) {
         model = linked_masses(random_masses(random, count), random_links(random, count, 4 * count));
-        const Vectors positions = to_vectors(random_points(random, count, 0.7));
-        const Vectors velocities = to_vectors(random_points(random, count, 1.0));
-        StepSprings springs;
-        set_step_springs(model.springs, positions, DampingForm::length_rate, 1.0 / 60.0, springs);
-        evaluate_springs(model.springs, springs, {positions, velocities, 1.0 / 60.0}, true, terms);
+        positions = to_vectors(random_points(random, count, 0.7));
+        velocities = to_vectors(random_points(random, count, 1.0));
+        evaluate();
         for (int i = 0; i < count / 2; ++i) contacts.push_back(random_contact(count));
-        set_pattern(model.adjacency, matrix);
+        set_pattern(compute, model.adjacency, model.mass, matrix);
         for (int i = 0; i < count / 5; ++i) matrix.free[random.index(count)] = 0.0;
-        fill_matrix(model.mass, terms, matrix);
-        set_contacts(contacts, matrix);
+        fill_matrix(terms, contacts, matrix);
     }
     RandomSystem(const RandomSystem&) = delete;
     RandomSystem& operator=(const RandomSystem&) = delete;
+
+    void evaluate() {
+        StepSprings springs;
+        set_step_springs(compute, {model.adjacency, positions, DampingForm::length_rate, 1.0 / 60.0}, springs);
+        Vectors forces;
+        forces.resize(model.vertex_count());
+        evaluate_springs(compute, springs, {positions, velocities, 1.0 / 60.0}, true, forces, terms);
+    }
+
+    /// Masses and contacts alone are left; the matrix is to be filled anew.
+    void slacken() {
+        for (auto* list : {&model.springs.stiffness, &model.springs.damping}) std::fill(list->begin(), list->end(), 0.0);
+        finish_model(model);
+        evaluate();
+    }
 
     ContactBlock random_contact(int count) {
         ContactBlock block{.vertex = {-1, -1, -1, -1}, .weight = {}, .k = {}};
@@ -84,8 +101,7 @@ struct RandomSystem {
         for (int i = 0; i < count; ++i) add(i, i, model.mass[i] * Eigen::Matrix3d::Identity());
         for (int k = 0; k < model.springs.size(); ++k) {
             const int i = model.springs.first[k], j = model.springs.second[k];
-            const Vec3 w(terms.wx[k], terms.wy[k], terms.wz[k]);
-            const Eigen::Matrix3d block = terms.a[k] * Eigen::Matrix3d::Identity() + w * w.transpose();
+            const Eigen::Matrix3d block = full_block(spring_block(model.adjacency, terms, k));
             add(i, i, block);
             add(j, j, block);
             add(i, j, -block);

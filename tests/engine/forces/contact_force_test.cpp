@@ -1,6 +1,7 @@
 #include "engine/forces/contact_force.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/catch.h"
@@ -27,11 +28,15 @@ struct Touch {
     ContactTerms terms;
 
     explicit Touch(int vertices, double mass_each = 0.01) : mass(vertices, mass_each) {
-        for (auto& list : diagonal) list.assign(vertices, 0.0);
-        for (const int axis : {0, 3, 5}) diagonal[axis].assign(vertices, mass_each);
+        diagonal.resize(vertices);
+        for (const int entry : {0, 3, 5}) set_diagonal(entry, std::vector<double>(vertices, mass_each));
         velocities.resize(vertices);
         forces.resize(vertices);
         step = {.dt = 1.0 / 60.0, .obstacle_rate = 60.0, .gravity = Vec3(0, -9.81, 0)};
+    }
+
+    void set_diagonal(int entry, const std::vector<double>& values) {
+        std::copy(values.begin(), values.end(), diagonal.data.begin() + static_cast<std::ptrdiff_t>(entry * diagonal.padded));
     }
 
     void add_row(const std::array<int, 4>& vertex, const std::array<double, 4>& weight, const Vec3& direction, double distance) {
@@ -125,12 +130,12 @@ TEST_CASE("The contact potential grows without bound towards the surface") {
 
 TEST_CASE("A row's stiffness is half of its share of the step matrix") {
     Touch touch(3, 0.01);
-    touch.diagonal[0] = {5.0, 6.0, 7.0};
-    touch.diagonal[1] = {1.0, -1.0, 0.5};
-    touch.diagonal[2] = {0.2, 0.3, -0.4};
-    touch.diagonal[3] = {4.0, 8.0, 9.0};
-    touch.diagonal[4] = {0.6, 0.1, 0.7};
-    touch.diagonal[5] = {3.0, 2.0, 5.0};
+    touch.set_diagonal(0, {5.0, 6.0, 7.0});
+    touch.set_diagonal(1, {1.0, -1.0, 0.5});
+    touch.set_diagonal(2, {0.2, 0.3, -0.4});
+    touch.set_diagonal(3, {4.0, 8.0, 9.0});
+    touch.set_diagonal(4, {0.6, 0.1, 0.7});
+    touch.set_diagonal(5, {3.0, 2.0, 5.0});
     const Vec3 n = Vec3(1.0, 2.0, -2.0) / 3.0;
     touch.add_row({0, 1, 2, -1}, {0.2, 0.5, 0.3, 0.0}, n, 0.8 * h);
     touch.evaluate();

@@ -23,7 +23,7 @@ struct Solved {
 Solved solve(const RandomSystem& system, const Eigen::VectorXd& b, const Eigen::VectorXd& start, const SolveTarget& target) {
     SolveSpace space;
     Vectors x = from_dense(start);
-    const SolveReport report = solve_cg(system.matrix, from_dense(b), target, space, x);
+    const SolveReport report = solve_cg(system.matrix, nullptr, from_dense(b), target, space, x);
     return {report, to_dense(x, system.model.vertex_count())};
 }
 
@@ -53,19 +53,22 @@ TEST_CASE("Conjugate gradient agrees with a dense factorisation, prescribed vert
 TEST_CASE("A system that the preconditioner inverts takes one iteration") {
     // Masses and contacts of single vertices: the matrix is its block diagonal.
     RandomSystem system(31, 17);
-    std::fill(system.terms.a.begin(), system.terms.a.end(), 0.0);
-    for (auto* list : {&system.terms.wx, &system.terms.wy, &system.terms.wz}) std::fill(list->begin(), list->end(), 0.0);
+    system.slacken();
     for (ContactBlock& block : system.contacts) {
         block.vertex = {block.vertex[0], -1, -1, -1};
         block.weight = {1.0, 0.0, 0.0, 0.0};
     }
-    fill_matrix(system.model.mass, system.terms, system.matrix);
-    set_contacts(system.contacts, system.matrix);
+    fill_matrix(system.terms, system.contacts, system.matrix);
     const Eigen::VectorXd b = system.random_vector(), start = prescribed(system);
-    const Solved solved = solve(system, b, start, {.relative_residual = 1e-12});
+    // The inverses are held in single precision; what that leaves goes in the second iteration.
+    const Eigen::VectorXd expected = system.solve_dense(b, start);
+    const Solved solved = solve(system, b, start, {.relative_residual = 1e-5});
     CHECK(solved.report.iterations == 1);
     CHECK(solved.report.converged);
-    CHECK((solved.x - system.solve_dense(b, start)).norm() <= 1e-11 * solved.x.norm());
+    CHECK((solved.x - expected).norm() <= 1e-5 * expected.norm());
+    const Solved exact = solve(system, b, start, {.relative_residual = 1e-12});
+    CHECK(exact.report.iterations <= 3);
+    CHECK((exact.x - expected).norm() <= 1e-11 * expected.norm());
 }
 
 TEST_CASE("Nothing to do takes no iteration") {
@@ -136,9 +139,9 @@ TEST_CASE("A second solve in the same work space has the same bits") {
     const Eigen::VectorXd b = system.random_vector(), start = prescribed(system);
     SolveSpace space;
     Vectors first = from_dense(start), second = from_dense(start), other = from_dense(Eigen::VectorXd::Zero(15));
-    solve_cg(system.matrix, from_dense(b), {.relative_residual = 1e-8}, space, first);
-    solve_cg(small.matrix, from_dense(small.random_vector()), {.relative_residual = 1e-8}, space, other);
-    solve_cg(system.matrix, from_dense(b), {.relative_residual = 1e-8}, space, second);
+    solve_cg(system.matrix, nullptr, from_dense(b), {.relative_residual = 1e-8}, space, first);
+    solve_cg(small.matrix, nullptr, from_dense(small.random_vector()), {.relative_residual = 1e-8}, space, other);
+    solve_cg(system.matrix, nullptr, from_dense(b), {.relative_residual = 1e-8}, space, second);
     CHECK(same_bits(first, second));
 }
 

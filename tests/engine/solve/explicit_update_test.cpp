@@ -37,12 +37,13 @@ std::vector<Vec3> string_after(Scheme scheme, double time, int steps) {
 
 TEST_CASE("Symplectic Euler falls y0 - g dt^2 n(n+1)/2, RK4 along the exact parabola") {
     for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4}) {
-        const StepSettings settings{.time_step = 0.01, .scheme = scheme};
+        // A stable step: rounding in the lengths of springs at rest must not grow.
+        const StepSettings settings{.time_step = 1e-3, .scheme = scheme};
         const TriangleMesh grid = make_grid(1.0, 1.0, 4, 4);
         SolverScene scene = solver_scene(grid, sheet_fabric(), settings);
         for (int n = 1; n <= 100; ++n) {
             scene.step();
-            const double t = 0.01 * n, fall = scheme == Scheme::rk4 ? 0.5 * 9.81 * t * t : 9.81 * 1e-4 * n * (n + 1) / 2.0;
+            const double t = 1e-3 * n, fall = scheme == Scheme::rk4 ? 0.5 * 9.81 * t * t : 9.81 * 1e-6 * n * (n + 1) / 2.0;
             for (int i = 0; i < 16; ++i) {
                 REQUIRE((scene.state.positions.at(i) - (grid.vertices[i] - Vec3(0.0, fall, 0.0))).norm() < 1e-11);
                 REQUIRE(scene.state.velocities.at(i).y() == Approx(-9.81 * t).epsilon(1e-10));

@@ -57,11 +57,10 @@ TEST_CASE("With Jacobians of zero and more iterations backward Euler is a fixed-
     ExplicitSpace space;
     SpringTerms terms;
     StepSprings springs;
-    set_step_springs(once.model.springs, once.state.positions, DampingForm::velocity, 1e-4, springs);
-    evaluate_springs(once.model.springs, springs, {once.state.positions, once.state.velocities, 1e-4}, false, terms);
+    set_step_springs(compute, {once.model.adjacency, once.state.positions, DampingForm::velocity, 1e-4}, springs);
     Vectors forces;
     forces.resize(25);
-    add_spring_forces(once.model.adjacency, terms, forces);
+    evaluate_springs(compute, springs, {once.state.positions, once.state.velocities, 1e-4}, false, forces, terms);
     twice.step_implicit();
     for (int i = 0; i < 25; ++i) {
         const Vec3 gained = once.free[i] * 1e-4 * (forces.at(i) / once.model.mass[i] + once.settings.gravity);

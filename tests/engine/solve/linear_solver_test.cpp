@@ -1,0 +1,139 @@
+#include "engine/solve/linear_solver.h"
+
+#include "tests/support/catch.h"
+#include "tests/support/sheet_system.h"
+
+namespace percale::test {
+namespace {
+
+constexpr LinearSolver all_choices[] = {LinearSolver::automatic, LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct};
+
+/// A solver prepared for a sheet, its pins and contacts.
+struct Prepared {
+    StepSolver solver;
+
+    Prepared(const SheetSystem& sheet, LinearSolver wish) { prepare(sheet, wish); }
+
+    void prepare(const SheetSystem& sheet, LinearSolver wish) {
+        solver.set_model(compute, sheet.model, wish);
+        solver.matrix.free = sheet.matrix.free;
+        solver.fill(sheet.terms, sheet.contacts);
+    }
+    SolveReport solve(const SheetSystem& sheet, double tolerance, Vectors& x) {
+        x.resize(sheet.count());
+        return solver.solve(sheet.right, {.relative_residual = tolerance}, x);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("Every choice solves the same system to the same answer") {
+    SheetSystem sheet(1, 21, 0.4);
+    sheet.pin_share(0.05);
+    sheet.touch_share(0.3, 0.1, 100.0);
+    Vectors exact;
+    Prepared direct(sheet, LinearSolver::direct);
+    CHECK(direct.solve(sheet, 0.0, exact).converged);
+    for (const LinearSolver choice : all_choices) {
+        Prepared prepared(sheet, choice);
+        Vectors x;
+        for (int solves = 0; solves < 3; ++solves) {
+            const SolveReport report = prepared.solve(sheet, 1e-10, x);
+            CAPTURE(static_cast<int>(choice), solves, report.iterations);
+            CHECK(report.converged);
+            CHECK(report.iterations >= 1);
+            CHECK(sheet.energy_norm(difference(x, exact)) <= 1e-7 * sheet.energy_norm(exact));
+            prepared.solver.fill(sheet.terms, sheet.contacts);
+        }
+    }
+}
+
+TEST_CASE("A choice that was asked for stays") {
+    const SheetSystem sheet(2, 17, 0.3);
+    for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct}) {
+        Prepared prepared(sheet, choice);
+        Vectors x;
+        for (int solves = 0; solves < 2; ++solves) {
+            prepared.solve(sheet, 1e-12, x);
+            prepared.solver.fill(sheet.terms, {});
+            CHECK(prepared.solver.in_use() == choice);
+        }
+    }
+}
+
+TEST_CASE("The automatic choice begins with block Jacobi and keeps it while solves are cheap") {
+    const SheetSystem sheet(3, 33, 0.3);
+    Prepared prepared(sheet, LinearSolver::automatic);
+    CHECK(prepared.solver.in_use() == LinearSolver::cg);
+    Vectors x;
+    const SolveReport report = prepared.solve(sheet, 0.5, x);
+    REQUIRE(report.iterations < 20);
+    CHECK(prepared.solver.in_use() == LinearSolver::cg);
+}
+
+TEST_CASE("The automatic choice changes to multigrid after a dear solve, which is then cheaper") {
+    const SheetSystem sheet(4, 33, 0.3);
+    Prepared prepared(sheet, LinearSolver::automatic);
+    Vectors x;
+    const SolveReport dear = prepared.solve(sheet, 1e-6, x);
+    REQUIRE(dear.iterations > 100);
+    CHECK(prepared.solver.in_use() == LinearSolver::multigrid);
+    prepared.solver.fill(sheet.terms, {});
+    const SolveReport cheap = prepared.solve(sheet, 1e-6, x);
+    CHECK(cheap.converged);
+    CHECK(4 * cheap.iterations < dear.iterations);
+    CHECK(prepared.solver.in_use() == LinearSolver::multigrid);
+}
+
+TEST_CASE("Another model starts anew") {
+    const SheetSystem sheet(5, 33, 0.3), other(6, 9, 0.3);
+    Prepared prepared(sheet, LinearSolver::automatic), fresh(other, LinearSolver::automatic);
+    Vectors x, expected;
+    prepared.solve(sheet, 1e-6, x);
+    REQUIRE(prepared.solver.in_use() == LinearSolver::multigrid);
+    CHECK(prepared.solver.is_for(sheet.model));
+    CHECK_FALSE(prepared.solver.is_for(other.model));
+    prepared.prepare(other, LinearSolver::automatic);
+    CHECK(prepared.solver.is_for(other.model));
+    CHECK(prepared.solver.in_use() == LinearSolver::cg);
+    CHECK(prepared.solve(other, 1e-8, x).iterations == fresh.solve(other, 1e-8, expected).iterations);
+    CHECK(same_bits(x, expected));
+    prepared.solver.forget_model();
+    CHECK_FALSE(prepared.solver.is_for(other.model));
+}
+
+TEST_CASE("A solver that was asked for serves one model after the other") {
+    const SheetSystem sheet(8, 21, 0.3), other(9, 21, 0.3);
+    for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct}) {
+        Prepared prepared(sheet, choice), fresh(other, choice);
+        Vectors x, expected;
+        prepared.solve(sheet, 1e-8, x);
+        prepared.prepare(other, choice);
+        prepared.solve(other, 1e-8, x);
+        fresh.solve(other, 1e-8, expected);
+        CHECK(same_bits(x, expected));
+    }
+    Prepared prepared(sheet, LinearSolver::multigrid);
+    const SheetSystem larger(10, 33, 0.3);
+    Vectors x;
+    prepared.solve(sheet, 1e-8, x);
+    prepared.prepare(larger, LinearSolver::multigrid);
+    CHECK(prepared.solve(larger, 1e-8, x).converged);
+    CHECK(larger.residual(larger.right, x) <= 1e-6);
+}
+
+TEST_CASE("The estimate is near the solution with multigrid and refused without") {
+    SheetSystem sheet(7, 25, 0.3);
+    Vectors b = sheet.right, exact, estimate;
+    filter(sheet.matrix, b);
+    Prepared multigrid(sheet, LinearSolver::multigrid), jacobi(sheet, LinearSolver::cg);
+    multigrid.solve(sheet, 1e-10, exact);
+    REQUIRE(multigrid.solver.estimate(b, estimate));
+    CHECK(sheet.energy_norm(difference(estimate, exact)) <= 0.6 * sheet.energy_norm(exact));
+    CHECK_FALSE(jacobi.solver.estimate(b, estimate));
+    Vectors zero;
+    zero.resize(sheet.count());
+    CHECK_FALSE(multigrid.solver.estimate(zero, estimate));
+}
+
+}  // namespace percale::test

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "engine/solve/block_matrix.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+
+/// The step matrix of a square sheet in some state, 1 m a side: what one linear solve of a step works on.
+struct SheetSystem {
+    static constexpr double dt = 1.0 / 60.0;
+
+    Random random;
+    ClothModel model;
+    std::vector<ContactBlock> contacts;
+    SpringTerms terms;
+    BlockMatrix matrix;
+    Vectors right;  // dt f, kg m/s
+
+    /// Stretched along its axes, then vertices moved at random by up to `noise` times their distance; two corners pinned.
+    SheetSystem(unsigned seed, int side, double noise, const Vec3& stretch = Vec3::Ones())
+        : random(seed), model(cloth_model(make_grid(1.0, 1.0, side, side), sheet_fabric())) {
+        std::vector<Vec3> places = model.rest;
+        for (Vec3& x : places) x = x.cwiseProduct(stretch) + random.point(noise / (side - 1));
+        const Vectors positions = to_vectors(places), start = to_vectors(model.rest);
+        StepSprings springs;
+        set_step_springs(compute, {model.adjacency, start, DampingForm::length_rate, dt}, springs);
+        right.resize(model.vertex_count());
+        evaluate_springs(compute, springs, {positions, start, dt}, true, right, terms);
+        for (int i = 0; i < model.vertex_count(); ++i) right.set(i, dt * (right.at(i) + Vec3(0.0, -9.81 * model.mass[i], 0.0)));
+        set_pattern(compute, model.adjacency, model.mass, matrix);
+        for (const int corner : {0, side - 1}) matrix.free[corner] = 0.0;
+        fill();
+    }
+    SheetSystem(const SheetSystem&) = delete;
+    SheetSystem& operator=(const SheetSystem&) = delete;
+
+    int count() const { return model.vertex_count(); }
+    void fill() { fill_matrix(terms, contacts, matrix); }
+
+    void pin_share(double share) {
+        for (int i = 0; i < count(); ++i) {
+            if (random.number(0.0, 1.0) < share) matrix.free[i] = 0.0;
+        }
+        fill();
+    }
+
+    /// Contacts along random directions, stiffer than the vertex's own block by a random factor.
+    void touch_share(double share, double least_factor, double most_factor) {
+        for (int i = 0; i < count(); ++i) {
+            if (random.number(0.0, 1.0) >= share) continue;
+            const double size = matrix.diagonal[0][i] + matrix.diagonal[3][i] + matrix.diagonal[5][i];
+            const double stiffness = random.decades(least_factor, most_factor) * size / 3.0;
+            const Vec3 n = random.unit();
+            ContactBlock block{.vertex = {i, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
+            int entry = 0;
+            for (int a = 0; a < 3; ++a) {
+                for (int b = a; b < 3; ++b) block.k[entry++] = stiffness * n[a] * n[b];
+            }
+            contacts.push_back(block);
+        }
+        fill();
+    }
+
+    /// Random on the free vertices, 0 at the others and in the padding.
+    Vectors random_vector() {
+        Vectors x;
+        x.resize(count());
+        for (int i = 0; i < count(); ++i) {
+            const Vec3 value = random.point(1.0);
+            if (matrix.free[i] > 0.0) x.set(i, value);
+        }
+        return x;
+    }
+
+    /// |b - A x| on the free vertices.
+    double residual(const Vectors& b, const Vectors& x) const {
+        AlignedVector<double> points;
+        Vectors product = x, rest = b;
+        multiply(matrix, x, points, product);
+        filter(matrix, rest);
+        add_scaled(rest, -1.0, product);
+        return std::sqrt(dot(compute, rest, rest));
+    }
+
+    /// sqrt(x . A x)
+    double energy_norm(const Vectors& x) const {
+        AlignedVector<double> points;
+        Vectors product = x;
+        return std::sqrt(multiply(matrix, x, points, product));
+    }
+};
+
+inline Vectors difference(const Vectors& a, const Vectors& b) {
+    Vectors result = a;
+    add_scaled(result, -1.0, b);
+    return result;
+}
+
+}  // namespace percale::test
