@@ -1,8 +1,9 @@
 // The springs as every vertex sees them. Each is evaluated from both of its ends: differences change sign exactly, so the two forces
 // are exactly opposite.
 
-/// Below this square a length gives no direction, m^2.
+/// Below this square a length gives no direction, m^2; above the other the state has blown up and the force is not a number.
 constexpr double no_length_square = 1e-36;
+constexpr double blown_up_square = 1e36;
 
 /// 1/sqrt(a), a > 0, to about 1e-15: half of the exponent, from the bits of a float, is right to 3.5 %; Newton's y (3 - a y^2)/2 then
 /// squares the error, twice in single and twice in double precision (Blinn, IEEE Computer Graphics and Applications 17, 1997).
@@ -40,7 +41,7 @@ PERCALE_INLINE SpringPull evaluate(const SpringState& state) {
     const WidePack square = dot(state.x, state.x), safe = larger(square, all_wide(no_length_square));
     const WidePack inverse = inverse_root(safe);
     const WidePack stretch = safe * inverse - state.rest;
-    WidePack tension = state.stiffness * stretch;
+    WidePack tension = state.stiffness * where_less(square, all_wide(blown_up_square), stretch, all_wide(__builtin_nan("")));
     const WidePack twice_energy = tension * stretch;
     if constexpr (with_motion) tension = tension + state.damping * inverse * dot(state.v, state.x);
     return {tension * inverse, twice_energy, square, inverse};

@@ -117,11 +117,19 @@ void weigh(const SpringGraph& graph, int i, std::vector<Candidate>& candidates) 
 InterpolationRow single(int vertex) { return {.vertex = {vertex, -1, -1}, .weight = {1.0, 0.0, 0.0}, .count = 1}; }
 
 InterpolationRow interpolation_row(const SpringGraph& graph, int i, int fallback, std::vector<Candidate>& candidates) {
-    weigh(graph, i, candidates);
-    std::erase_if(candidates, [](const Candidate& c) { return !c.used || !(c.weight > 0.0); });
+    const auto weigh_and_sort = [&] {
+        weigh(graph, i, candidates);
+        std::erase_if(candidates, [](const Candidate& c) { return !c.used || !(c.weight > 0.0); });
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.weight > b.weight; });
+    };
+    weigh_and_sort();
+    if (candidates.size() > most_weights) {
+        // The moment condition has to hold for those that stay.
+        candidates.resize(most_weights);
+        weigh_and_sort();
+    }
     if (candidates.empty()) return single(fallback);
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.weight > b.weight; });
     InterpolationRow row{.vertex = {-1, -1, -1}, .weight = {}, .count = 0};
     double sum = 0.0;
     for (const Candidate& c : candidates) {

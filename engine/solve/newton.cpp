@@ -306,11 +306,28 @@ private:
             ++report_.line_search_cuts;
         }
         std::swap(space_.current, space_.trial);
+        if (accepted && fraction * kept == 1.0 && was_arrived && !small) go_on(line);
         const bool by_change =
             small && fraction * kept == 1.0 && !part_.settings->newton_tolerance && report_.newton_iterations > 1;
         const bool by_rounding = !accepted && -slope <= 1e-12 * std::abs(line.start_objective);
         converged_ = was_arrived && (by_change || by_rounding);
         return !converged_;
+    }
+
+    /// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and what the
+    /// secant says is still missing along the same direction costs an evaluation only.
+    void go_on(LineTrial line) {
+        const double ratio = line.slope / line.start_slope;
+        if (!(ratio > 0.4) || !part_.options.line_search || part_.settings->newton_iterations == 1) return;
+        const double further = std::min(ratio / std::max(1.0 - ratio, 0.1), 3.0);
+        line.start_objective = line.objective;
+        line.start_slope = line.slope;
+        move(further);
+        const double kept = cut_move();
+        evaluate(space_.trial);
+        line.objective = space_.trial.objective;
+        line.slope = dot(*part_.compute, space_.trial.residual, space_.direction);
+        if (accept_trial(further * kept, line)) std::swap(space_.current, space_.trial);
     }
 
     /// Whether another iteration would change little, by what the preconditioner makes of the residual: far cheaper than the
