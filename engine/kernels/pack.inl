@@ -72,17 +72,24 @@ PERCALE_INLINE FloatPack root(FloatPack a) {
 #endif
 }
 
+// g++ 12 converts halves of registers where these are written as conversions of vectors.
 #if PERCALE_PACK_BYTES == 64
 
 PERCALE_INLINE FloatPack narrow(WidePack a) {
-    const EightFloats low = __builtin_convertvector(a.low, EightFloats), high = __builtin_convertvector(a.high, EightFloats);
+    const auto half = [](DoublePack pack) {
+        return reinterpret_cast<EightFloats>(_mm512_maskz_cvtpd_ps(0xff, reinterpret_cast<__m512d>(pack)));
+    };
+    const EightFloats low = half(a.low), high = half(a.high);
     return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 
 PERCALE_INLINE WidePack widen(FloatPack a) {
     const EightFloats low = __builtin_shufflevector(a, a, 0, 1, 2, 3, 4, 5, 6, 7);
     const EightFloats high = __builtin_shufflevector(a, a, 8, 9, 10, 11, 12, 13, 14, 15);
-    return {__builtin_convertvector(low, DoublePack), __builtin_convertvector(high, DoublePack)};
+    const auto half = [](EightFloats floats) {
+        return reinterpret_cast<DoublePack>(_mm512_maskz_cvtps_pd(0xff, reinterpret_cast<__m256>(floats)));
+    };
+    return {half(low), half(high)};
 }
 
 PERCALE_INLINE FloatPack four_rows(const float* points, const int* index) {
@@ -127,13 +134,19 @@ PERCALE_INLINE void gather(const double* points, const int* index, DoublePack& x
 #elif PERCALE_PACK_BYTES == 32
 
 PERCALE_INLINE FloatPack narrow(WidePack a) {
-    const FourFloats low = __builtin_convertvector(a.low, FourFloats), high = __builtin_convertvector(a.high, FourFloats);
+    const auto half = [](DoublePack pack) {
+        return reinterpret_cast<FourFloats>(_mm256_cvtpd_ps(reinterpret_cast<__m256d>(pack)));
+    };
+    const FourFloats low = half(a.low), high = half(a.high);
     return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
 PERCALE_INLINE WidePack widen(FloatPack a) {
     const FourFloats low = __builtin_shufflevector(a, a, 0, 1, 2, 3), high = __builtin_shufflevector(a, a, 4, 5, 6, 7);
-    return {__builtin_convertvector(low, DoublePack), __builtin_convertvector(high, DoublePack)};
+    const auto half = [](FourFloats floats) {
+        return reinterpret_cast<DoublePack>(_mm256_cvtps_pd(reinterpret_cast<__m128>(floats)));
+    };
+    return {half(low), half(high)};
 }
 
 PERCALE_INLINE FloatPack two_rows(const float* points, const int* index) {
