@@ -10,6 +10,7 @@
 #include "step/planning.h"
 #include "step/step.h"
 #include "support/hash.h"
+#include "support/stage_timer.h"
 
 namespace percale {
 namespace {
@@ -125,6 +126,10 @@ Simulation::Simulation(const StepSettings& settings, std::unique_ptr<ContactDete
     check_options(settings, "settings");
     implementation_->world.settings = settings;
     implementation_->world.detector = std::move(detector);
+    if (settings.threads > 1) {
+        implementation_->world.pool = std::make_unique<ThreadPool>(settings.threads);
+        implementation_->world.compute.pool = implementation_->world.pool.get();
+    }
 }
 
 Simulation::~Simulation() = default;
@@ -272,8 +277,13 @@ void Simulation::prepare() {
 }
 
 StepReport Simulation::step() {
+    World& world = implementation_->world;
+    const auto cpu_seconds = [&] { return thread_cpu_seconds() + (world.pool ? world.pool->other_cpu_seconds() : 0.0); };
+    const double start = cpu_seconds();
     prepare();
-    return percale::step(implementation_->world);
+    StepReport report = percale::step(world);
+    report.cpu_s = cpu_seconds() - start;
+    return report;
 }
 
 ScenePlan Simulation::plan(const ScriptedChanges& to_come) const { return scene_plan(implementation_->world, to_come); }

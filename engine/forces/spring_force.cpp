@@ -7,7 +7,7 @@ namespace percale {
 namespace {
 
 /// Springs in bands are summed in longer chunks: each begins with the springs of the guard before it once more.
-constexpr int band_chunk_slices = 256;
+constexpr int band_chunk_slices = 128;
 
 double length(const SpringNetwork& network, const Vectors& x, int k) {
     return (x.at(network.first[k]) - x.at(network.second[k])).norm();
@@ -43,7 +43,8 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
     const int slices = motion.positions.slices();
     if (with_matrix && terms.values.size() != adjacency.value_count()) terms.values.assign(adjacency.value_count(), 0.0f);
     const BandPattern& bands = adjacency.bands;
-    terms.scratch.resize(3 * bands.count * (bands.guard + band_chunk_slices * slice_lanes));
+    const std::size_t scratch = 3 * bands.count * (bands.guard + band_chunk_slices * slice_lanes);
+    terms.scratch.resize(scratch * (compute.pool ? compute.pool->threads() : 1));
     const SpringPass pass{.springs = springs.entries,
                           .positions = motion.positions.axes(),
                           .velocities = motion.velocities.axes(),
@@ -52,13 +53,12 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
                           .dt = motion.dt,
                           .forces = forces.axes(),
                           .values = with_matrix ? terms.values.data() : nullptr,
-                          .scratch = terms.scratch.data()};
-    double energy = 0.0;
-    const int chunk = bands.count > 0 ? band_chunk_slices : chunk_slices;
-    for (int first = 0; first < slices; first += chunk) {
-        energy += compute.kernels->springs(pass, {first, std::min(first + chunk, slices)});
-    }
-    return energy;
+                          .scratch = nullptr};
+    return sum_stretches(compute, slices, bands.count > 0 ? band_chunk_slices : chunk_slices, [&](Slices range, int thread) {
+        SpringPass own = pass;
+        own.scratch = terms.scratch.data() + thread * scratch;
+        return compute.kernels->springs(own, range);
+    });
 }
 
 SpringBlock spring_block(const Adjacency& adjacency, const SpringTerms& terms, int spring) {

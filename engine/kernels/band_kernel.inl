@@ -1,5 +1,5 @@
-// Springs whose ends are a fixed number of vertices apart, as on a grid: everything is read and written in order, and each spring is
-// evaluated once.
+// Springs whose ends are a fixed number of vertices apart, as on a grid: everything is read and written in order, and each spring
+// is evaluated once.
 
 /// x y z of a copy with room before and behind (BandPattern).
 struct GuardedDoubles {

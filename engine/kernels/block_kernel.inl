@@ -50,9 +50,12 @@ void coarse_diagonal(const DiagonalPass& pass, Slices range) {
         for (int lane = 0; lane < slice_lanes; lane += float_lanes) {
             const std::size_t at = static_cast<std::size_t>(s) * slice_lanes + lane;
             const auto block = [](const float* from, std::size_t apart) {
-                return WideBlock{widen(load<FloatPack>(from)),             widen(load<FloatPack>(from + apart)),
-                                 widen(load<FloatPack>(from + 2 * apart)), widen(load<FloatPack>(from + 3 * apart)),
-                                 widen(load<FloatPack>(from + 4 * apart)), widen(load<FloatPack>(from + 5 * apart))};
+                return WideBlock{widen(load<FloatPack>(from)),
+                                 widen(load<FloatPack>(from + apart)),
+                                 widen(load<FloatPack>(from + 2 * apart)),
+                                 widen(load<FloatPack>(from + 3 * apart)),
+                                 widen(load<FloatPack>(from + 4 * apart)),
+                                 widen(load<FloatPack>(from + 5 * apart))};
             };
             WideBlock m = block(pass.blocks + at, pass.padded);
             for (int e = pass.pattern.start[s] + lane; e < pass.pattern.start[s + 1]; e += slice_lanes) {

@@ -23,9 +23,12 @@ const Kernels& chosen_kernels() {
 
 const char* instruction_set_name(InstructionSet set) {
     switch (set) {
-        case InstructionSet::baseline: return "baseline";
-        case InstructionSet::avx2: return "avx2";
-        case InstructionSet::avx512: return "avx512";
+        case InstructionSet::baseline:
+            return "baseline";
+        case InstructionSet::avx2:
+            return "avx2";
+        case InstructionSet::avx512:
+            return "avx512";
     }
     return "";
 }

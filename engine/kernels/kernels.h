@@ -28,8 +28,8 @@ struct Axes {
     operator ConstAxes() const { return {x, y, z}; }
 };
 
-/// Springs whose ends are one of a few numbers of vertices apart, as on a grid. Place i of a band is the spring between vertices i
-/// and i + offset; its numbers stand at band * padded + i. Positions and the like are then not packed as points but copied to
+/// Springs whose ends are one of a few numbers of vertices apart, as on a grid. Place i of a band is the spring between vertices
+/// i and i + offset; its numbers stand at band * padded + i. Positions and the like are then not packed as points but copied to
 /// three arrays of guard + padded + guard numbers, zero outside; blocks stand at 4 arrays a band of guard + padded numbers each.
 struct BandPattern {
     static constexpr int most = 8;
@@ -116,10 +116,10 @@ struct TransferPass {
 /// Block diagonals of a matrix and their inverses, six arrays each, `padded` apart.
 struct DiagonalPass {
     EntryPattern pattern;
-    const float* values;    // 4 or 6 numbers an entry
-    const double* ground;   // one number a vertex (4), or
-    const float* blocks;    // six arrays (6); the other one is null
-    double* diagonal;       // null if not wanted
+    const float* values;   // 4 or 6 numbers an entry
+    const double* ground;  // one number a vertex (4), or
+    const float* blocks;   // six arrays (6); the other one is null
+    double* diagonal;      // null if not wanted
     float* inverse;
     std::size_t padded;
 };
@@ -157,7 +157,7 @@ struct Kernels {
     void (*fine_diagonal)(const DiagonalPass& pass, Slices range);
     void (*coarse_diagonal)(const DiagonalPass& pass, Slices range);
     void (*galerkin)(const GalerkinPass& pass, int first, int last);
-    void (*invert)(double* matrix, int size, int stride);              // symmetric positive definite, in place
+    void (*invert)(double* matrix, int size, int stride);  // symmetric positive definite, in place
     void (*dense_multiply)(const float* matrix, int size, int stride, const float* x, float* y);
 };
 

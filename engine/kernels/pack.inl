@@ -1,6 +1,6 @@
-// Packs: what a vector register of PERCALE_PACK_BYTES bytes holds. Included by kernel_table.cpp only, inside an unnamed namespace: the
-// same functions are compiled once per instruction set and must not be merged by the linker. For that reason nothing of the
-// standard library is called here.
+// Packs: what a vector register of PERCALE_PACK_BYTES bytes holds. Included by kernel_table.cpp only, inside an unnamed
+// namespace: the same functions are compiled once per instruction set and must not be merged by the linker. For that reason
+// nothing of the standard library is called here.
 
 constexpr int pack_bytes = PERCALE_PACK_BYTES;
 constexpr int float_lanes = pack_bytes / 4;
@@ -39,9 +39,7 @@ PERCALE_INLINE WidePack operator+(WidePack a, WidePack b) { return {a.low + b.lo
 PERCALE_INLINE WidePack operator-(WidePack a, WidePack b) { return {a.low - b.low, a.high - b.high}; }
 PERCALE_INLINE WidePack operator*(WidePack a, WidePack b) { return {a.low * b.low, a.high * b.high}; }
 
-PERCALE_INLINE WidePack load_wide(const double* from) {
-    return {load<DoublePack>(from), load<DoublePack>(from + double_lanes)};
-}
+PERCALE_INLINE WidePack load_wide(const double* from) { return {load<DoublePack>(from), load<DoublePack>(from + double_lanes)}; }
 PERCALE_INLINE void store_wide(double* to, WidePack pack) {
     store(to, pack.low);
     store(to + double_lanes, pack.high);

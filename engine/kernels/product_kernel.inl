@@ -1,5 +1,5 @@
-// Products with the step matrix. Springs act on differences x_i - x_j, so a common motion of all vertices costs no accuracy, whatever
-// the stiffness.
+// Products with the step matrix. Springs act on differences x_i - x_j, so a common motion of all vertices costs no accuracy,
+// whatever the stiffness.
 
 double multiply_slices(const BlockPass& pass, ConstAxes x, const double* points, const double* free, Axes y, Slices range) {
     LaneSums sums;

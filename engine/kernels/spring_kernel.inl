@@ -1,13 +1,13 @@
-// The springs as every vertex sees them. Each is evaluated from both of its ends: differences change sign exactly, so the two forces
-// are exactly opposite.
+// The springs as every vertex sees them. Each is evaluated from both of its ends: differences change sign exactly, so the two
+// forces are exactly opposite.
 
 /// Below this square a length gives no direction, m^2; above the other the state has blown up and the force is not a number.
 constexpr double no_length_square = 1e-36;
 constexpr double blown_up_square = 1e36;
 
-/// 1/sqrt(a), a > 0, to about 1e-15: half of the exponent, from the bits of a float, is right to 3.5 %; Newton's y (3 - a y^2)/2 then
-/// squares the error, twice in single and twice in double precision (Blinn, IEEE Computer Graphics and Applications 17, 1997).
-/// Roots and divisions would cost more than the whole rest of a spring.
+/// 1/sqrt(a), a > 0, to about 1e-15: half of the exponent, from the bits of a float, is right to 3.5 %; Newton's y (3 - a y^2)/2
+/// then squares the error, twice in single and twice in double precision (Blinn, IEEE Computer Graphics and Applications 17,
+/// 1997). Roots and divisions would cost more than the whole rest of a spring.
 PERCALE_INLINE WidePack inverse_root(WidePack a) {
     const FloatPack rough = narrow(a), half_rough = all(0.5f) * rough;
     IntPack bits;

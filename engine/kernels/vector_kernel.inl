@@ -1,19 +1,20 @@
 // Vectors of the linear solve.
 
 void pack_points(ConstAxes from, double* points, Slices range) {
-    for (std::size_t i = static_cast<std::size_t>(range.first) * slice_lanes; i < static_cast<std::size_t>(range.last) * slice_lanes;
-         ++i) {
+    for (std::size_t i = static_cast<std::size_t>(range.first) * slice_lanes;
+         i < static_cast<std::size_t>(range.last) * slice_lanes; ++i) {
         store(points + 4 * i, FourDoubles{from.x[i], from.y[i], from.z[i], 0.0});
     }
 }
 
 void pack_float_points(FloatVectors from, float* points, Slices range) {
-    for (std::size_t i = static_cast<std::size_t>(range.first) * slice_lanes; i < static_cast<std::size_t>(range.last) * slice_lanes;
-         i += 4) {
+    for (std::size_t i = static_cast<std::size_t>(range.first) * slice_lanes;
+         i < static_cast<std::size_t>(range.last) * slice_lanes; i += 4) {
         const FourFloats x = load<FourFloats>(from.data + i), y = load<FourFloats>(from.data + from.padded + i);
         const FourFloats z = load<FourFloats>(from.data + 2 * from.padded + i), none{};
         const FourFloats xy = __builtin_shufflevector(x, y, 0, 4, 1, 5), xy_high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
-        const FourFloats zw = __builtin_shufflevector(z, none, 0, 4, 1, 5), zw_high = __builtin_shufflevector(z, none, 2, 6, 3, 7);
+        const FourFloats zw = __builtin_shufflevector(z, none, 0, 4, 1, 5),
+                         zw_high = __builtin_shufflevector(z, none, 2, 6, 3, 7);
         store(points + 4 * i, __builtin_shufflevector(xy, zw, 0, 1, 4, 5));
         store(points + 4 * i + 4, __builtin_shufflevector(xy, zw, 2, 3, 6, 7));
         store(points + 4 * i + 8, __builtin_shufflevector(xy_high, zw_high, 0, 1, 4, 5));
@@ -57,9 +58,9 @@ void jacobi(const float* inverse, std::size_t padded, ConstAxes r, Axes z, Slice
         const WidePoint v = load_wide(r, at);
         const auto entry = [&](int k) { return widen(load<FloatPack>(inverse + k * padded + at)); };
         const WidePack xy = entry(1), xz = entry(2), yz = entry(4);
-        store_wide(z, at,
-                   {entry(0) * v.x + xy * v.y + xz * v.z, xy * v.x + entry(3) * v.y + yz * v.z,
-                    xz * v.x + yz * v.y + entry(5) * v.z});
+        store_wide(
+            z, at,
+            {entry(0) * v.x + xy * v.y + xz * v.z, xy * v.x + entry(3) * v.y + yz * v.z, xz * v.x + yz * v.y + entry(5) * v.z});
     });
 }
 

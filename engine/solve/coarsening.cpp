@@ -77,8 +77,9 @@ void find_candidates(const SpringGraph& graph, const Neighbours& near, const std
         const int j = near.vertex[k];
         for (int l = near.start[j]; l < near.start[j + 1]; ++l) offer(near.vertex[l]);
     }
-    std::sort(found.begin(), found.end(),
-              [](const Candidate& a, const Candidate& b) { return a.square != b.square ? a.square < b.square : a.vertex < b.vertex; });
+    std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+        return a.square != b.square ? a.square < b.square : a.vertex < b.vertex;
+    });
     if (found.size() > most_candidates) found.resize(most_candidates);
 }
 

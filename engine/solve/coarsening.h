@@ -9,9 +9,9 @@ namespace percale {
 
 /// Springs as a graph: what a coarser level is chosen from.
 struct SpringGraph {
-    std::vector<Vec3> positions;           // m, at rest
+    std::vector<Vec3> positions;  // m, at rest
     std::vector<std::array<int, 2>> pairs;
-    std::vector<double> strength;          // one a pair, N/m
+    std::vector<double> strength;  // one a pair, N/m
 };
 
 /// At most three weights that sum to 1: a vertex of the finer level as a mean of vertices of the coarser one.
@@ -26,9 +26,10 @@ struct Coarsening {
     std::vector<InterpolationRow> rows;
 };
 
-/// A maximal independent set of the strong pairs (at least a quarter of the strongest pair at one of its ends) in the vertices' order;
-/// the others are interpolated by moving least squares from at most three kept vertices within two strong pairs, so that linear
-/// functions of the rest position are kept where the neighbours allow (Lancaster and Salkauskas 1981). The same for any thread.
+/// A maximal independent set of the strong pairs (at least a quarter of the strongest pair at one of its ends) in the vertices'
+/// order; the others are interpolated by moving least squares from at most three kept vertices within two strong pairs, so that
+/// linear functions of the rest position are kept where the neighbours allow (Lancaster and Salkauskas 1981). The same for any
+/// thread.
 Coarsening coarsen(const SpringGraph& graph);
 
 }  // namespace percale

@@ -36,9 +36,10 @@ void assemble(const BlockMatrix& matrix, Triplets& entries) {
             const int i = s * slice_lanes + (e - pattern.start[s]) % slice_lanes, j = pattern.other[e];
             if (j <= i || matrix.free[i] == 0.0 || matrix.free[j] == 0.0) continue;
             const auto [a, w] = spring_block(pattern, *matrix.springs, pattern.spring[e]);
-            add_block(i, j,
-                      {-a - w.x() * w.x(), -w.x() * w.y(), -w.x() * w.z(), -a - w.y() * w.y(), -w.y() * w.z(), -a - w.z() * w.z()},
-                      entries);
+            add_block(
+                i, j,
+                {-a - w.x() * w.x(), -w.x() * w.y(), -w.x() * w.z(), -a - w.y() * w.y(), -w.y() * w.z(), -a - w.z() * w.z()},
+                entries);
         }
     }
     for (const ContactBlock& contact : matrix.contacts) {

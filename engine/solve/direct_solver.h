@@ -6,8 +6,8 @@
 
 namespace percale {
 
-/// Sparse Cholesky factorisation of the step matrix, contact included (Eigen's SimplicialLDLT): for tiny and for badly conditioned
-/// systems, and the oracle of the tests. The order of elimination is found anew when the pattern changes.
+/// Sparse Cholesky factorisation of the step matrix, contact included (Eigen's SimplicialLDLT): for tiny and for badly
+/// conditioned systems, and the oracle of the tests. The order of elimination is found anew when the pattern changes.
 class DirectSolver {
 public:
     DirectSolver();
@@ -15,7 +15,8 @@ public:
     DirectSolver(DirectSolver&&) noexcept;
     DirectSolver& operator=(DirectSolver&&) noexcept;
 
-    /// x on the free vertices such that A x = b there, prescribed entries of x kept; false if the matrix is not positive definite.
+    /// x on the free vertices such that A x = b there, prescribed entries of x kept; false if the matrix is not positive
+    /// definite.
     bool solve(const BlockMatrix& matrix, const Vectors& b, Vectors& x);
 
 private:

@@ -12,9 +12,9 @@ struct ExplicitPart {
     const Compute* compute = nullptr;
     const ClothModel* model = nullptr;
     const StepSettings* settings = nullptr;
-    const Vectors* targets = nullptr;           // m, where prescribed vertices are at the end
+    const Vectors* targets = nullptr;             // m, where prescribed vertices are at the end
     const AlignedVector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
-    double dt = 0.0;                            // s
+    double dt = 0.0;                              // s
 };
 
 struct ExplicitSpace {

@@ -31,8 +31,8 @@ public:
     /// A x = b on the free vertices, prescribed entries of x kept.
     SolveReport solve(const Vectors& b, const SolveTarget& target, Vectors& x);
 
-    /// A cheap estimate of A^-1 r with the matrix last filled in: z = one application of the preconditioner. False where that is no
-    /// good estimate, as with block Jacobi.
+    /// A cheap estimate of A^-1 r with the matrix last filled in: z = one application of the preconditioner. False where that is
+    /// no good estimate, as with block Jacobi.
     bool estimate(const Vectors& r, Vectors& z);
 
     LinearSolver in_use() const { return in_use_; }
@@ -45,7 +45,7 @@ private:
     LinearSolver in_use_ = LinearSolver::cg;
     std::unique_ptr<Multigrid> multigrid_;
     std::unique_ptr<DirectSolver> direct_;
-    bool stale_ = true;          // multigrid's coarser levels are to be made anew
+    bool stale_ = true;         // multigrid's coarser levels are to be made anew
     int fresh_iterations_ = 0;  // of the first solve with them
     SolveSpace space_;
     MultigridSpace multigrid_space_;

@@ -9,6 +9,8 @@ namespace {
 constexpr float largest_eigenvalue = 2.6f;
 constexpr float smoothed_from = largest_eigenvalue / 5.0f;
 
+constexpr int pair_grain = 2048, least_shared_pairs = 16384;
+
 using Block = std::array<double, 6>;
 
 Block block_product(const Block& a, const Block& b) {
@@ -119,9 +121,8 @@ FloatVectors Multigrid::view(const AlignedVector<float>& data, const Level& leve
 }
 
 void Multigrid::pack(Level& level, const AlignedVector<float>& from) const {
-    for_chunks(compute_, level.slices, [&](Slices range) {
-        compute_.kernels->pack_float_points(view(from, level), level.points.data(), range);
-    });
+    for_chunks(compute_, level.slices,
+               [&](Slices range) { compute_.kernels->pack_float_points(view(from, level), level.points.data(), range); });
 }
 
 void Multigrid::copy_guarded(const BandPattern& bands, const AlignedVector<float>& from) {
@@ -173,8 +174,15 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
 }
 
 void Multigrid::expand_blocks(const SpringTerms& springs) {
-    float* block = levels_[0].blocks.data();
-    for (const auto& [first, apart] : pair_value_) {
+    const int pairs = static_cast<int>(pair_value_.size());
+    for_stretches(compute_, pairs, pair_grain, pairs >= least_shared_pairs,
+                  [&](int first, int last, int) { expand_stretch(springs, first, last); });
+}
+
+void Multigrid::expand_stretch(const SpringTerms& springs, int first_pair, int last_pair) {
+    float* block = &levels_[0].blocks[8 * static_cast<std::size_t>(first_pair)];
+    for (int k = first_pair; k < last_pair; ++k) {
+        const auto& [first, apart] = pair_value_[k];
         const float* value = &springs.values[first];
         const float a = value[0], x = value[apart], y = value[2 * apart], z = value[3 * apart];
         block[0] = a + x * x;
@@ -195,12 +203,16 @@ void Multigrid::fill_level(int k) {
                             .coefficient = pattern.coefficient.data(),
                             .fine = finer.blocks.data(),
                             .coarse = level.blocks.data()};
-    compute_.kernels->galerkin(sums, 0, static_cast<int>(pattern.pairs.size()));
-    for (std::size_t e = 0; e < pattern.entry_pair.size(); ++e) {
-        const float* block = &level.blocks[8 * static_cast<std::size_t>(pattern.entry_pair[e])];
-        float* value = &level.own_values[6 * (e - e % slice_lanes) + e % slice_lanes];
-        for (int entry = 0; entry < 6; ++entry) value[entry * slice_lanes] = block[entry];
-    }
+    const int pairs = static_cast<int>(pattern.pairs.size()), entries = static_cast<int>(pattern.entry_pair.size());
+    for_stretches(compute_, pairs, pair_grain, pairs >= least_shared_pairs,
+                  [&](int first, int last, int) { compute_.kernels->galerkin(sums, first, last); });
+    for_stretches(compute_, entries, pair_grain, entries >= least_shared_pairs, [&](int first, int last, int) {
+        for (std::size_t e = first; e < static_cast<std::size_t>(last); ++e) {
+            const float* block = &level.blocks[8 * static_cast<std::size_t>(pattern.entry_pair[e])];
+            float* value = &level.own_values[6 * (e - e % slice_lanes) + e % slice_lanes];
+            for (int entry = 0; entry < 6; ++entry) value[entry * slice_lanes] = block[entry];
+        }
+    });
     restrict_ground(k);
     const DiagonalPass pass{.pattern = level.pattern,
                             .values = level.values,
@@ -276,7 +288,8 @@ void Multigrid::fill_bottom() {
         add(j, i, -1.0, block);
     }
     compute_.kernels->invert(bottom_.data(), bottom_size_, bottom_stride_);
-    std::transform(bottom_.begin(), bottom_.end(), bottom_inverse_.begin(), [](double value) { return static_cast<float>(value); });
+    std::transform(bottom_.begin(), bottom_.end(), bottom_inverse_.begin(),
+                   [](double value) { return static_cast<float>(value); });
 }
 
 void Multigrid::multiply(const AlignedVector<float>& x, AlignedVector<float>& y) {

@@ -61,6 +61,7 @@ private:
     Level sized_level(EntryPattern pattern, int slices) const;
     void set_filters(const BlockMatrix& matrix);
     void expand_blocks(const SpringTerms& springs);
+    void expand_stretch(const SpringTerms& springs, int first_pair, int last_pair);
     void fill_level(int k);
     void restrict_ground(int k);
     void scatter_ground();

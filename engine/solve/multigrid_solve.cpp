@@ -55,7 +55,8 @@ private:
         return sum_chunks(compute_, multigrid_.slices(), [&](Slices range) { return compute_.kernels->float_dot(a, b, range); });
     }
 
-    /// space.x = A^-1 r/norm in floats, until the residual is at `wanted` or what floats reach, or the gains are small: true then.
+    /// space.x = A^-1 r/norm in floats, until the residual is at `wanted` or what floats reach, or the gains are small: true
+    /// then.
     bool solve_floats(double norm, double wanted, const SolveTarget& target) {
         const FloatVectors r = view(multigrid_.residual()), z = view(multigrid_.correction());
         const FloatVectors x = view(space_.x), p = view(space_.p), q = view(space_.q);

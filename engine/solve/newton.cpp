@@ -314,8 +314,8 @@ private:
         return !converged_;
     }
 
-    /// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and what the
-    /// secant says is still missing along the same direction costs an evaluation only.
+    /// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and
+    /// what the secant says is still missing along the same direction costs an evaluation only.
     void go_on(LineTrial line) {
         const double ratio = line.slope / line.start_slope;
         if (!(ratio > 0.4) || !part_.options.line_search || part_.settings->newton_iterations == 1) return;
@@ -342,8 +342,8 @@ private:
         return change_is_small(space_.current.velocities, estimated_share);
     }
 
-    /// Whether the direction, which leads to the velocities `ahead`, changes every cloth by less than a share of the time error, in
-    /// the mean and at its worst vertex by twice that.
+    /// Whether the direction, which leads to the velocities `ahead`, changes every cloth by less than a share of the time error,
+    /// in the mean and at its worst vertex by twice that.
     bool change_is_small(const Vectors& ahead, double share) const {
         return std::all_of(model_.cloths.begin(), model_.cloths.end(), [&](const ClothRange& cloth) {
             double gain = 0.0, worst = 0.0, worst_error = 0.0;

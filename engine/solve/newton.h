@@ -25,12 +25,12 @@ struct ImplicitPart {
     const ClothModel* model = nullptr;
     const StepSettings* settings = nullptr;
     const StepPlan* plan = nullptr;
-    ContactDetector* detector = nullptr;        // used if the plan has contacts
-    const Vectors* targets = nullptr;           // m, where prescribed vertices are at the end of the part
+    ContactDetector* detector = nullptr;          // used if the plan has contacts
+    const Vectors* targets = nullptr;             // m, where prescribed vertices are at the end of the part
     const AlignedVector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
-    double dt = 0.0;                            // s, length of this part
-    double full_step = 0.0;                     // s, of the whole step, over which obstacles move
-    StepFraction span;                          // of the whole step
+    double dt = 0.0;                              // s, length of this part
+    double full_step = 0.0;                       // s, of the whole step, over which obstacles move
+    StepFraction span;                            // of the whole step
     NewtonOptions options;
 };
 

@@ -25,12 +25,13 @@ struct ObstacleState {
 /// What the script says about the coming step.
 struct Script {
     AlignedVector<double> free;  // 1, or 0 where pinned and in the padding
-    Vectors pin_targets;       // m, at the end of the coming step; meaningful where pinned
+    Vectors pin_targets;         // m, at the end of the coming step; meaningful where pinned
     std::vector<ObstacleState> obstacles;
 };
 
 /// Everything one simulation holds.
 struct World {
+    std::unique_ptr<ThreadPool> pool;  // with more than one thread
     Compute compute;
     StepSettings settings;
     ClothModel model;

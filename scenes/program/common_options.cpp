@@ -17,7 +17,7 @@ void add_scene_options(CLI::App& command, CommonOptions& options) {
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
     add_scene_options(command, options);
-    command.add_option("--threads", options.threads, "Threads of the simulation; 1 in this version")->type_name("N");
+    command.add_option("--threads", options.threads, "Threads of the simulation (step.threads)")->type_name("N");
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
     command.add_option("--frames", options.frames, "Format of the frames: none or obj")->type_name("FORMAT");
     command.add_option("--fps", options.fps, "Output frames per simulated second (default 30)")->type_name("F");
@@ -44,9 +44,6 @@ void check_frame_format(const std::string& format) {
 }  // namespace
 
 void check_common_options(const CommonOptions& options) {
-    if (options.threads != 1)
-        throw SceneError("--threads " + std::to_string(options.threads) +
-                         " is outside the allowed range 1 ... 1 of this version");
     if (!options.checkpoint.empty()) throw SceneError("--checkpoint: this build lacks checkpoints");
     if (!options.resume.empty()) throw SceneError("--resume: this build lacks checkpoints, so there is none to resume");
     check_frame_format(options.frames);
@@ -60,6 +57,7 @@ std::vector<scenes::Override> scene_overrides(const CommonOptions& options) {
             throw SceneError("--set " + text + ": must be KEY=VALUE, such as --set step.time_step=0.01");
         overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
     }
+    if (!options.threads.empty()) overrides.push_back({"step.threads", options.threads});
     if (options.no_skip) overrides.push_back({"step.skip", "false"});
     if (!options.frames.empty()) overrides.push_back({"output.frames", "\"" + options.frames + "\""});
     if (!options.fps.empty()) overrides.push_back({"output.fps", options.fps});

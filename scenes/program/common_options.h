@@ -16,7 +16,7 @@ struct CommonOptions {
     std::vector<std::string> set;  // KEY=VALUE
     std::string frames, fps;       // "" = as the scene says
     std::string checkpoint, resume;
-    int threads = 1;
+    std::string threads;
     bool quiet = false;
     bool replay_hash = false;
     bool no_skip = false;

@@ -15,7 +15,7 @@ scheme = "symplectic_euler"
 damping_form = "velocity"
 [fabric.sheet]
 area_density = 0.2
-springs = { structural = 100.0, shear = 50.0, bend = 1.0 }
+springs = { structural = 1.0, shear = 0.5, bend = 0.01 }
 spring_damping = 0.0
 [[cloth]]
 name = "sheet"
@@ -37,7 +37,7 @@ time_step = 0.016666666666666666
 [fabric.sheet]
 area_density = 0.2
 thickness = 0.005
-springs = { structural = 100.0, shear = 50.0, bend = 1.0 }
+springs = { structural = 1.0, shear = 0.5, bend = 0.01 }
 [[cloth]]
 name = "sheet"
 fabric = "sheet"

@@ -66,6 +66,7 @@ struct StepReport {
     std::uint64_t contact_hash = 0;           // of the contact rows at the end
     StepEnergy energy;
     StageTimes stages;
+    double cpu_s = 0.0;  // s, of all threads
 
     bool ok() const { return status == StepStatus::ok || status == StepStatus::halved || status == StepStatus::not_converged; }
     /// One sentence on what happened, with figures.

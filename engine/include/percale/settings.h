@@ -23,7 +23,7 @@ struct StepSettings {
     ContactResponse contact_response = ContactResponse::penalty;
     /// length_rate: kd (l - l_n)/dt along the current direction, backward Euler only; velocity: kd (v_ij . d).
     DampingForm damping_form = DampingForm::length_rate;
-    int threads = 1;  // of one simulation; this version has one
+    int threads = 1;  // of one simulation; same bits for any number
     /// none: a step report has no energy, strain and speed (NaN); Simulation::energy still tells on demand.
     StepMeasures measure = StepMeasures::all;
     bool skip = true;                      // leave out what the scene does not need (Simulation::plan); false runs everything
