@@ -96,11 +96,11 @@ struct FloatPass {
     const float* right;   // b, or null
 };
 
-/// p = beta p + alpha D^-1 r; x += p, or x = p with `fresh`.
+/// x += factor D^-1 r, or x = factor D^-1 r with `fresh`.
 struct SmoothPass {
     const float* inverse;  // six arrays, `padded` apart
-    FloatVectors r, p, x;
-    float alpha, beta;
+    FloatVectors r, x;
+    float factor;
     bool fresh;
 };
 

@@ -76,14 +76,12 @@ void multiply_coarse(const FloatPass& pass, Slices range) {
 }
 
 void smooth(const SmoothPass& pass, Slices range) {
-    const FloatPack alpha = all(pass.alpha), beta = all(pass.beta);
+    const FloatPack factor = all(pass.factor);
     for (int s = range.first; s < range.last; ++s) {
         for (int lane = 0; lane < slice_lanes; lane += float_lanes) {
             const std::size_t at = static_cast<std::size_t>(s) * slice_lanes + lane;
-            FloatPoint p = alpha * block_times(pass.inverse + at, pass.r.padded, load_float(pass.r, at));
-            if (pass.beta != 0.0f) p = p + beta * load_float(pass.p, at);
-            store_float(pass.p, at, p);
-            store_float(pass.x, at, pass.fresh ? p : load_float(pass.x, at) + p);
+            const FloatPoint change = factor * block_times(pass.inverse + at, pass.r.padded, load_float(pass.r, at));
+            store_float(pass.x, at, pass.fresh ? change : load_float(pass.x, at) + change);
         }
     }
 }

@@ -22,15 +22,8 @@ void add_block(int i, int j, const std::array<double, 6>& block, Triplets& entri
     }
 }
 
-/// Free rows and columns of the matrix; 1 on the diagonal of the others.
-void assemble(const BlockMatrix& matrix, Triplets& entries) {
+void add_springs(const BlockMatrix& matrix, Triplets& entries) {
     const Adjacency& pattern = *matrix.pattern;
-    entries.clear();
-    for (int i = 0; i < pattern.vertex_count; ++i) {
-        std::array<double, 6> block = {1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
-        for (int k = 0; k < 6 && matrix.free[i] > 0.0; ++k) block[k] = matrix.diagonal[k][i];
-        add_block(i, i, block, entries);
-    }
     for (int s = 0; s < pattern.slices(); ++s) {
         for (int e = pattern.start[s]; e < pattern.start[s + 1]; ++e) {
             const int i = s * slice_lanes + (e - pattern.start[s]) % slice_lanes, j = pattern.other[e];
@@ -42,17 +35,30 @@ void assemble(const BlockMatrix& matrix, Triplets& entries) {
                 entries);
         }
     }
-    for (const ContactBlock& contact : matrix.contacts) {
-        for (int k = 0; k < 4 && contact.vertex[k] >= 0; ++k) {
-            for (int l = 0; l <= k; ++l) {
-                const int i = contact.vertex[k], j = contact.vertex[l];
-                if (matrix.free[i] == 0.0 || matrix.free[j] == 0.0) continue;
-                std::array<double, 6> block = contact.k;
-                for (double& entry : block) entry *= contact.weight[k] * contact.weight[l];
-                add_block(i, j, block, entries);
-            }
+}
+
+void add_contact(const BlockMatrix& matrix, const ContactBlock& contact, Triplets& entries) {
+    for (int k = 0; k < 4 && contact.vertex[k] >= 0; ++k) {
+        for (int l = 0; l <= k; ++l) {
+            const int i = contact.vertex[k], j = contact.vertex[l];
+            if (matrix.free[i] == 0.0 || matrix.free[j] == 0.0) continue;
+            std::array<double, 6> block = contact.k;
+            for (double& entry : block) entry *= contact.weight[k] * contact.weight[l];
+            add_block(i, j, block, entries);
         }
     }
+}
+
+/// Free rows and columns of the matrix; 1 on the diagonal of the others.
+void assemble(const BlockMatrix& matrix, Triplets& entries) {
+    entries.clear();
+    for (int i = 0; i < matrix.pattern->vertex_count; ++i) {
+        std::array<double, 6> block = {1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
+        for (int k = 0; k < 6 && matrix.free[i] > 0.0; ++k) block[k] = matrix.diagonal[k][i];
+        add_block(i, i, block, entries);
+    }
+    add_springs(matrix, entries);
+    for (const ContactBlock& contact : matrix.contacts) add_contact(matrix, contact, entries);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace percale {
 
-/// One V-cycle as a preconditioner, in single precision: before and after each coarse correction a Chebyshev polynomial of degree
-/// two in the block-Jacobi preconditioned matrix; dense at the bottom. Symmetric and positive definite.
+/// One V-cycle as a preconditioner, in single precision: a sweep of damped block Jacobi before and after each coarse
+/// correction; dense at the bottom. Symmetric and positive definite.
 ///
 /// Contacts and prescribed vertices leave the hierarchy as it is. The transfers are filtered at such vertices: by 0 where the
 /// motion is prescribed, by S = d (d I + K)^-1 where contact adds K to a vertex whose own block has the size d along K; coarser
@@ -47,7 +47,7 @@ private:
         AlignedVector<float> blocks;      // eight numbers a pair (six used), one zero block more
         AlignedVector<float> ground;      // the mass alone (finest), or six arrays
         AlignedVector<float> inverse;
-        AlignedVector<float> x, b, r, p, points;
+        AlignedVector<float> x, b, r, points;
     };
     /// A vertex of the finest level whose transfers are filtered.
     struct Filtered {

@@ -349,15 +349,15 @@ private:
             double gain = 0.0, worst = 0.0, worst_error = 0.0;
             for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
                 gain -= space_.current.residual.at(i).dot(space_.direction.at(i));
-                worst = std::max(worst, space_.direction.at(i).norm());
-                worst_error = std::max(worst_error, (ahead.at(i) - space_.start_velocities.at(i)).norm());
+                worst = std::max(worst, space_.direction.at(i).squaredNorm());
+                worst_error = std::max(worst_error, (ahead.at(i) - space_.start_velocities.at(i)).squaredNorm());
             }
             const double change = part_.dt * std::sqrt(std::max(gain, 0.0) / cloth.mass);
             const double time_error = 0.5 * part_.dt * std::sqrt(velocity_change(cloth, ahead) / cloth.mass);
             const double floor =
                 space_.current.forces.rows.size() > 0 ? smallest_share * model_.thickness[cloth.first] : smallest_change;
             return change <= share * time_error + floor &&
-                   part_.dt * worst <= 2.0 * share * part_.dt * worst_error + 10.0 * floor;
+                   part_.dt * std::sqrt(worst) <= 2.0 * share * part_.dt * std::sqrt(worst_error) + 10.0 * floor;
         });
     }
 
