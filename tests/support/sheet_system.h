@@ -71,10 +71,15 @@ struct SheetSystem {
         fill();
     }
 
-    /// Random on the free vertices, 0 at the others and in the padding.
-    Vectors random_vector() {
+    Vectors zeros() const {
         Vectors x;
         x.resize(count());
+        return x;
+    }
+
+    /// Random on the free vertices, 0 at the others and in the padding.
+    Vectors random_vector() {
+        Vectors x = zeros();
         for (int i = 0; i < count(); ++i) {
             const Vec3 value = random.point(1.0);
             if (matrix.free[i] > 0.0) x.set(i, value);

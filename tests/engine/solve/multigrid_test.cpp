@@ -1,6 +1,7 @@
 #include "engine/solve/multigrid.h"
 
 #include <Eigen/Dense>
+#include <utility>
 
 #include "engine/solve/direct_solver.h"
 #include "engine/solve/multigrid_solve.h"
@@ -50,6 +51,25 @@ int iterations(SheetSystem& sheet) {
         most = std::max(most, solved.report.iterations);
     }
     return most;
+}
+
+void check_float_product(SheetSystem& sheet) {
+    Multigrid multigrid(compute, sheet.model.adjacency, sheet.model.rest);
+    multigrid.fill(sheet.matrix, Multigrid::Coarser::filled);
+    const Vectors x = sheet.random_vector();
+    const std::size_t padded = multigrid.padded();
+    AlignedVector<float> narrow(3 * padded), product(3 * padded);
+    compute.kernels->to_float(1.0, x.axes(), {narrow.data(), padded}, {0, x.slices()});
+    multigrid.multiply(narrow, product);
+    AlignedVector<double> points;
+    Vectors expected = x, found = sheet.zeros();
+    multiply(sheet.matrix, x, points, expected);
+    compute.kernels->add_float(1.0, {product.data(), padded}, found.axes(), {0, x.slices()});
+    CAPTURE(sheet.count());
+    const double size = std::sqrt(dot(compute, expected, expected));
+    const Vectors error = difference(found, expected);
+    CHECK(std::sqrt(dot(compute, error, error)) <= 1e-6 * size);
+    for (int i = 0; i < sheet.count(); ++i) CHECK((sheet.matrix.free[i] > 0.0 || found.at(i) == Vec3::Zero()));
 }
 
 }  // namespace
@@ -206,6 +226,40 @@ TEST_CASE("A sheet large enough has several levels, a tiny one only itself") {
     const SheetSystem tiny(6, 3, 0.1), large(7, 65, 0.1);
     CHECK(Multigrid(compute, tiny.model.adjacency, tiny.model.rest).levels() == 1);
     CHECK(Multigrid(compute, large.model.adjacency, large.model.rest).levels() >= 4);
+}
+
+TEST_CASE("The product in floats is that in doubles, pins and contacts included, in bands and in slices") {
+    Fabric free = sheet_fabric();
+    free.springs.shear = 0.0;
+    for (const bool grid : {true, false}) {
+        for (const auto& [columns, rows] : {std::pair{2, 5}, {17, 33}, {65, 70}, {24, 20}}) {
+            TriangleMesh mesh = make_grid(1.0, 0.7, columns, rows);
+            if (!grid) mesh.grid_columns = mesh.grid_rows = 0;
+            SheetSystem sheet(9, cloth_model(mesh, grid ? sheet_fabric() : free), 0.2 / columns);
+            sheet.pin_share(0.1);
+            sheet.touch_share(0.3, 0.1, 1e3);
+            check_float_product(sheet);
+        }
+    }
+}
+
+TEST_CASE("Coarser levels that are kept leave cycles as symmetric and definite as those filled") {
+    const SheetSystem first(1, 33, 0.05);
+    SheetSystem later(2, 33, 0.5);
+    later.pin_share(0.05);
+    later.touch_share(0.2, 0.1, 1e3);
+    Multigrid multigrid(compute, later.model.adjacency, later.model.rest);
+    multigrid.fill(first.matrix, Multigrid::Coarser::filled);
+    multigrid.fill(later.matrix, Multigrid::Coarser::kept);
+    for (int trial = 0; trial < 10; ++trial) {
+        const Vectors r = later.random_vector(), s = later.random_vector();
+        const Vectors z = cycle(multigrid, r), w = cycle(multigrid, s);
+        const double zr = dot(compute, z, r), ws = dot(compute, w, s);
+        CHECK(zr > 0.0);
+        CHECK(dot(compute, z, s) == Approx(dot(compute, w, r)).margin(1e-4 * std::sqrt(zr * ws)));
+    }
+    const Vectors z = cycle(multigrid, later.right);
+    for (int i = 0; i < later.count(); ++i) CHECK((later.matrix.free[i] > 0.0 || z.at(i) == Vec3::Zero()));
 }
 
 }  // namespace percale::test
