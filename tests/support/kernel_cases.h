@@ -143,7 +143,8 @@ inline Result run_springs(const Kernels& kernels, KernelProblem& p, const Ranges
                           .motion = with_motion ? motion.data() : nullptr,
                           .dt = kernel_dt,
                           .forces = p.y.axes(),
-                          .values = with_matrix ? values.data() : nullptr};
+                          .values = with_matrix ? values.data() : nullptr,
+                          .scratch = nullptr};
     Result result;
     for (const Slices range : ranges) result.sum += kernels.springs(pass, range);
     result.add(p.y);
@@ -260,12 +261,12 @@ inline Case jacobi_case() {
 }
 
 inline Case conversion_case() {
-    return {"to_float and to_double", 1e-6,
+    return {"to_float and add_float", 1e-6,
             [](const Kernels& kernels, KernelProblem p, const Ranges& ranges) {
                 FloatResult floats(p);
                 for (const Slices range : ranges) {
                     kernels.to_float(kernel_alpha, view(p.x), {floats.data.data(), p.padded}, range);
-                    kernels.to_double(kernel_beta, {p.float_x.data(), p.padded}, p.y.axes(), range);
+                    kernels.add_float(kernel_beta, {p.float_x.data(), p.padded}, p.y.axes(), range);
                 }
                 Result result;
                 result.add(floats.data);
@@ -276,11 +277,65 @@ inline Case conversion_case() {
                 FloatResult floats(p);
                 for_vertices(p, [&](int i) {
                     floats.set(i, kernel_alpha * p.x.at(i));
-                    p.y.set(i, kernel_beta * p.float_at(p.float_x, i));
+                    p.y.add(i, kernel_beta * p.float_at(p.float_x, i));
                 });
                 Result result;
                 result.add(floats.data);
                 result.add(p.y);
+                return result;
+            }};
+}
+
+inline Case float_dot_case() {
+    return {"float_dot", 0.0,
+            [](const Kernels& kernels, KernelProblem p, const Ranges& ranges) {
+                Result result;
+                for (const Slices range : ranges) {
+                    result.sum += kernels.float_dot({p.float_x.data(), p.padded}, {p.float_y.data(), p.padded}, range);
+                }
+                return result;
+            },
+            [](KernelProblem p) {
+                Result result;
+                for_vertices(p, [&](int i) {
+                    const auto term = [&](std::size_t axis) {
+                        return p.float_x[axis * p.padded + i] * p.float_y[axis * p.padded + i];
+                    };
+                    result.sum += term(0) + term(1) + term(2);
+                });
+                return result;
+            }};
+}
+
+inline Case float_advance_case() {
+    return {"float_advance and float_turn", 0.0,
+            [](const Kernels& kernels, KernelProblem p, const Ranges& ranges) {
+                FloatResult q(p);
+                std::copy(p.blocks.begin(), p.blocks.begin() + static_cast<std::ptrdiff_t>(q.data.size()), q.data.begin());
+                const auto view = [&](AlignedVector<float>& list) { return FloatVectors{list.data(), p.padded}; };
+                Result result;
+                for (const Slices range : ranges) {
+                    const FloatVectors direction = view(p.float_y), r = view(p.float_r);
+                    result.sum += kernels.float_advance(0.37f, direction, view(q.data), view(p.float_x), r, range);
+                    kernels.float_turn(-0.61f, r, direction, range);
+                }
+                for (const auto* list : {&p.float_x, &p.float_r, &p.float_y}) result.add(*list);
+                return result;
+            },
+            [](KernelProblem p) {
+                Result result;
+                for (std::size_t k = 0; k < 3 * p.padded; ++k) {
+                    p.float_x[k] += 0.37f * p.float_y[k];
+                    p.float_r[k] -= 0.37f * p.blocks[k];
+                    p.float_y[k] = p.float_r[k] + -0.61f * p.float_y[k];
+                }
+                for_vertices(p, [&](int i) {
+                    const auto square = [&](std::size_t axis) {
+                        return p.float_r[axis * p.padded + i] * p.float_r[axis * p.padded + i];
+                    };
+                    result.sum += square(0) + square(1) + square(2);
+                });
+                for (const auto* list : {&p.float_x, &p.float_r, &p.float_y}) result.add(*list);
                 return result;
             }};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "engine/solve/block_matrix.h"
@@ -8,7 +9,7 @@
 
 namespace percale::test {
 
-/// The step matrix of a square sheet in some state, 1 m a side: what one linear solve of a step works on.
+/// The step matrix of cloth in some state, mostly a square sheet, 1 m a side: what one linear solve of a step works on.
 struct SheetSystem {
     static constexpr double dt = 1.0 / 60.0;
 
@@ -21,9 +22,16 @@ struct SheetSystem {
 
     /// Stretched along its axes, then vertices moved at random by up to `noise` times their distance; two corners pinned.
     SheetSystem(unsigned seed, int side, double noise, const Vec3& stretch = Vec3::Ones())
-        : random(seed), model(cloth_model(make_grid(1.0, 1.0, side, side), sheet_fabric())) {
+        : SheetSystem(seed, cloth_model(make_grid(1.0, 1.0, side, side), sheet_fabric()), noise / (side - 1), stretch) {
+        for (const int corner : {0, side - 1}) matrix.free[corner] = 0.0;
+        fill();
+    }
+
+    /// Any cloth, stretched along its axes, then vertices moved at random by up to `reach` (m); all free.
+    SheetSystem(unsigned seed, ClothModel cloth, double reach, const Vec3& stretch = Vec3::Ones())
+        : random(seed), model(std::move(cloth)) {
         std::vector<Vec3> places = model.rest;
-        for (Vec3& x : places) x = x.cwiseProduct(stretch) + random.point(noise / (side - 1));
+        for (Vec3& x : places) x = x.cwiseProduct(stretch) + random.point(reach);
         const Vectors positions = to_vectors(places), start = to_vectors(model.rest);
         StepSprings springs;
         set_step_springs(compute, {model.adjacency, start, DampingForm::length_rate, dt}, springs);
@@ -31,7 +39,6 @@ struct SheetSystem {
         evaluate_springs(compute, springs, {positions, start, dt}, true, right, terms);
         for (int i = 0; i < model.vertex_count(); ++i) right.set(i, dt * (right.at(i) + Vec3(0.0, -9.81 * model.mass[i], 0.0)));
         set_pattern(compute, model.adjacency, model.mass, matrix);
-        for (const int corner : {0, side - 1}) matrix.free[corner] = 0.0;
         fill();
     }
     SheetSystem(const SheetSystem&) = delete;
@@ -64,10 +71,15 @@ struct SheetSystem {
         fill();
     }
 
-    /// Random on the free vertices, 0 at the others and in the padding.
-    Vectors random_vector() {
+    Vectors zeros() const {
         Vectors x;
         x.resize(count());
+        return x;
+    }
+
+    /// Random on the free vertices, 0 at the others and in the padding.
+    Vectors random_vector() {
+        Vectors x = zeros();
         for (int i = 0; i < count(); ++i) {
             const Vec3 value = random.point(1.0);
             if (matrix.free[i] > 0.0) x.set(i, value);

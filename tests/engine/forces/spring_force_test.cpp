@@ -319,4 +319,23 @@ TEST_CASE("The largest strain is that of structural springs, and zero if none is
     CHECK(largest_strain(model.springs, to_vectors({{0, 0, 0}, {0.5, 0, 0}, {0.5, 1.0, 0}})) == 0.0);
 }
 
+TEST_CASE("A spring longer than a billion billion metres has blown up") {
+    const Link link{0, 1, 1.0, 100.0, 0.1};
+    for (const double length : {1e17, 0.99e18}) {
+        const Evaluated large = OneSpring(Vec3(0.0, length, 0.0), Vec3::Zero(), link).evaluate();
+        CHECK(large.force.y() == Approx(-100.0 * length));
+    }
+    for (const double length : {1.01e18, 1e200}) {
+        StepSprings springs;
+        const ClothModel model = linked_masses({1.0, 1.0}, {link});
+        const Vectors places = to_vectors({Vec3(0.0, length, 0.0), Vec3::Zero()}),
+                      velocities = to_vectors({Vec3::Zero(), Vec3::Zero()});
+        set_step_springs(compute, {model.adjacency, places, DampingForm::velocity, dt}, springs);
+        Vectors forces = velocities;
+        SpringTerms terms;
+        CHECK(std::isnan(evaluate_springs(compute, springs, {places, velocities, dt}, true, forces, terms)));
+        CHECK(std::isnan(forces.at(0).y()));
+    }
+}
+
 }  // namespace percale::test

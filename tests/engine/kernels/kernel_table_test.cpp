@@ -194,8 +194,8 @@ Case diagonal_case(bool coarse) {
 }
 
 std::vector<Case> all_cases() {
-    std::vector<Case> cases = {start_case(),  pack_case(),       dot_case(),     advance_case(),
-                               jacobi_case(), conversion_case(), multiply_case()};
+    std::vector<Case> cases = {start_case(),      pack_case(),     dot_case(),       advance_case(),      jacobi_case(),
+                               conversion_case(), multiply_case(), float_dot_case(), float_advance_case()};
     for (const bool first : {false, true}) {
         cases.push_back(smooth_case(first));
         cases.push_back(transfer_case(first));

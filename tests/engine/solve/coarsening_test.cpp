@@ -123,6 +123,27 @@ TEST_CASE("Linear functions are kept inside a regular triangular lattice and a r
     }
 }
 
+TEST_CASE("Linear functions are kept inside an irregular mesh wherever three vertices take part") {
+    constexpr int side = 20;
+    Random random(6);
+    SpringGraph lattice = triangular_lattice(side);
+    for (Vec3& x : lattice.positions) {
+        const double along = random.number(-0.25, 0.25);
+        x += Vec3(along, 0.0, random.number(-0.25, 0.25));
+    }
+    const Coarsening coarsening = coarsen(lattice);
+    int of_three = 0;
+    double largest = 0.0;
+    for (int i = 0; i < side * side; ++i) {
+        const InterpolationRow& row = coarsening.rows[i];
+        if (row.count < 3) continue;
+        ++of_three;
+        largest = std::max(largest, (interpolated(lattice, coarsening, i) - lattice.positions[i]).norm());
+    }
+    CHECK(of_three > side * side / 3);
+    CHECK(largest <= 0.05);
+}
+
 TEST_CASE("Vertices without springs are kept, and so is one of a strong pair alone") {
     SpringGraph graph;
     for (int i = 0; i < 6; ++i) graph.positions.emplace_back(i, 0.0, 0.0);

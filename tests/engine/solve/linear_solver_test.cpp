@@ -1,5 +1,7 @@
 #include "engine/solve/linear_solver.h"
 
+#include <limits>
+
 #include "tests/support/catch.h"
 #include "tests/support/sheet_system.h"
 
@@ -134,6 +136,85 @@ TEST_CASE("The estimate is near the solution with multigrid and refused without"
     Vectors zero;
     zero.resize(sheet.count());
     CHECK_FALSE(multigrid.solver.estimate(zero, estimate));
+}
+
+TEST_CASE("The estimate of what a step would gain is within a factor of three") {
+    for (const int side : {17, 33, 65}) {
+        for (const double share : {0.0, 0.3}) {
+            SheetSystem sheet(static_cast<unsigned>(side) + 30u, side, 0.3);
+            sheet.pin_share(0.1 * share);
+            sheet.touch_share(share, 0.1, 1e3);
+            Prepared prepared(sheet, LinearSolver::multigrid);
+            Vectors smooth = sheet.right;
+            filter(sheet.matrix, smooth);
+            for (const Vectors& r : {smooth, sheet.random_vector()}) {
+                Vectors exact, z;
+                exact.resize(sheet.count());
+                REQUIRE(prepared.solver.solve(r, {.relative_residual = 1e-9}, exact).converged);
+                REQUIRE(prepared.solver.estimate(r, z));
+                const double decrement = dot(compute, r, exact), estimate = dot(compute, r, z);
+                CAPTURE(side, share, estimate / decrement);
+                CHECK(estimate <= 3.0 * decrement);
+                CHECK(decrement <= 3.0 * estimate);
+            }
+        }
+    }
+}
+
+TEST_CASE("Scaling the residual scales its estimate, however large or small, and what was there is replaced") {
+    const SheetSystem sheet(11, 17, 0.3);
+    Prepared prepared(sheet, LinearSolver::multigrid);
+    Vectors r = sheet.right, z, scaled_z = sheet.right;
+    filter(sheet.matrix, r);
+    REQUIRE(prepared.solver.estimate(r, z));
+    for (const double factor : {0x1p-200, 0x1p-60, 0x1p60, 0x1p200}) {
+        Vectors scaled;
+        scaled.resize(sheet.count());
+        add_scaled(scaled, factor, r);
+        REQUIRE(prepared.solver.estimate(scaled, scaled_z));
+        for (int i = 0; i < sheet.count(); ++i) CHECK((scaled_z.at(i) / factor - z.at(i)).norm() <= 1e-12 * z.at(i).norm());
+    }
+}
+
+TEST_CASE("Nothing is estimated of a residual that is not finite") {
+    const SheetSystem sheet(12, 17, 0.3);
+    Prepared prepared(sheet, LinearSolver::multigrid);
+    Vectors r = sheet.right, z;
+    r.x[20] = std::numeric_limits<double>::quiet_NaN();
+    CHECK_FALSE(prepared.solver.estimate(r, z));
+    r.x[20] = 1e200;
+    CHECK_FALSE(prepared.solver.estimate(r, z));
+}
+
+TEST_CASE("With coarser levels kept from another state the answer is the same") {
+    for (const int side : {17, 33, 48}) {
+        const SheetSystem first(1, side, 0.05);
+        SheetSystem later(2, side, 0.5, Vec3(1.1, 1.0, 0.8));
+        later.touch_share(0.3, 0.1, 1e3);
+        Prepared kept(first, LinearSolver::multigrid), fresh(later, LinearSolver::multigrid);
+        Vectors x, expected;
+        kept.solve(first, 1e-6, x);
+        fresh.solve(later, 1e-10, expected);
+        for (int solves = 0; solves < 4; ++solves) {
+            kept.solver.fill(later.terms, later.contacts);
+            const SolveReport report = kept.solve(later, 1e-10, x);
+            CAPTURE(side, solves, report.iterations);
+            CHECK(report.converged);
+            CHECK(later.residual(later.right, x) <= 1.001e-10 * later.residual(later.right, later.zeros()));
+            CHECK(later.energy_norm(difference(x, expected)) <= 1e-6 * later.energy_norm(expected));
+        }
+    }
+}
+
+TEST_CASE("A new part of a step starts with coarser levels of its own matrix") {
+    const SheetSystem first(1, 33, 0.05), later(2, 33, 0.5, Vec3(1.1, 1.0, 0.8));
+    Prepared reused(first, LinearSolver::multigrid), fresh(later, LinearSolver::multigrid);
+    Vectors x, expected;
+    reused.solve(first, 1e-6, x);
+    reused.solver.start_part();
+    reused.solver.fill(later.terms, later.contacts);
+    CHECK(reused.solve(later, 1e-6, x).iterations == fresh.solve(later, 1e-6, expected).iterations);
+    CHECK(same_bits(x, expected));
 }
 
 }  // namespace percale::test

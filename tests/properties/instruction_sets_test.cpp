@@ -1,0 +1,88 @@
+#include "engine/step/step.h"
+#include "engine/support/hash.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+#include "tests/support/plane_detector.h"
+
+namespace percale::test {
+namespace {
+
+constexpr int steps = 60;
+
+struct Scene {
+    const char* name;
+    ClothModel model;
+    std::vector<int> pins;
+    StepSettings settings;
+    bool floor = false;
+};
+
+Fabric free_fabric() {
+    Fabric fabric = sheet_fabric();
+    fabric.springs.shear = 0.0;
+    return fabric;
+}
+
+/// A sheet as a grid, or as a free mesh.
+ClothModel sheet(bool grid) {
+    TriangleMesh mesh = make_grid(1.0, 1.0, 33, 33);
+    if (!grid) mesh.grid_columns = mesh.grid_rows = 0;
+    return cloth_model(mesh, grid ? sheet_fabric() : free_fabric());
+}
+
+std::vector<Scene> some_scenes() {
+    StepSettings velocity;
+    velocity.damping_form = DampingForm::velocity;
+    std::vector<Scene> scenes = {{"grid", sheet(true), {0, 32}, {}}, {"free mesh", sheet(false), {0, 32}, {}}};
+    scenes.push_back({"grid, multigrid", sheet(true), {0, 32}, {.linear_solver = LinearSolver::multigrid}});
+    scenes.push_back({"grid, block Jacobi, damping by velocity", sheet(true), {0}, velocity});
+    scenes.push_back({"grid on a plane", sheet(true), {}, {}, true});
+    scenes.push_back({"free mesh, explicit", sheet(false), {5}, {.time_step = 1e-4, .scheme = Scheme::rk4}});
+    return scenes;
+}
+
+World scene_world(const Scene& scene, const Kernels& kernels) {
+    std::vector<Vec3> places = scene.model.rest;
+    for (Vec3& x : places) x.y() += scene.floor ? 0.05 : 0.0;
+    World world = make_world(scene.model, places, scene.settings);
+    world.compute.kernels = &kernels;
+    for (const int pin : scene.pins) world.script.free[pin] = 0.0;
+    if (!scene.floor) return world;
+    world.detector = std::make_unique<PlaneDetector>();
+    world.detector->set_cloth(world.model.triangles, world.model.thickness);
+    world.detector->add_obstacle(make_plane(2.0), {}, 0.3);
+    world.script.obstacles.push_back({"plane", {}, {}});
+    return world;
+}
+
+/// The hash of all states and of the energies that the reports tell.
+std::uint64_t run(const Scene& scene, const Kernels& kernels) {
+    World world = scene_world(scene, kernels);
+    Hash hash;
+    for (int n = 0; n < steps; ++n) {
+        const StepReport report = step(world);
+        REQUIRE(report.ok());
+        hash.add(report.linear_iterations);
+        for (int i = 0; i < world.model.vertex_count(); ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                hash.add(world.state.positions.at(i)[axis]);
+                hash.add(world.state.velocities.at(i)[axis]);
+            }
+        }
+    }
+    return hash.value();
+}
+
+}  // namespace
+
+TEST_CASE("A whole run has the same bits in every instruction set") {
+    for (const Scene& scene : some_scenes()) {
+        const std::uint64_t baseline = run(scene, *kernels_for(InstructionSet::baseline));
+        for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
+            CAPTURE(scene.name, instruction_set_name(set));
+            if (const Kernels* kernels = kernels_for(set)) CHECK(run(scene, *kernels) == baseline);
+        }
+    }
+}
+
+}  // namespace percale::test
