@@ -1,112 +1,316 @@
-// Prints what one linear solve costs: ours and Eigen's, the same system, the same residual, thread CPU time.
+// Prints what one linear solve costs on systems as they come up in steps of 1/60 s, on grids and on free meshes: multigrid and
+// block Jacobi of the engine beside Eigen's simplicial Cholesky factorisation and Eigen's conjugate gradient (CHOLMOD's
+// supernodal factorisation too where it was found). All get the same matrix and right side; the residual is that of the engine's
+// product in double precision, whoever solved.
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
+#ifdef PERCALE_HAS_CHOLMOD
+#include <Eigen/CholmodSupport>
+#endif
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
-#include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "engine/forces/total_force.h"
 #include "engine/solve/linear_solver.h"
-#include "engine/step/world.h"
-#include "percale/percale.h"
-#include "tests/support/cpu_time.h"
+#include "percale/simulation.h"
+#include "tests/bench/bench_report.h"
+#include "tests/support/bench_meshes.h"
+#include "tests/support/bench_unit.h"
 
 namespace {
 
-using namespace percale;
+using percale::Vec3;
+using percale::Vectors;
+using percale::test::Figures;
+using Sparse = Eigen::SparseMatrix<double>;
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;  // Eigen's product is fastest by rows
 
-/// A system as it comes up in a step: a sheet that has fallen for a while.
-struct System {
-    ClothModel model;
-    Compute compute;
-    Vectors positions;
-    StepSprings springs;
-    Forces forces;
-    AlignedVector<double> free;
-    Vectors right;
+constexpr double dt = 1.0 / 60.0;         // s
+constexpr double wanted_residual = 1e-4;  // relative
+
+/// A cloth that is pinned and has moved for a while.
+struct Scene {
+    std::string name;
+    percale::TriangleMesh mesh;
+    percale::Fabric fabric;
+    std::vector<int> pins;
+    int steps;  // before the system is taken
 };
 
-System make_system(int vertices) {
-    const Fabric fabric{.area_density = 0.2, .springs = {.structural = 1000.0, .shear = 500.0, .bend = 10.0}, .spring_damping = 0.1};
-    System system;
-    const TriangleMesh mesh = make_grid(1.0, 1.0, vertices, vertices);
-    Simulation simulation({.time_step = 1.0 / 240.0});
-    const ClothId cloth = simulation.add_cloth(mesh, fabric);
-    for (const int corner : {0, vertices - 1}) simulation.pin(cloth, corner);
-    for (int step = 0; step < 120; ++step) simulation.step();
-    append_cloth(system.model, mesh, fabric, "sheet");
-    finish_model(system.model);
-    const int count = system.model.vertex_count();
-    for (auto* vectors : {&system.positions, &system.right, &system.forces.total}) vectors->resize(count);
-    Vectors velocities = system.positions;
-    copy_in(simulation.positions(cloth), system.positions);
-    copy_in(simulation.velocities(cloth), velocities);
-    const double dt = 1.0 / 60.0;
-    set_step_springs(system.compute, {system.model.adjacency, system.positions, DampingForm::length_rate, dt}, system.springs);
-    add_scaled(system.positions, dt, velocities);
-    evaluate_forces({.compute = &system.compute,
-                     .model = &system.model,
-                     .springs = &system.springs,
-                     .positions = &system.positions,
-                     .velocities = &velocities,
-                     .gravity = Vec3(0.0, -9.81, 0.0),
-                     .dt = dt,
-                     .with_matrix = true},
-                    system.forces);
-    system.free.assign(system.positions.padded_size(), 0.0);
-    for (int i = 0; i < count; ++i) system.free[i] = i == 0 || i == vertices - 1 ? 0.0 : 1.0;
-    for (int i = 0; i < count; ++i) system.right.set(i, system.free[i] * dt * system.forces.total.at(i));
-    return system;
-}
+Scene hanging_grid(int n) { return {"grid", percale::make_grid(1.0, 1.0, n, n), percale::test::bench_fabric(), {0, n - 1}, 30}; }
 
-double best_time(const std::function<void()>& work) {
-    double best = 1e300, total = 0.0;
-    for (int k = 0; k < 3 || (total < 0.3 && k < 200); ++k) {
-        const double start = test::cpu_seconds();
-        work();
-        const double time = test::cpu_seconds() - start;
-        best = std::min(best, time);
-        total += time;
+/// A free mesh held at the vertices nearest to two upper corners of its box, a few steps into its fall.
+Scene falling_mesh(const std::string& kind, int vertices) {
+    const auto make = kind == "shirt"   ? percale::test::t_shirt
+                      : kind == "skirt" ? percale::test::tube_skirt
+                                        : +[](int count) { return percale::test::irregular_sheet(1.0, count); };
+    Scene scene{kind, make(vertices), percale::test::bench_fabric(), {}, 8};
+    scene.fabric.springs.shear = 0.0;
+    Vec3 low = scene.mesh.vertices[0], high = low;
+    for (const Vec3& x : scene.mesh.vertices) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
     }
-    return 1e3 * best;
+    for (const double x : {low.x(), high.x()}) {
+        scene.pins.push_back(percale::test::nearest_vertex(scene.mesh, Vec3(x, high.y(), low.z())));
+    }
+    return scene;
 }
 
-double relative_residual(StepSolver& solver, const System& system, const Vectors& x) {
-    Vectors product = x;
-    AlignedVector<double> points;
-    multiply(solver.matrix, x, points, product);
-    Vectors rest = system.right;
-    add_scaled(rest, -1.0, product);
-    return std::sqrt(dot(system.compute, rest, rest) / dot(system.compute, system.right, system.right));
+/// The first system of the coming step: matrix terms and right side at q + dt v.
+class System {
+public:
+    explicit System(const Scene& scene) : name(scene.name) {
+        percale::Simulation simulation({.time_step = dt});
+        const percale::ClothId cloth = simulation.add_cloth(scene.mesh, scene.fabric);
+        for (const int pin : scene.pins) simulation.pin(cloth, pin);
+        for (int step = 0; step < scene.steps; ++step) {
+            const percale::StepReport report = simulation.step();
+            if (!report.ok()) throw std::runtime_error(report.explanation());
+        }
+        percale::append_cloth(model, scene.mesh, scene.fabric, scene.name);
+        percale::finish_model(model);
+        for (auto* vectors : {&positions_, &velocities_, &right}) vectors->resize(model.vertex_count());
+        percale::copy_in(simulation.positions(cloth), positions_);
+        percale::copy_in(simulation.velocities(cloth), velocities_);
+        free.assign(right.padded_size(), 0.0);
+        std::fill_n(free.begin(), model.vertex_count(), 1.0);
+        for (const int pin : scene.pins) free[pin] = 0.0;
+        evaluate();
+        for (int i = 0; i < model.vertex_count(); ++i) right.set(i, free[i] * dt * forces.total.at(i));
+        percale::set_pattern(compute, model.adjacency, model.mass, matrix);
+        matrix.free = free;
+        percale::fill_matrix(forces.spring_terms, {}, matrix);
+    }
+    System(const System&) = delete;
+    System& operator=(const System&) = delete;
+
+    double relative_residual(const Vectors& x) const {
+        Vectors product = x, rest = right;
+        percale::AlignedVector<double> points;
+        percale::multiply(matrix, x, points, product);
+        percale::add_scaled(rest, -1.0, product);
+        return std::sqrt(percale::dot(compute, rest, rest) / percale::dot(compute, right, right));
+    }
+
+    std::string name;
+    percale::Compute compute;
+    percale::ClothModel model;
+    percale::Forces forces;
+    percale::AlignedVector<double> free;
+    Vectors right;
+    percale::BlockMatrix matrix;
+
+private:
+    void evaluate() {
+        percale::set_step_springs(compute, {model.adjacency, positions_, percale::DampingForm::length_rate, dt}, springs_);
+        percale::add_scaled(positions_, dt, velocities_);
+        percale::evaluate_forces({.compute = &compute,
+                                  .model = &model,
+                                  .springs = &springs_,
+                                  .positions = &positions_,
+                                  .velocities = &velocities_,
+                                  .gravity = Vec3(0.0, -9.81, 0.0),
+                                  .dt = dt,
+                                  .with_matrix = true},
+                                 forces);
+    }
+
+    Vectors positions_, velocities_;
+    percale::StepSprings springs_;
+};
+
+/// The same matrix for Eigen, free vertices only, three rows each.
+struct EigenSystem {
+    std::vector<int> row;  // of a vertex, or -1
+    Sparse matrix;         // both halves
+    Eigen::VectorXd right;
+
+    explicit EigenSystem(const System& system) : row(system.model.vertex_count(), -1) {
+        int rows = 0;
+        for (int i = 0; i < system.model.vertex_count(); ++i) {
+            if (system.free[i] > 0.0) row[i] = 3 * rows++;
+        }
+        std::vector<Eigen::Triplet<double>> entries;
+        add_diagonal(system, entries);
+        add_springs(system, entries);
+        matrix.resize(3 * rows, 3 * rows);
+        matrix.setFromTriplets(entries.begin(), entries.end());
+        right.resize(3 * rows);
+        for (int i = 0; i < system.model.vertex_count(); ++i) {
+            if (row[i] >= 0) right.segment<3>(row[i]) = system.right.at(i);
+        }
+    }
+
+    Vectors to_vertices(const Eigen::VectorXd& x) const {
+        Vectors result;
+        result.resize(static_cast<int>(row.size()));
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (row[i] >= 0) result.set(static_cast<int>(i), x.segment<3>(row[i]));
+        }
+        return result;
+    }
+
+private:
+    void add_diagonal(const System& system, std::vector<Eigen::Triplet<double>>& entries) const {
+        constexpr int place[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+        for (int i = 0; i < system.model.vertex_count(); ++i) {
+            for (int k = 0; k < 9 && row[i] >= 0; ++k) {
+                entries.emplace_back(row[i] + k / 3, row[i] + k % 3, system.matrix.diagonal[place[k / 3][k % 3]][i]);
+            }
+        }
+    }
+    void add_springs(const System& system, std::vector<Eigen::Triplet<double>>& entries) const {
+        const percale::SpringNetwork& springs = system.model.springs;
+        for (int s = 0; s < springs.size(); ++s) {
+            const int i = row[springs.first[s]], j = row[springs.second[s]];
+            if (i < 0 || j < 0) continue;
+            const percale::SpringBlock block = percale::spring_block(system.model.adjacency, system.forces.spring_terms, s);
+            for (int k = 0; k < 9; ++k) {
+                const double value = -(k % 4 == 0 ? block.a : 0.0) - block.w[k / 3] * block.w[k % 3];
+                entries.emplace_back(i + k / 3, j + k % 3, value);
+                entries.emplace_back(j + k / 3, i + k % 3, value);
+            }
+        }
+    }
+};
+
+/// Milliseconds of `work`: the least of several runs, of one where that takes long.
+double least_ms(const std::function<void()>& work) {
+    double least = percale::test::least_seconds(1, {work})[0];
+    const int more = least > 1.0 ? 0 : std::clamp(static_cast<int>(0.3 / least), 2, 100);
+    if (more > 0) least = std::min(least, percale::test::least_seconds(more, {work})[0]);
+    return 1e3 * least;
+}
+
+/// What one solver took.
+struct Cost {
+    std::string solver;
+    double setup = 0.0;  // ms, once a mesh
+    double fill = 0.0;   // ms, for each matrix
+    double solve = 0.0;  // ms
+    int iterations = 0;
+    double residual = 0.0;
+
+    double total() const { return fill + solve; }
+};
+
+/// Ours; every fill makes the coarser levels anew, as the first of a step does.
+Cost measure_ours(const System& system, percale::LinearSolver choice) {
+    percale::StepSolver solver;
+    const auto fill = [&] {
+        solver.start_part();
+        solver.fill(system.forces.spring_terms, {});
+    };
+    Cost cost{.solver = choice == percale::LinearSolver::cg ? "block Jacobi" : "multigrid"};
+    const double first = 1e3 * percale::test::least_seconds(1, {[&] {
+                                                                solver.set_model(system.compute, system.model, choice);
+                                                                solver.matrix.free = system.free;
+                                                                fill();
+                                                            }})[0];
+    cost.fill = least_ms(fill);
+    cost.setup = std::max(0.0, first - cost.fill);
+    Vectors x;
+    percale::SolveReport report;
+    cost.solve = least_ms([&] {
+        x.resize(system.model.vertex_count());
+        report = solver.solve(system.right, {.relative_residual = wanted_residual}, x);
+    });
+    cost.iterations = report.iterations;
+    cost.residual = system.relative_residual(x);
+    return cost;
+}
+
+/// A factorisation: its analysis is setup, the numbers are fill. What it takes to write the values into Eigen's matrix is not
+/// counted.
+template <class Factorisation>
+Cost measure_direct(const System& system, const EigenSystem& eigen, const char* name) {
+    Factorisation factorisation;
+    Cost cost{.solver = name, .iterations = 1};
+    cost.setup = 1e3 * percale::test::least_seconds(1, {[&] { factorisation.analyzePattern(eigen.matrix); }})[0];
+    cost.fill = least_ms([&] { factorisation.factorize(eigen.matrix); });
+    if (factorisation.info() != Eigen::Success) throw std::runtime_error(std::string(name) + " failed");
+    Eigen::VectorXd x;
+    cost.solve = least_ms([&] { x = factorisation.solve(eigen.right); });
+    cost.residual = system.relative_residual(eigen.to_vertices(x));
+    return cost;
+}
+
+Cost measure_eigen_cg(const System& system, const EigenSystem& eigen) {
+    const SparseRows matrix = eigen.matrix;
+    Eigen::ConjugateGradient<SparseRows, Eigen::Lower | Eigen::Upper, Eigen::DiagonalPreconditioner<double>> solver;
+    solver.setTolerance(wanted_residual);
+    Cost cost{.solver = "Eigen CG"};
+    cost.fill = least_ms([&] { solver.compute(matrix); });
+    Eigen::VectorXd x;
+    cost.solve = least_ms([&] { x = solver.solve(eigen.right); });
+    cost.iterations = static_cast<int>(solver.iterations());
+    cost.residual = system.relative_residual(eigen.to_vertices(x));
+    return cost;
+}
+
+std::vector<Cost> measure_all(const System& system, int most_direct) {
+    std::vector<Cost> costs = {measure_ours(system, percale::LinearSolver::multigrid),
+                               measure_ours(system, percale::LinearSolver::cg)};
+    const EigenSystem eigen(system);
+    costs.push_back(measure_eigen_cg(system, eigen));
+    if (system.model.vertex_count() > most_direct) return costs;
+    costs.push_back(measure_direct<Eigen::SimplicialLDLT<Sparse>>(system, eigen, "Eigen LDLT"));
+#ifdef PERCALE_HAS_CHOLMOD
+    costs.push_back(measure_direct<Eigen::CholmodSupernodalLLT<Sparse>>(system, eigen, "CHOLMOD"));
+#endif
+    return costs;
+}
+
+Figures row(const System& system, const Cost& cost, const Cost& ours) {
+    const int vertices = system.model.vertex_count();
+    const double ratio = cost.total() / ours.total();
+    std::printf("%-9s %8d  %-12s %9.2f %9.3f %9.3f %6d %9.1e %8.2f\n", system.name.c_str(), vertices, cost.solver.c_str(),
+                cost.setup, cost.fill, cost.solve, cost.iterations, cost.residual, ratio);
+    return {{"mesh", system.name},           {"vertices", vertices},      {"solver", cost.solver},
+            {"setup_ms", cost.setup},        {"fill_ms", cost.fill},      {"solve_ms", cost.solve},
+            {"iterations", cost.iterations}, {"residual", cost.residual}, {"times_multigrid", ratio}};
+}
+
+void measure_scene(const Scene& scene, int most_direct, Figures& rows) {
+    const System system(scene);
+    const std::vector<Cost> costs = measure_all(system, most_direct);
+    for (const Cost& cost : costs) rows.push_back(row(system, cost, costs[0]));
+    std::fflush(stdout);
+}
+
+Figures measure(int largest, int most_vertices, int most_direct) {
+    std::printf("%-9s %8s  %-12s %9s %9s %9s %6s %9s %8s\n", "mesh", "vertices", "solver", "setup ms", "fill ms", "solve ms",
+                "iter", "residual", "times");
+    Figures rows = Figures::array();
+    for (const int n : {33, 65, 129, 257}) {
+        if (n <= largest) measure_scene(hanging_grid(n), most_direct, rows);
+    }
+    for (const char* kind : {"irregular", "shirt", "skirt"}) {
+        for (const int vertices : {1000, 4000, 16000}) {
+            if (vertices <= most_vertices) measure_scene(falling_mesh(kind, vertices), most_direct, rows);
+        }
+    }
+    return rows;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const int most = argc > 1 ? std::atoi(argv[1]) : 129;
-    for (const int vertices : {33, 65, 129, 257}) {
-        if (vertices > most) break;
-        System system = make_system(vertices);
-        for (const LinearSolver choice : {LinearSolver::multigrid, LinearSolver::cg}) {
-            StepSolver solver;
-            solver.set_model(system.compute, system.model, choice);
-            solver.matrix.free = system.free;
-            const double build = test::cpu_seconds();
-            solver.fill(system.forces.spring_terms, {});
-            const double built = test::cpu_seconds() - build;
-            const double fill = best_time([&] { solver.fill(system.forces.spring_terms, {}); });
-            Vectors x;
-            SolveReport report;
-            const double solve = best_time([&] {
-                x.resize(system.model.vertex_count());
-                report = solver.solve(system.right, {.relative_residual = 1e-4}, x);
-            });
-            std::printf("N %d %s: first %.2f fill %.3f solve %.3f ms, %d iterations, residual %.1e\n", vertices,
-                        choice == LinearSolver::cg ? "block Jacobi" : "multigrid", 1e3 * built, fill, solve, report.iterations,
-                        relative_residual(solver, system, x));
-        }
-    }
+    CLI::App app("What one linear solve of a step costs: the engine's solvers beside Eigen's, to the same residual.",
+                 "percale_linear_solvers");
+    int largest = 129, vertices = 16000, direct = 20000;
+    app.add_option("--largest", largest, "largest N of the grids 33, 65, 129, 257; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 257));
+    app.add_option("--vertices", vertices, "largest free meshes of 1000, 4000, 16000 vertices; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 16000));
+    app.add_option("--direct", direct, "most vertices that are factorised")->capture_default_str()->check(CLI::Range(0, 1000000));
+    return percale::test::run_bench(app, argc, argv, [&] { return measure(largest, vertices, direct); });
 }

@@ -5,30 +5,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include "percale/detectors.h"
-#include "percale/simulation.h"
-#include "scenes/mesh_import.h"
 #include "tests/bench/bench_report.h"
+#include "tests/bench/bench_scenes.h"
 #include "tests/support/bench_unit.h"
-#include "tests/support/real_meshes.h"
 
 namespace {
 
-using percale::Vec3;
 using percale::test::Figures;
-
-percale::Simulation make_scene(int n, const percale::TriangleMesh* body, double drop) {
-    percale::Simulation simulation({}, body ? percale::make_fcl_detector() : nullptr);
-    const percale::ClothId cloth = simulation.add_cloth(percale::make_grid(1.0, 1.0, n, n), percale::test::bench_fabric(),
-                                                        {.translation = {0.0, drop, 0.0}});
-    if (body) {
-        simulation.add_obstacle(*body);
-    } else {
-        simulation.pin(cloth, 0);
-        simulation.pin(cloth, n - 1);
-    }
-    return simulation;
-}
+using percale::test::make_sheet_scene;
 
 /// What the steps of one run add up to.
 struct Cost {
@@ -86,29 +70,15 @@ Figures report(const char* scene, int n, percale::Simulation simulation, double 
     return row;
 }
 
-/// The bunny scan half a metre high, centred; no triangles where it is absent.
-percale::TriangleMesh bunny() {
-    const std::filesystem::path file = percale::test::real_mesh_folder() / "bunny00.off";
-    if (!std::filesystem::exists(file)) return {};
-    percale::TriangleMesh mesh = percale::scenes::import_mesh(file.string());
-    Vec3 low = mesh.vertices[0], high = low;
-    for (const Vec3& x : mesh.vertices) {
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-    }
-    for (Vec3& x : mesh.vertices) x = (x - 0.5 * (low + high)) * (0.5 / (high - low).maxCoeff());
-    return mesh;
-}
-
 Figures measure(double seconds) {
-    const percale::TriangleMesh ball = percale::make_sphere(0.25, 4), scan = bunny();
+    const percale::TriangleMesh ball = percale::make_sphere(0.25, 4), scan = percale::test::bunny_scan();
     std::printf("%-3s %4s %8s %7s  %7s %8s %6s %6s %7s %6s %8s  %6s %7s %7s\n", "", "N", "ms/step", "U", "refresh", "evaluate",
                 "force", "setup", "solve", "cut", "measure", "newton", "linear", "strain%");
     Figures rows = Figures::array();
     for (const int n : {33, 65}) {
-        rows.push_back(report("S1", n, make_scene(n, nullptr, 0.0), seconds));
-        rows.push_back(report("S2", n, make_scene(n, &ball, 0.6), seconds));
-        if (!scan.triangles.empty()) rows.push_back(report("S3", n, make_scene(n, &scan, 0.6), seconds));
+        rows.push_back(report("S1", n, make_sheet_scene(n, nullptr, 0.0), seconds));
+        rows.push_back(report("S2", n, make_sheet_scene(n, &ball, 0.6), seconds));
+        if (!scan.triangles.empty()) rows.push_back(report("S3", n, make_sheet_scene(n, &scan, 0.6), seconds));
     }
     if (scan.triangles.empty()) std::puts("S3 left out: no bunny00.off (PERCALE_REAL_MESHES names its folder)");
     return rows;
