@@ -13,6 +13,13 @@ double length(const SpringNetwork& network, const Vectors& x, int k) {
     return (x.at(network.first[k]) - x.at(network.second[k])).norm();
 }
 
+/// Blocks before the first vertex are zero.
+void clear_guards(const BandPattern& bands, AlignedVector<float>& values) {
+    for (int array = 0; array < 4 * bands.count; ++array) {
+        std::fill_n(values.begin() + array * (bands.guard + bands.padded), bands.guard, 0.0f);
+    }
+}
+
 }  // namespace
 
 void set_step_springs(const Compute& compute, const SpringStart& start, StepSprings& springs) {
@@ -43,7 +50,8 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
     const int slices = motion.positions.slices();
     if (with_matrix && terms.values.size() != adjacency.value_count()) terms.values.assign(adjacency.value_count(), 0.0f);
     const BandPattern& bands = adjacency.bands;
-    const std::size_t scratch = 3 * bands.count * (bands.guard + band_chunk_slices * slice_lanes);
+    if (with_matrix) clear_guards(bands, terms.values);
+    const std::size_t scratch = 3 * bands.count * (bands.guard + std::min(slices, band_chunk_slices) * slice_lanes);
     terms.scratch.resize(scratch * (compute.pool ? compute.pool->threads() : 1));
     const SpringPass pass{.springs = springs.entries,
                           .positions = motion.positions.axes(),

@@ -5,7 +5,7 @@
 namespace percale {
 namespace {
 
-constexpr int dear_jacobi = 50;  // iterations from which multigrid is cheaper
+constexpr int dear_jacobi = 25;  // iterations from which multigrid is cheaper
 
 }  // namespace
 

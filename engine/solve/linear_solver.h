@@ -13,8 +13,8 @@ namespace percale {
 /// The step matrix with the solver that the settings or the counts so far choose.
 ///
 /// `automatic` begins with block Jacobi and changes to multigrid when a solve has shown that to be dearer, in products with the
-/// matrix: a multigrid solve costs about 8 products for its coarser matrices and 8 an iteration, and needs about six iterations
-/// where block Jacobi needs more than fifty. Counts only, no clock: runs repeat bit for bit.
+/// matrix: a multigrid solve costs about 8 products for its coarser matrices and 3 an iteration, and needs about five iterations
+/// where block Jacobi needs more than 25. Counts only, no clock: runs repeat bit for bit.
 class StepSolver {
 public:
     /// Prepares for a model, which is viewed and must stay as it is.

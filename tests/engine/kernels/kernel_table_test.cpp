@@ -82,31 +82,25 @@ Case float_product_case(bool coarse, bool with_right) {
 Case smooth_case(bool fresh) {
     return {"smooth", 1e-6,
             [=](const Kernels& kernels, KernelProblem p, const Ranges& ranges) {
-                // With beta = 0 nothing of p is read.
-                if (fresh) std::fill(p.float_y.begin(), p.float_y.end(), std::numeric_limits<float>::quiet_NaN());
+                // From zero nothing of x is read.
+                if (fresh) std::fill(p.float_x.begin(), p.float_x.end(), std::numeric_limits<float>::quiet_NaN());
                 const SmoothPass pass{.inverse = p.blocks.data(),
                                       .r = {p.float_r.data(), p.padded},
-                                      .p = {p.float_y.data(), p.padded},
                                       .x = {p.float_x.data(), p.padded},
-                                      .alpha = 0.37f,
-                                      .beta = fresh ? 0.0f : -0.61f,
+                                      .factor = 0.37f,
                                       .fresh = fresh};
                 for (const Slices range : ranges) kernels.smooth(pass, range);
                 Result result;
-                result.add(p.float_y);
                 result.add(p.float_x);
                 return result;
             },
             [=](KernelProblem p) {
-                FloatResult direction(p), x(p);
+                FloatResult x(p);
                 for_vertices(p, [&](int i) {
-                    const Vec3 before = fresh ? Vec3(Vec3::Zero()) : Vec3(kernel_beta * p.float_at(p.float_y, i));
-                    const Vec3 move = before + kernel_alpha * p.block(i) * p.float_at(p.float_r, i);
-                    direction.set(i, move);
+                    const Vec3 move = kernel_alpha * p.block(i) * p.float_at(p.float_r, i);
                     x.set(i, fresh ? move : Vec3(p.float_at(p.float_x, i) + move));
                 });
                 Result result;
-                result.add(direction.data);
                 result.add(x.data);
                 return result;
             }};

@@ -21,7 +21,9 @@ double allocated() {
 std::optional<double> memory_ratio(const TriangleMesh& mesh, const Fabric& fabric, const StepSettings& settings) {
     const double before = allocated();
     Simulation simulation(settings);
-    simulation.add_cloth(mesh, fabric);
+    const ClothId cloth = simulation.add_cloth(mesh, fabric);
+    simulation.pin(cloth, 0);
+    simulation.pin(cloth, 1);
     for (int n = 0; n < 5; ++n) simulation.step();
     const double used = allocated() - before;
     if (used <= 0.0) return std::nullopt;
@@ -44,7 +46,8 @@ TEST_CASE("Predicted memory is what is allocated to within a fifth") {
     for (const Scheme scheme : {Scheme::backward_euler, Scheme::symplectic_euler, Scheme::rk4}) {
         for (const int side : {33, 65}) {
             for (const double bend : {0.0, 10.0}) {
-                const StepSettings settings{.time_step = 1e-4, .scheme = scheme};
+                const double dt = scheme == Scheme::backward_euler ? 1.0 / 60.0 : 1e-4;
+                const StepSettings settings{.time_step = dt, .scheme = scheme};
                 CAPTURE(static_cast<int>(scheme), side, bend);
                 const Fabric fabric{.springs = {.structural = 1000.0, .shear = 500.0, .bend = bend}};
                 const auto grid = memory_ratio(make_grid(1.0, 1.0, side, side), fabric, settings);

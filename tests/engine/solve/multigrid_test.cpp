@@ -139,7 +139,7 @@ TEST_CASE("Taut and slack sheets stay cheap, though slack springs resist along o
         for (const Vec3& stretch : {Vec3(1.2, 1.0, 1.2), Vec3(0.7, 1.0, 1.2), Vec3(0.7, 1.0, 0.7), Vec3(1.0, 1.0, 0.3)}) {
             SheetSystem sheet(static_cast<unsigned>(side) + 40u, side, 0.05, stretch);
             CAPTURE(side, stretch.x(), stretch.z());
-            CHECK(iterations(sheet) <= 30);
+            CHECK(iterations(sheet) <= 45);
         }
     }
 }
