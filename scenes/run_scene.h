@@ -34,10 +34,11 @@ struct RunTotals {
     long newton_iterations = 0;
     long linear_iterations = 0;
     double largest_residual = 0.0;
+    LinearSolver linear_solver = LinearSolver::automatic;  // last in use; automatic if nothing was solved
     int contacts_most = 0;
     double contact_stiffness = 0.0;  // N/m, largest
     StageTimes stages;               // CPU seconds
-    double cpu_s = 0.0;              // CPU seconds of the calling thread inside steps only
+    double cpu_s = 0.0;              // CPU seconds of all threads inside steps only
     double wall_s = 0.0;             // whole run, output included
     StepEnergy energy;               // J, at the end; work is the sum over the run
 };

@@ -28,8 +28,8 @@ void set_step_springs(const Compute& compute, const SpringStart& start, StepSpri
     springs.entries = adjacency.springs();
     springs.rate_damping = adjacency.damped && start.form == DampingForm::velocity;
     if (!adjacency.damped || start.form == DampingForm::velocity) return;
-    springs.stiffness.resize(adjacency.other.size());
-    springs.rest_length.resize(adjacency.other.size());
+    springs.stiffness.resize(adjacency.stiffness.size());
+    springs.rest_length.resize(adjacency.stiffness.size());
     pack_points(compute, adjacency, start.positions, springs.points);
     const StartPass pass{.springs = adjacency.springs(),
                          .positions = start.positions.axes(),

@@ -98,6 +98,7 @@ NewtonReport solve_part(World& world, StepFraction span) {
                             .options = {}};
     const NewtonReport part_report = solve_implicit(part, world.newton, world.state, world.report.stages);
     add_figures(part_report, world.report);
+    world.report.linear_solver = world.newton.solver.in_use();
     world.report.smallest_dt = std::min(world.report.smallest_dt, dt);
     return part_report;
 }

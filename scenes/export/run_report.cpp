@@ -18,8 +18,6 @@ namespace {
 
 constexpr const char* version = PERCALE_VERSION;
 
-bool is_explicit(Scheme scheme) { return scheme != Scheme::backward_euler; }
-
 /// Largest resident set of this process so far, bytes.
 double peak_memory_bytes() {
     rusage usage{};
@@ -27,7 +25,21 @@ double peak_memory_bytes() {
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-void put_counts(ordered_json& json, const Scene& scene, const RunTotals& totals) {
+const char* solver_word(LinearSolver solver) {
+    switch (solver) {
+        case LinearSolver::automatic:
+            return "none";
+        case LinearSolver::cg:
+            return "cg";
+        case LinearSolver::multigrid:
+            return "multigrid";
+        case LinearSolver::direct:
+            return "direct";
+    }
+    return "";
+}
+
+void put_counts(ordered_json& json, const RunTotals& totals) {
     json["simulated_s"] = totals.simulated_s;
     json["steps"] = totals.steps;
     json["rejected_steps"] = totals.rejected_steps;
@@ -37,7 +49,7 @@ void put_counts(ordered_json& json, const Scene& scene, const RunTotals& totals)
     json["newton_iterations"] = totals.newton_iterations;
     json["linear_iterations"] = totals.linear_iterations;
     json["largest_residual"] = totals.largest_residual;
-    json["linear_solver"] = is_explicit(scene.step.scheme) ? "none" : "cg";
+    json["linear_solver"] = solver_word(totals.linear_solver);
 }
 
 void put_costs(ordered_json& json, const RunTotals& totals) {
@@ -122,7 +134,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     if (!result.reason.empty()) json["reason"] = result.reason;
     json["title"] = built.scene.title;
     json["scene"] = built.scene.file;
-    put_counts(json, built.scene, result.totals);
+    put_counts(json, result.totals);
     put_costs(json, result.totals);
     json["obstacles"] = obstacle_list(built);
     json["skipped"] = skipped_list(result.skipped);

@@ -46,8 +46,9 @@ TEST_CASE("wrong common options are refused, and nothing is written") {
     CHECK(refused(run_with(folder, {"--set", "=3"}), "KEY=VALUE"));
     CHECK(refused(run_with(folder, {"--set", "duratoin=3"}), "duration"));
     CHECK(refused(run_with(folder, {"--set", "duration=-3"}), "duration"));
-    CHECK(refused(run_with(folder, {"--threads", "2"}), "1 ... 1"));
-    CHECK(refused(run_with(folder, {"--threads", "0"}), "1 ... 1"));
+    CHECK(refused(run_with(folder, {"--threads", "65"}), "1 ... 64"));
+    CHECK(refused(run_with(folder, {"--threads", "0"}), "1 ... 64"));
+    CHECK(refused(run_with(folder, {"--threads", "two"}), "threads"));
     CHECK(refused(run_with(folder, {"--fps", "0"}), "fps"));
     CHECK(refused(run_with(folder, {"--fps", "fast"}), "fps"));
     CHECK(refused(run_with(folder, {"--checkpoint", "1"}), "lacks"));
@@ -56,7 +57,8 @@ TEST_CASE("wrong common options are refused, and nothing is written") {
         CHECK(refused(run_with(folder, {"--frames", format}), "lacks"));
     CHECK(refused(run_with(folder, {"--frames", "objj"}), "obj"));
     CHECK_FALSE(folder.holds("out"));
-    CHECK(run_with(folder, {"--threads", "1"}).exit_code == 0);
+    CHECK(run_with(folder, {"--threads", "2"}).exit_code == 0);
+    CHECK(nlohmann::json::parse(folder.read("out/report.json")).at("settings").at("step").at("threads") == 2);
 }
 
 TEST_CASE("the option --quiet leaves both channels empty when all is well") {
