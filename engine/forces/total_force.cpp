@@ -9,9 +9,8 @@ void evaluate_forces(const ForceInput& input, Forces& forces) {
     if (forces.total.padded_size() != input.positions->padded_size()) forces.total.resize(model.vertex_count());
     set_gravity_forces(model.mass, input.gravity, forces.total);
     forces.potential = gravity_energy(model.mass, input.gravity, *input.positions);
-    forces.potential +=
-        evaluate_springs(*input.compute, *input.springs, {*input.positions, *input.velocities, input.dt}, input.with_matrix,
-                         forces.total, forces.spring_terms);
+    forces.potential += evaluate_springs(*input.compute, *input.springs, {*input.positions, *input.velocities, input.dt},
+                                         input.with_matrix, forces.total, forces.spring_terms);
 }
 
 void add_contact_forces(const ForceInput& input, const ContactStep& contact_step, Forces& forces) {

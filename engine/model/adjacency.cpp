@@ -138,7 +138,8 @@ void pack_points(const Compute& compute, const Adjacency& adjacency, const Vecto
     points.resize(adjacency.point_count());
     const BandPattern& bands = adjacency.bands;
     if (bands.count == 0) {
-        for_chunks(compute, from.slices(), [&](Slices range) { compute.kernels->pack_points(from.axes(), points.data(), range); });
+        for_chunks(compute, from.slices(),
+                   [&](Slices range) { compute.kernels->pack_points(from.axes(), points.data(), range); });
         return;
     }
     auto to = points.begin();

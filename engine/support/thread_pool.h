@@ -5,8 +5,8 @@
 
 namespace percale {
 
-/// A few threads that share out numbered parts of work, always the same parts to the same thread. One caller at a time, which does
-/// its own share; work must not call run() again.
+/// A few threads that share out numbered parts of work, always the same parts to the same thread. One caller at a time, which
+/// does its own share; work must not call run() again.
 class ThreadPool {
 public:
     /// `threads` >= 1, the caller's included.
@@ -20,7 +20,8 @@ public:
     /// work(part, thread) for every part of 0 ... parts - 1; thread t does parts * t / threads and on. Returns when all are done.
     template <class Work>
     void run(int parts, Work work) {
-        run_parts(parts, [](void* data, int part, int thread) { (*static_cast<Work*>(data))(part, thread); }, &work);
+        run_parts(
+            parts, [](void* data, int part, int thread) { (*static_cast<Work*>(data))(part, thread); }, &work);
     }
 
     /// Numbers to be summed in order, one a part, kept so that none are allocated anew.

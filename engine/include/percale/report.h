@@ -52,7 +52,7 @@ struct StepReport {
     int linear_iterations = 0;
     int line_search_cuts = 0;
     LinearSolver linear_solver = LinearSolver::automatic;  // in use at the end; automatic if nothing was solved
-    int halvings = 0;                // how often the step was redone shorter
+    int halvings = 0;                                      // how often the step was redone shorter
     double residual = 0.0;           // relative to the first of the step, or to gravity's impulse where that is larger
     double smallest_fraction = 1.0;  // smallest part of a move that was free of crossing
     int sleeping_cloths = 0;         // at rest
