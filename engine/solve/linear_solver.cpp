@@ -29,21 +29,20 @@ void StepSolver::fill(const SpringTerms& springs, std::span<const ContactBlock> 
 }
 
 SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vectors& x) {
+    SolveReport report;
     if (in_use_ == LinearSolver::direct) {
         if (!direct_) direct_ = std::make_unique<DirectSolver>();
-        return {.iterations = 1, .converged = direct_->solve(matrix, b, x)};
-    }
-    if (in_use_ == LinearSolver::multigrid) {
-        const SolveReport report = solve_multigrid(matrix, *multigrid_, b, target, multigrid_space_, x);
+        report = {.iterations = 1, .converged = direct_->solve(matrix, b, x)};
+    } else if (in_use_ == LinearSolver::multigrid) {
+        report = solve_multigrid(matrix, *multigrid_, b, target, multigrid_space_, x);
         if (fresh_iterations_ == 0) fresh_iterations_ = report.iterations;
         stale_ = report.iterations > 2 * fresh_iterations_ + 2;
-        return report;
     }
-    const SolveReport report = solve_cg(matrix, b, target, space_, x);
-    if (wish_ == LinearSolver::automatic && report.iterations > dear_jacobi) {
-        in_use_ = LinearSolver::multigrid;
-    }
-    return report;
+    if (report.converged) return report;
+    // Chosen, or what is left where the others broke down or reached their precision.
+    const SolveReport rest = solve_cg(matrix, b, target, space_, x);
+    if (wish_ == LinearSolver::automatic && rest.iterations > dear_jacobi) in_use_ = LinearSolver::multigrid;
+    return {.iterations = report.iterations + rest.iterations, .converged = rest.converged};
 }
 
 bool StepSolver::estimate(const Vectors& r, Vectors& z) {

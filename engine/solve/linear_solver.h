@@ -28,7 +28,8 @@ public:
     /// Takes springs and contacts of a state.
     void fill(const SpringTerms& springs, std::span<const ContactBlock> contacts);
 
-    /// A x = b on the free vertices, prescribed entries of x kept.
+    /// A x = b on the free vertices, prescribed entries of x kept. Where multigrid or the factorisation does not get there, conjugate
+    /// gradient with block Jacobi in double precision goes on.
     SolveReport solve(const Vectors& b, const SolveTarget& target, Vectors& x);
 
     /// A cheap estimate of A^-1 r with the matrix last filled in: z = one application of the preconditioner. False where that is
