@@ -84,7 +84,7 @@ constexpr Option<StepSettings> step_list[] = {
      .unit = "",
      .sentence = "How the linear system of a Newton iteration is solved: cg = conjugate gradient with block Jacobi, multigrid = "
                  "with a V-cycle, "
-                 "direct = sparse factorisation, auto = the one of the first two that takes fewer products.",
+                 "direct = sparse factorisation, auto = cg until a solve takes more than 25 iterations, then multigrid.",
      .choices = solver_words,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.linear_solver); },
      .set_choice = [](StepSettings& s, int i) { s.linear_solver = static_cast<LinearSolver>(i); }},

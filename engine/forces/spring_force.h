@@ -32,7 +32,7 @@ struct SpringStart {
 /// DampingForm::velocity: k = ks, l_rest = l0, c = kd.
 /// DampingForm::length_rate: damping as the rate of the length over the step, kd (l - l_n)/dt, makes each spring exactly one with
 /// k = ks + kd/dt, l_rest = (ks l0 + kd l_n/dt)/k and c = 0: an exact potential with a symmetric Hessian.
-/// Views the adjacency, which must live as long. `damped` tells whether any spring has damping.
+/// Views the adjacency, which must live as long.
 void set_step_springs(const Compute& compute, const SpringStart& start, StepSprings& springs);
 
 /// What an evaluation leaves behind: the blocks of the step matrix, and work space.

@@ -1,9 +1,11 @@
 #include "kernels.h"
 
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "kernel_table.h"
+#include "percale/error.h"
 
 namespace percale {
 namespace {
@@ -11,6 +13,10 @@ namespace {
 const Kernels& chosen_kernels() {
     const char* wish = std::getenv("PERCALE_INSTRUCTIONS");
     const std::string_view name = wish ? wish : "";
+    if (wish && name != "baseline" && name != "avx2" && name != "avx512") {
+        throw SceneError("PERCALE_INSTRUCTIONS = '" + std::string(name) +
+                         "' in the environment; allowed: baseline, avx2, avx512");
+    }
     for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2}) {
         const Kernels* kernels = kernels_for(set);
         if (!kernels || name == "baseline" || (name == "avx2" && set == InstructionSet::avx512)) continue;

@@ -25,7 +25,7 @@ struct ConstAxes {
 };
 struct Axes {
     double *x, *y, *z;
-    operator ConstAxes() const { return {x, y, z}; }
+    [[gnu::always_inline]] operator ConstAxes() const { return {x, y, z}; }
 };
 
 /// Springs whose ends are one of a few numbers of vertices apart, as on a grid. Place i of a band is the spring between vertices
@@ -73,11 +73,11 @@ struct SpringPass {
     double* scratch;                  // with bands: 3 * count arrays of guard + the range's vertices
 };
 
-/// The block matrix D + sum over entries of (a I + w w^T) acting on differences x_i - x_j: y = A x, or y = b - A x.
+/// The block matrix D + sum over entries of (a I + w w^T) acting on differences x_i - x_j: y = A x.
 struct BlockPass {
     EntryPattern pattern;
-    const float* values;   // 4 numbers an entry (a, w), or 6 (a symmetric block)
-    const double* ground;  // fine level: one number a vertex
+    const float* values;   // a and w of each entry
+    const double* ground;  // D, one number a vertex
 };
 
 /// Vectors of floats: x, y, z one after the other, `padded` apart.
@@ -86,7 +86,8 @@ struct FloatVectors {
     std::size_t padded;
 };
 
-/// Like BlockPass, in single precision; `ground` has six arrays, `padded` apart, or with 4-number values one.
+/// Like BlockPass, in single precision: y = A x, or y = b - A x; blocks of 4 numbers (a, w) or 6 (symmetric). `ground` has six
+/// arrays, `padded` apart, or with 4-number values one.
 struct FloatPass {
     EntryPattern pattern;
     const float* values;
@@ -139,7 +140,7 @@ struct Kernels {
     void (*pack_float_points)(FloatVectors from, float* points, Slices range);
     void (*start_springs)(const StartPass& pass, Slices range);
     double (*springs)(const SpringPass& pass, Slices range);  // returns their energy, J
-    /// y = A x with x = 0 at prescribed vertices (`free` = 0), where y is 0 too; returns x . y.
+    /// y = A x, 0 at prescribed vertices (`free` = 0); returns x . y.
     double (*multiply)(const BlockPass& pass, ConstAxes x, const double* points, const double* free, Axes y, Slices range);
     double (*dot)(ConstAxes a, ConstAxes b, Slices range);
     double (*advance)(double alpha, ConstAxes p, ConstAxes q, Axes x, Axes r, Slices range);  // x += alpha p, r -= alpha q; r . r

@@ -18,7 +18,7 @@ struct Adjacency {
     std::vector<int> start = {0};  // of each slice; one more at the end
     AlignedVector<int> other;      // the vertex at the other end
     std::vector<int> spring;       // which spring
-    BandPattern bands;             // count = 0 unless the springs lie in bands, as on a single grid
+    BandPattern bands;             // count = 0 unless the springs lie in few bands, as on a single grid
     std::vector<int> place;        // of each spring, in the lists below: its place in the bands, or the entry at its first vertex
     AlignedVector<double> stiffness, rest_length, damping;  // N/m, m, N s/m of each place
     bool damped = false;                                    // any spring has damping

@@ -14,7 +14,7 @@ struct SolveSpace {
 
 /// Conjugate gradient for A x = b on the free vertices (Hestenes and Stiefel 1952), preconditioned by block Jacobi, in double
 /// precision. Energy gains are taken over ten iterations.
-/// On entry x holds the prescribed values of the other vertices and 0 at free ones; prescribed entries stay.
+/// On entry x holds the prescribed values of the other vertices, which stay, and a first guess at the free ones.
 SolveReport solve_cg(const BlockMatrix& matrix, const Vectors& b, const SolveTarget& target, SolveSpace& space, Vectors& x);
 
 }  // namespace percale

@@ -9,7 +9,7 @@ namespace percale {
 struct SolveTarget {
     double relative_residual = 0.0;  // |r| <= this |r at the start|, over free vertices
     /// Energy norm of the error, estimated by the gains alpha_k (r.z)_k of the last iterations (Hestenes and Stiefel's error
-    /// formula): their sum <= relative_gain^2 (sum of all gains), or <= absolute_gain (J s^2).
+    /// formula), scaled up after many iterations: <= relative_gain^2 (sum of all gains), or <= absolute_gain (J s^2).
     double relative_gain = 0.0;
     double absolute_gain = 0.0;
     int most_iterations = 2000;
@@ -32,7 +32,9 @@ public:
         if ((target.relative_gain <= 0.0 && target.absolute_gain <= 0.0) || count_ < window_size_) return false;
         double recent = 0.0;
         for (int k = 0; k < window_size_; ++k) recent += window_[k];
-        return recent <= std::max(target.relative_gain * target.relative_gain * total_, target.absolute_gain);
+        // The longer the way so far, the more is likely to come after the window.
+        const double ahead = recent * std::max(1.0, count_ / (4.0 * window_size_));
+        return ahead <= std::max(target.relative_gain * target.relative_gain * total_, target.absolute_gain);
     }
 
 private:

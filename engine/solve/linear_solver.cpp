@@ -13,7 +13,7 @@ void StepSolver::set_model(const Compute& compute, const ClothModel& model, Line
     set_pattern(compute, model.adjacency, model.mass, matrix);
     model_ = &model;
     wish_ = wish;
-    in_use_ = wish == LinearSolver::automatic ? LinearSolver::cg : wish;
+    in_use_ = wish == LinearSolver::automatic ? first_ : wish;
     multigrid_.reset();
     direct_.reset();
     stale_ = true;
@@ -41,7 +41,8 @@ SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vecto
     if (report.converged) return report;
     // Chosen, or what is left where the others broke down or reached their precision.
     const SolveReport rest = solve_cg(matrix, b, target, space_, x);
-    if (wish_ == LinearSolver::automatic && rest.iterations > dear_jacobi) in_use_ = LinearSolver::multigrid;
+    const bool can_coarsen = model_->vertex_count() > dense_vertices;
+    if (wish_ == LinearSolver::automatic && can_coarsen && rest.iterations > dear_jacobi) in_use_ = LinearSolver::multigrid;
     return {.iterations = report.iterations + rest.iterations, .converged = rest.converged};
 }
 

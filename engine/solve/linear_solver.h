@@ -12,9 +12,9 @@ namespace percale {
 
 /// The step matrix with the solver that the settings or the counts so far choose.
 ///
-/// `automatic` begins with block Jacobi and changes to multigrid when a solve has shown that to be dearer, in products with the
-/// matrix: a multigrid solve costs about 8 products for its coarser matrices and 3 an iteration, and needs about five iterations
-/// where block Jacobi needs more than 25. Counts only, no clock: runs repeat bit for bit.
+/// `automatic` begins with block Jacobi and changes to multigrid, for good, when a solve has shown that to be dearer, in products
+/// with the matrix: a multigrid solve costs about 8 products for its coarser matrices and 3 an iteration, and needs about five
+/// iterations where block Jacobi needs more than 25. Counts only, no clock: runs repeat bit for bit.
 class StepSolver {
 public:
     /// Prepares for a model, which is viewed and must stay as it is.
@@ -28,13 +28,16 @@ public:
     /// Takes springs and contacts of a state.
     void fill(const SpringTerms& springs, std::span<const ContactBlock> contacts);
 
-    /// A x = b on the free vertices, prescribed entries of x kept. Where multigrid or the factorisation does not get there, conjugate
-    /// gradient with block Jacobi in double precision goes on.
+    /// A x = b on the free vertices, prescribed entries of x kept. Where multigrid or the factorisation does not get there,
+    /// conjugate gradient with block Jacobi in double precision goes on.
     SolveReport solve(const Vectors& b, const SolveTarget& target, Vectors& x);
 
     /// A cheap estimate of A^-1 r with the matrix last filled in: z = one application of the preconditioner. False where that is
     /// no good estimate, as with block Jacobi.
     bool estimate(const Vectors& r, Vectors& z);
+
+    /// What `automatic` begins with for the next model; cg unless said.
+    void begin_with(LinearSolver solver) { first_ = solver; }
 
     LinearSolver in_use() const { return in_use_; }
 
@@ -43,6 +46,7 @@ public:
 private:
     const ClothModel* model_ = nullptr;
     LinearSolver wish_ = LinearSolver::automatic;
+    LinearSolver first_ = LinearSolver::cg;
     LinearSolver in_use_ = LinearSolver::cg;
     std::unique_ptr<Multigrid> multigrid_;
     std::unique_ptr<DirectSolver> direct_;

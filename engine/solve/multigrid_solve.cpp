@@ -37,7 +37,7 @@ private:
     FloatVectors view(AlignedVector<float>& data) const { return {data.data(), multigrid_.padded()}; }
 
     void size_space(const Vectors& b) {
-        for (auto* list : {&space_.x, &space_.p, &space_.q}) list->assign(3 * multigrid_.padded(), 0.0f);
+        for (auto* list : {&space_.x, &space_.p, &space_.q}) list->resize(3 * multigrid_.padded());
         if (space_.r.padded_size() == b.padded_size()) return;
         for (auto* vectors : {&space_.r, &space_.product}) vectors->resize(static_cast<int>(b.padded_size()));
     }

@@ -219,7 +219,9 @@ private:
         }
         StageTimer timer(stages_.solve);
         const SolveTarget target = solve_target(iteration, norm, last_norm);
-        report_.linear_iterations += space_.solver.solve(space_.right_side, target, space_.direction).iterations;
+        const SolveReport solved = space_.solver.solve(space_.right_side, target, space_.direction);
+        report_.linear_iterations += solved.iterations;
+        direction_is_good_ = solved.converged;
         if (space_.current.forces.rows.size() == 0) correct_translation();
     }
 
@@ -284,6 +286,7 @@ private:
 
     /// Line search and cut along the direction; false when the target is met or nothing more can be gained.
     bool step_along() {
+        went_on_ = false;
         const double slope = dot(*part_.compute, space_.current.residual, space_.direction);
         const bool was_arrived = arrived();
         LineTrial line{.start_objective = space_.current.objective, .start_slope = slope};
@@ -307,8 +310,8 @@ private:
         }
         std::swap(space_.current, space_.trial);
         if (accepted && fraction * kept == 1.0 && was_arrived && !small) go_on(line);
-        const bool by_change =
-            small && fraction * kept == 1.0 && !part_.settings->newton_tolerance && report_.newton_iterations > 1;
+        const bool by_change = small && direction_is_good_ && fraction * kept == 1.0 && !part_.settings->newton_tolerance &&
+                               report_.newton_iterations > 1;
         const bool by_rounding = !accepted && -slope <= 1e-12 * std::abs(line.start_objective);
         converged_ = was_arrived && (by_change || by_rounding);
         return !converged_;
@@ -328,12 +331,13 @@ private:
         line.objective = space_.trial.objective;
         line.slope = dot(*part_.compute, space_.trial.residual, space_.direction);
         if (accept_trial(further * kept, line)) std::swap(space_.current, space_.trial);
+        went_on_ = true;
     }
 
     /// Whether another iteration would change little, by what the preconditioner makes of the residual: far cheaper than the
     /// iteration.
     bool estimate_is_small() {
-        if (part_.settings->newton_tolerance || !arrived()) return false;
+        if (part_.settings->newton_tolerance || !arrived() || went_on_) return false;
         StageTimer timer(stages_.solve);
         if (!space_.solver.estimate(space_.current.residual, space_.direction)) return false;
         for (auto* axis : {&space_.direction.x, &space_.direction.y, &space_.direction.z}) {
@@ -377,6 +381,8 @@ private:
     StageTimes& stages_;
     NewtonReport report_;
     bool converged_ = false;
+    bool direction_is_good_ = true;  // the linear solve got where it should
+    bool went_on_ = false;           // the state is not the one whose matrix was solved with
 };
 
 }  // namespace

@@ -171,7 +171,11 @@ bool solve_span(World& world, StepFraction span, int depth) {
 void solve_step(World& world) {
     if (!world.plan.solve) return world.state.velocities.resize(world.model.vertex_count());
     if (!world.plan.implicit) return solve_explicit(world);
-    if (!world.plan.keep_work_space) world.newton = NewtonSpace{};
+    if (!world.plan.keep_work_space) {
+        const LinearSolver solver = world.newton.solver.in_use();
+        world.newton = NewtonSpace{};
+        world.newton.solver.begin_with(solver);
+    }
     const bool good = solve_span(world, {0.0, 1.0}, 0);
     if (good && world.report.halvings > 0 && world.report.status == StepStatus::ok) world.report.status = StepStatus::halved;
 }

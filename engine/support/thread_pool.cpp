@@ -41,7 +41,15 @@ struct ThreadPool::Shared {
     void* data = nullptr;
     int parts = 0;
 
-    int threads() const { return static_cast<int>(workers.size()) + 1; }
+    int threads() const { return static_cast<int>(cpu_seconds.size()) + 1; }
+
+    /// Also where not all threads could be started.
+    ~Shared() {
+        stopping = true;
+        round.fetch_add(1, std::memory_order_release);
+        round.notify_all();
+        for (std::thread& worker : workers) worker.join();
+    }
 
     void do_share(int thread) {
         const long all = parts;
@@ -66,16 +74,10 @@ ThreadPool::ThreadPool(int threads) : shared_(std::make_unique<Shared>()) {
     shared_->spin = threads <= static_cast<int>(std::thread::hardware_concurrency());
     shared_->cpu_seconds.assign(threads - 1, 0.0);
     shared_->workers.reserve(threads - 1);
-    shared_->workers.resize(threads - 1);
-    for (int t = 1; t < threads; ++t) shared_->workers[t - 1] = std::thread([this, t] { shared_->work(t); });
+    for (int t = 1; t < threads; ++t) shared_->workers.emplace_back([shared = shared_.get(), t] { shared->work(t); });
 }
 
-ThreadPool::~ThreadPool() {
-    shared_->stopping = true;
-    shared_->round.fetch_add(1, std::memory_order_release);
-    shared_->round.notify_all();
-    for (std::thread& worker : shared_->workers) worker.join();
-}
+ThreadPool::~ThreadPool() = default;
 
 int ThreadPool::threads() const { return shared_->threads(); }
 
