@@ -35,9 +35,7 @@ void check_command_name(const std::string& word) {
     const auto option = std::find_if(words.begin(), words.end(), [](const std::string& word) { return word.starts_with("--"); });
     if (option == words.end()) throw SceneError("unexpected argument '" + words.at(0) + "' (see --help)");
     std::vector<std::string> valid;
-    std::vector<const CLI::App*> commands = {&program};
-    for (const CLI::App* command : program.get_subcommands()) commands.push_back(command);
-    for (const CLI::App* command : commands)
+    for (const CLI::App* command : program.get_subcommands())
         for (const CLI::Option* known : command->get_options())
             for (const std::string& name : known->get_lnames()) valid.push_back("--" + name);
     const std::string name = option->substr(0, option->find('='));

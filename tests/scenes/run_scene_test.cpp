@@ -222,7 +222,7 @@ TEST_CASE("a reference that is missing or of another size is refused before anyt
     bool begun = false;
     RunHooks hooks;
     hooks.begin = [&] { begun = true; };
-    CHECK_THROWS_WITH(run_scene(built, hooks), Catch::StartsWith(folder.path("test.toml") + ":18:1: matches: ") &&
+    CHECK_THROWS_WITH(run_scene(built, hooks), Catch::StartsWith(folder.path("test.toml") + ":20:1: matches: ") &&
                                                    Catch::EndsWith("reference.obj: no such file"));
     const TriangleMesh small = make_grid(1.0, 1.0, 3, 3);
     write_obj(folder.path("reference.obj"), small.vertices, small.triangles);

@@ -36,7 +36,6 @@ TEST_CASE("a command line that cannot be read ends with exit code 2 and one mess
     CHECK(refused(run_program({"run", "a.toml", "--frmes", "none"}), "no such option '--frmes'; did you mean '--frames'?"));
     CHECK(refused(run_program({"run", "a.toml", "--thread=2"}), "no such option '--thread'; did you mean '--threads'?"));
     CHECK(refused(run_program({"run", "a.toml", "b.toml", "c.toml"}), "unexpected argument 'b.toml'"));
-    CHECK(refused(run_program({"--versoin"}), "versoin"));
     CHECK(refused(run_program({"check", "a.toml", "--jobs", "many"}), "many"));
     CHECK(refused(run_program({"drape", "a.obj"}), "BODY"));
 }
