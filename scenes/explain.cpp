@@ -72,8 +72,9 @@ std::vector<std::string> topic_paths(const std::string& topic) {
         names.push_back(key.path);
         names.push_back(key.path.substr(key.path.rfind('.') + 1));
     }
-    throw SceneError("explain: no topic '" + topic + "'; did you mean '" + nearest_name(topic, names) +
-                     "'? topics: " + joined(keys_inside("")) + ", or any key of these such as cloth.pin");
+    const std::string nearest = did_you_mean(topic, names);
+    throw SceneError("explain: no topic '" + topic + "'" + (nearest.empty() ? ";" : nearest) +
+                     " topics: " + joined(keys_inside("")) + ", or any key of these such as cloth.pin");
 }
 
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }

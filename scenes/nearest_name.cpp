@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
 #include <vector>
 
 #include "scene_text.h"
@@ -36,19 +35,25 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
     std::string nearest;
-    int smallest = std::numeric_limits<int>::max();
+    int smallest = static_cast<int>(std::max<std::size_t>(2, name.size() / 3)) + 1;
     for (const std::string& candidate : candidates) {
         const int distance = edit_distance(name, candidate);
-        if (distance >= smallest) continue;
+        if (distance >= smallest || distance >= static_cast<int>(std::max(name.size(), candidate.size()))) continue;
         smallest = distance;
         nearest = candidate;
     }
     return nearest;
 }
 
+std::string did_you_mean(std::string_view name, std::span<const std::string> candidates) {
+    const std::string nearest = nearest_name(name, candidates);
+    return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+}
+
 std::string suggestion(std::string_view name, std::span<const std::string> candidates) {
     if (candidates.empty()) return "";
-    return "; did you mean '" + nearest_name(name, candidates) + "'? valid: " + joined(candidates);
+    const std::string nearest = did_you_mean(name, candidates);
+    return (nearest.empty() ? ";" : nearest) + " valid: " + joined(candidates);
 }
 
 }  // namespace percale::scenes

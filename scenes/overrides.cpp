@@ -32,17 +32,25 @@ std::vector<std::string> item_names(const TomlNode& list) {
     return names;
 }
 
+[[noreturn]] void fail_item(const TomlNode& list, const std::string& part, const SourcePlace& place) {
+    std::vector<std::string> names = item_names(list);
+    std::erase(names, "");
+    const std::string what = (list.key.empty() ? "the list" : list.key) + " has no item '" + part + "'";
+    if (list.items.empty()) fail_at(place, what + "; it is empty");
+    const bool is_number = part.find_first_not_of("-0123456789") == std::string::npos;
+    if (!names.empty() && !is_number) fail_at(place, what + suggestion(part, names));
+    fail_at(place, what + "; allowed: 0 ... " + std::to_string(list.items.size() - 1));
+}
+
 TomlNode& list_item(TomlNode& list, const std::string& part, const SourcePlace& place) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
     const bool is_index = error == std::errc() && end == part.data() + part.size();
     if (is_index && index < list.items.size()) return list.items[index];
-    std::vector<std::string> names = item_names(list);
+    const std::vector<std::string> names = item_names(list);
     for (std::size_t i = 0; i < names.size(); ++i)
         if (names[i] == part) return list.items[i];
-    std::erase(names, "");
-    const std::string what = "no item '" + part + "' in a list of " + std::to_string(list.items.size());
-    fail_at(place, what + (is_index ? "" : suggestion(part, names)));
+    fail_item(list, part, place);
 }
 
 TomlNode& table_entry(TomlNode& table, const std::string& part, const SourcePlace& place) {
@@ -71,7 +79,7 @@ TomlNode& child(TomlNode& node, const std::string& part, const SourcePlace& plac
 }  // namespace
 
 void apply_override(TomlNode& document, const Override& override) {
-    const SourcePlace place{.file = "--set " + override.key};
+    const SourcePlace place{.file = override.option.empty() ? "--set " + override.key : override.option};
     const std::vector<std::string> parts = key_parts(override.key, place);
     TomlNode* node = &document;
     for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "mesh_import.h"
+#include "percale/error.h"
 #include "scene_plan.h"
 #include "scene_text.h"
 #include "timeline.h"
@@ -36,12 +37,20 @@ StepCount count_steps(double duration, double time_step) {
 
 namespace {
 
+TriangleMesh reference_mesh(const std::string& file, const Expectation& expectation) {
+    try {
+        return import_mesh(file);
+    } catch (const SceneError& error) {
+        fail_at(expectation.place, std::string("matches: ") + error.what());
+    }
+}
+
 /// The vertices of the file that `matches` names, if the scene expects that.
 std::optional<std::vector<Vec3>> read_reference(const BuiltScene& built) {
     for (const Expectation& expectation : built.scene.expectations) {
         if (expectation.measure != "matches") continue;
         const std::string file = path_beside(built.scene, expectation.file);
-        std::vector<Vec3> vertices = import_mesh(file).vertices;
+        std::vector<Vec3> vertices = reference_mesh(file, expectation).vertices;
         std::size_t expected = 0;
         for (const TriangleMesh& mesh : built.cloth_meshes) expected += mesh.vertices.size();
         if (vertices.size() != expected)

@@ -45,6 +45,7 @@ struct ClothSpec {
     double unit = 1.0;             // m per unit of the mesh file
     Pose pose;
     VertexSelection pin = VertexIndices{};
+    SourcePlace pin_place;  // of `pin`; of the cloth where that is not said
     SourcePlace place;
 };
 

@@ -16,6 +16,11 @@ namespace {
 constexpr int sphere_level = 4;
 constexpr int segments_around = 48;
 
+// Where a mesh is its own place, its file would be said twice.
+std::string without(const std::string& start, const std::string& what) {
+    return what.starts_with(start) ? what.substr(start.size()) : what;
+}
+
 // The message with the name of its cloth or obstacle in front, in quotes, unless it says that already.
 std::string named(const std::string& name, const std::string& what) {
     const std::string quoted = "'" + name + "'";
@@ -29,7 +34,7 @@ void at_place_of(const Spec& spec, Work work) {
     try {
         work();
     } catch (const SceneError& error) {
-        fail_at(spec.place, named(spec.name, error.what()));
+        fail_at(spec.place, named(spec.name, without(spec.place.file + ": ", error.what())));
     }
 }
 
@@ -96,9 +101,17 @@ void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
     const Fabric& fabric = fabric_of(built.scene, cloth);
     check_shear(cloth, mesh, fabric.springs.shear);
     const ClothId id = built.simulation.add_cloth(mesh, fabric, {}, cloth.name);
-    for (const int vertex : select_vertices(cloth.pin, mesh, cloth.name)) built.simulation.pin(id, vertex);
     built.cloths.push_back(id);
     built.cloth_meshes.push_back(std::move(mesh));
+}
+
+void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
+    try {
+        for (const int vertex : select_vertices(cloth.pin, built.cloth_meshes.back(), cloth.name))
+            built.simulation.pin(built.cloths.back(), vertex);
+    } catch (const SceneError& error) {
+        fail_at(cloth.pin_place, std::string("pin: ") + error.what());
+    }
 }
 
 void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
@@ -134,7 +147,10 @@ BuiltScene build_scene(const Scene& scene) {
                      .cloth_meshes = {},
                      .obstacles = {},
                      .obstacle_meshes = {}};
-    for (const ClothSpec& cloth : scene.cloths) at_place_of(cloth, [&] { add_cloth(built, cloth); });
+    for (const ClothSpec& cloth : scene.cloths) {
+        at_place_of(cloth, [&] { add_cloth(built, cloth); });
+        pin_cloth(built, cloth);
+    }
     for (const ObstacleSpec& obstacle : scene.obstacles) at_place_of(obstacle, [&] { add_obstacle(built, obstacle); });
     script_events(scene, built.cloth_meshes);
     check_start(built);

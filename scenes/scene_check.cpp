@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lacking.h"
 #include "nearest_name.h"
 #include "scene_keys.h"
 #include "scene_text.h"
@@ -130,7 +131,13 @@ void check_named_tables(const TomlNode& node, const SceneKey& key, const Spot& s
     }
 }
 
+[[noreturn]] void fail_lacking_choice(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    const std::string range = key.choices.empty() ? ", " + range_text(key) : "";
+    fail_at(node.place, "this build lacks the choice '" + node.text + "' of " + shown + "; it takes " + kind_text(key) + range);
+}
+
 void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot) {
+    if (node.kind == TomlKind::text && lacks_choice(key.path, node.text)) fail_lacking_choice(node, key, spot.shown);
     switch (key.kind) {
         case KeyKind::text:
             if (node.kind != TomlKind::text) fail_kind(node, key, spot.shown);
@@ -173,6 +180,9 @@ void check_table(const TomlNode& table, const Spot& spot) {
         const std::string& name = node.key;
         const Spot entry = spot.inside(name);
         const SceneKey* key = name.find('.') == std::string::npos ? find_scene_key(entry.path) : nullptr;
+        if (lacks_key(entry.path))
+            fail_at(node.key_place,
+                    "this build lacks the key '" + name + "' of " + table_text(spot) + "; valid: " + joined(valid));
         if (key == nullptr)
             fail_at(node.key_place, "unknown key '" + name + "' in " + table_text(spot) + suggestion(name, valid));
         check_value(node, *key, entry);

@@ -132,7 +132,12 @@ ClothSpec read_cloth(const TomlNode& table) {
     read_value(table, "mesh", cloth.mesh);
     read_unit(table, cloth.unit);
     read_pose(table, cloth.pose);
-    if (const TomlNode* pin = table.find("pin")) cloth.pin = selection_of(*pin);
+    cloth.pin_place = cloth.place;
+    if (const TomlNode* pin = table.find("pin")) {
+        const TomlNode* box = pin->find("box");
+        cloth.pin = selection_of(*pin);
+        cloth.pin_place = box != nullptr ? box->place : pin->place;
+    }
     return cloth;
 }
 

@@ -135,6 +135,7 @@ void check_options(const CheckOptions& options) {
     check_common_options(options.common);
     if (!options.common.frames.empty() && options.common.frames != "none")
         throw SceneError("--frames " + options.common.frames + ": check writes no frames; percale run does");
+    if (!options.junit.empty()) const WholeFile probe(options.junit);  // found before the work, not after it
     if (options.jobs < 1 || options.jobs > 256)
         throw SceneError("--jobs " + std::to_string(options.jobs) + " is outside the allowed range 1 ... 256");
 }

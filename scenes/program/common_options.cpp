@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "lacking.h"
 #include "nearest_name.h"
 #include "percale/error.h"
 
@@ -31,12 +32,8 @@ namespace {
 
 void check_frame_format(const std::string& format) {
     const std::vector<std::string> here = {"none", "obj"};
-    const std::vector<std::string> later = {"ply", "glb", "pc2", "mdd", "vtp"};
-    const auto holds = [&](const std::vector<std::string>& list) {
-        return std::find(list.begin(), list.end(), format) != list.end();
-    };
-    if (format.empty() || holds(here)) return;
-    if (holds(later))
+    if (format.empty() || std::find(here.begin(), here.end(), format) != here.end()) return;
+    if (scenes::lacks_choice("output.frames", format))
         throw SceneError("--frames " + format + ": this build lacks the frame format '" + format + "'; it has none and obj");
     throw SceneError("--frames " + format + ": no such frame format" + scenes::suggestion(format, here));
 }
@@ -57,10 +54,10 @@ std::vector<scenes::Override> scene_overrides(const CommonOptions& options) {
             throw SceneError("--set " + text + ": must be KEY=VALUE, such as --set step.time_step=0.01");
         overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
     }
-    if (!options.threads.empty()) overrides.push_back({"step.threads", options.threads});
-    if (options.no_skip) overrides.push_back({"step.skip", "false"});
-    if (!options.frames.empty()) overrides.push_back({"output.frames", "\"" + options.frames + "\""});
-    if (!options.fps.empty()) overrides.push_back({"output.fps", options.fps});
+    if (!options.threads.empty()) overrides.push_back({"step.threads", options.threads, "--threads"});
+    if (options.no_skip) overrides.push_back({"step.skip", "false", "--no-skip"});
+    if (!options.frames.empty()) overrides.push_back({"output.frames", "\"" + options.frames + "\"", "--frames"});
+    if (!options.fps.empty()) overrides.push_back({"output.fps", options.fps, "--fps"});
     return overrides;
 }
 

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -29,8 +30,9 @@ struct DrapeOptions {
     std::string garment, body, out;
     std::string garment_unit = "m", body_unit = "m";
     std::array<double, 3> move = {0.0, 0.0, 0.0};  // m
-    Fabric fabric;
-    double friction = 0.3;
+    // A felt with enough bending springs and damping that free hems come to rest within the limit.
+    Fabric fabric{.springs = {.structural = 1000.0, .bend = 5.0}, .spring_damping = 2.0};
+    double friction = 0.4;
     double seconds = 20.0;  // s, limit
     bool quiet = false;
 };
@@ -40,6 +42,7 @@ enum class DrapeEnd { settled, time_up, failed, stopped };
 struct Drape {
     DrapeEnd end = DrapeEnd::time_up;
     StepReport last;
+    bool met = false;  // whether the garment ever had contact with the body
 };
 
 double metres(const std::string& option, const std::string& unit) {
@@ -66,14 +69,14 @@ Scene drape_scene(const DrapeOptions& options) {
     ClothSpec cloth;
     cloth.name = "garment";
     cloth.fabric = "garment";
-    cloth.mesh = std::filesystem::absolute(options.garment).string();
+    cloth.mesh = options.garment;
     cloth.unit = metres("--garment-unit", options.garment_unit);
     cloth.pose.translation = Vec3(options.move[0], options.move[1], options.move[2]);
     cloth.place = {.file = options.garment};
     scene.cloths.push_back(cloth);
     ObstacleSpec body;
     body.name = "body";
-    body.mesh = std::filesystem::absolute(options.body).string();
+    body.mesh = options.body;
     body.unit = metres("--body-unit", options.body_unit);
     body.friction = options.friction;
     body.place = {.file = options.body};
@@ -93,6 +96,7 @@ Drape settle(Simulation& simulation, const DrapeOptions& options) {
             return drape;
         }
         bar.show(simulation.time());
+        drape.met = drape.met || drape.last.contacts > 0;
         slow_steps = drape.last.largest_speed < rest_speed ? slow_steps + 1 : 0;
         if (slow_steps < rest_steps && !signals.asked()) continue;
         drape.end = slow_steps < rest_steps ? DrapeEnd::stopped : DrapeEnd::settled;
@@ -120,6 +124,11 @@ int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& c
         return not_as_expected;
     }
     if (drape.end == DrapeEnd::settled) return all_well;
+    if (drape.end == DrapeEnd::time_up && std::isinf(check.smallest_distance)) {
+        std::fprintf(stderr, "percale: %s: the garment %s the body; use --move to start it where it can catch\n", out,
+                     drape.met ? "fell off" : "never met");
+        return not_as_expected;
+    }
     const bool stopped = drape.end == DrapeEnd::stopped;
     std::fprintf(stderr,
                  "percale: %s: not at rest when %s after %.3g s: the fastest vertex moves at %.3g m/s (at rest: below %.3g)\n",
@@ -160,9 +169,9 @@ void add_options(CLI::App& command, DrapeOptions& options) {
     command.add_option("--area-density", options.fabric.area_density, "kg/m^2 (default 0.2)")->type_name("D");
     command.add_option("--structural", options.fabric.springs.structural, "Spring constant of edges, N/m (default 1000)")
         ->type_name("K");
-    command.add_option("--bend", options.fabric.springs.bend, "Spring constant across edges, N/m (default 0)")->type_name("K");
-    command.add_option("--damping", options.fabric.spring_damping, "Damping of each spring, N s/m (default 0.1)")->type_name("C");
-    command.add_option("--friction", options.friction, "Coulomb coefficient (default 0.3)")->type_name("MU");
+    command.add_option("--bend", options.fabric.springs.bend, "Spring constant across edges, N/m (default 5)")->type_name("K");
+    command.add_option("--damping", options.fabric.spring_damping, "Damping of each spring, N s/m (default 2)")->type_name("C");
+    command.add_option("--friction", options.friction, "Coulomb coefficient (default 0.4)")->type_name("MU");
     command.add_option("--seconds", options.seconds, "Simulated time at most, s (default 20)")->type_name("S");
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
@@ -172,7 +181,7 @@ void add_options(CLI::App& command, DrapeOptions& options) {
 void add_drape_command(CLI::App& program, Action& action) {
     auto options = std::make_shared<DrapeOptions>();
     CLI::App* command = program.add_subcommand("drape", "Let a garment settle on a body until it is at rest");
-    command->footer("Example: percale drape poncho.obj mannequin.obj -o draped.obj --friction 0.4");
+    command->footer("Example: percale drape data/meshes/poncho.obj data/meshes/mannequin.obj --move 0 1.53 0 -o draped.obj");
     add_options(*command, *options);
     command->callback([options, &action] { action = [options] { return drape_garment(*options); }; });
 }

@@ -29,6 +29,19 @@ void check_command_name(const std::string& word) {
     throw SceneError("no such command '" + word + "'" + scenes::suggestion(word, commands_here));
 }
 
+/// Words that no option and no argument takes: the first that looks like an option, else the first, is named.
+[[noreturn]] void fail_unexpected(const CLI::App& program) {
+    const std::vector<std::string> words = program.remaining(true);
+    const auto option = std::find_if(words.begin(), words.end(), [](const std::string& word) { return word.starts_with("--"); });
+    if (option == words.end()) throw SceneError("unexpected argument '" + words.at(0) + "' (see --help)");
+    std::vector<std::string> valid;
+    for (const CLI::App* command : program.get_subcommands())
+        for (const CLI::Option* known : command->get_options())
+            for (const std::string& name : known->get_lnames()) valid.push_back("--" + name);
+    const std::string name = option->substr(0, option->find('='));
+    throw SceneError("no such option '" + name + "'" + scenes::did_you_mean(name, valid) + " (see --help)");
+}
+
 /// What was printed has also arrived: a report cut off by a full disk must not look like a good one.
 void check_output() {
     std::cout.flush();
@@ -51,6 +64,8 @@ int parse_and_act(int argc, char** argv) {
     if (argc > 1) check_command_name(argv[1]);
     try {
         program.parse(argc, argv);
+    } catch (const CLI::ExtrasError&) {
+        fail_unexpected(program);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return program.exit(error);
         throw SceneError(std::string(error.what()) + " (see --help)");

@@ -61,8 +61,22 @@ TEST_CASE("the nearest name is that of the smallest distance, the first of equal
     CHECK(nearest_name("x", {}).empty());
 }
 
+TEST_CASE("what is no slip of a name has no nearest one") {
+    const std::vector<std::string> schemes = {"symplectic_euler", "rk4", "backward_euler"};
+    CHECK(nearest_name("bdf2", schemes).empty());
+    CHECK(nearest_name("rk2", schemes) == "rk4");
+    CHECK(nearest_name("backwrd_elr", schemes) == "backward_euler");  // 3 edits, a third of 11 letters
+    CHECK(nearest_name("bckwrd_elr", schemes).empty());               // 4 edits, more than a third of 10 letters
+    const std::vector<std::string> shortest = {"to"};
+    CHECK(nearest_name("zz", shortest).empty());
+    CHECK(nearest_name("ot", shortest) == "to");
+}
+
 TEST_CASE("a suggestion names the nearest and lists what is valid") {
     const std::vector<std::string> names = {"obj", "none"};
     CHECK(suggestion("non", names) == "; did you mean 'none'? valid: obj, none");
+    CHECK(suggestion("gif", names) == "; valid: obj, none");
     CHECK(suggestion("non", {}).empty());
+    CHECK(did_you_mean("non", names) == "; did you mean 'none'?");
+    CHECK(did_you_mean("gif", names).empty());
 }

@@ -68,9 +68,12 @@ TEST_CASE("later overrides win") {
 }
 
 TEST_CASE("an item that is not there is an error with the nearest name") {
-    CHECK(fault("cloth.flga.pin") == "--set cloth.flga.pin: no item 'flga' in a list of 1; did you mean 'flag'? valid: flag");
-    CHECK(fault("cloth.1.pin") == "--set cloth.1.pin: no item '1' in a list of 1");
-    CHECK(fault("cloth.-1.pin").starts_with("--set cloth.-1.pin: no item '-1'"));
+    CHECK(fault("cloth.flga.pin") == "--set cloth.flga.pin: cloth has no item 'flga'; did you mean 'flag'? valid: flag");
+    CHECK(fault("cloth.1.pin") == "--set cloth.1.pin: cloth has no item '1'; allowed: 0 ... 0");
+    CHECK(fault("cloth.-1.pin") == "--set cloth.-1.pin: cloth has no item '-1'; allowed: 0 ... 0");
+    CHECK(error_of([] { changed("gravity.y", "1", "gravity = [0, -9.81, 0]\n"); }) ==
+          "--set gravity.y: gravity has no item 'y'; allowed: 0 ... 2");
+    CHECK(error_of([] { changed("cloth.0", "1", "cloth = []\n"); }) == "--set cloth.0: cloth has no item '0'; it is empty");
 }
 
 TEST_CASE("a fabric that is not there is an error with the nearest name") {
@@ -87,6 +90,11 @@ TEST_CASE("a key with an empty part is no key") {
         CAPTURE(key);
         CHECK(fault(key).find("is not a dotted key of a scene file") != std::string::npos);
     }
+}
+
+TEST_CASE("an option that stands for a key is named as it was typed") {
+    TomlNode document = parse_toml(small_scene(), "t");
+    CHECK(error_of([&] { apply_override(document, {"output.fps", "", "--fps"}); }) == "--fps: the value is empty");
 }
 
 TEST_CASE("a bad value is told with the key") { CHECK(fault("duration", "").starts_with("--set duration: ")); }

@@ -222,7 +222,8 @@ TEST_CASE("a reference that is missing or of another size is refused before anyt
     bool begun = false;
     RunHooks hooks;
     hooks.begin = [&] { begun = true; };
-    CHECK_THROWS_AS(run_scene(built, hooks), SceneError);
+    CHECK_THROWS_WITH(run_scene(built, hooks), Catch::StartsWith(folder.path("test.toml") + ":20:1: matches: ") &&
+                                                   Catch::EndsWith("reference.obj: no such file"));
     const TriangleMesh small = make_grid(1.0, 1.0, 3, 3);
     write_obj(folder.path("reference.obj"), small.vertices, small.triangles);
     CHECK_THROWS_WITH(run_scene(built, hooks), Catch::Contains("has 9 vertices") && Catch::Contains("16"));

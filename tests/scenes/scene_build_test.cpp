@@ -145,9 +145,14 @@ TEST_CASE("shear springs on a free mesh are refused at the cloth") {
     CHECK(message.find("cloth 'flag': fabric.f.springs.shear = 5 N/m") != std::string::npos);
 }
 
-TEST_CASE("a pin out of range is refused at the cloth") {
+TEST_CASE("a pin out of range is refused at the pin") {
     CHECK(fault(small_scene() + "pin = [20]\n") ==
-          "t:4:1: vertices of cloth 'flag': vertex 20 is out of range; allowed: 0 ... 19");
+          "t:8:7: pin: vertices of cloth 'flag': vertex 20 is out of range; allowed: 0 ... 19");
+    CHECK(fault(small_scene() + "pin = { box = [[2, 0, 0], [2, 0, 0]] }\n")
+              .starts_with("t:8:15: pin: vertices of cloth 'flag': no vertex lies in the box"));
+    const Override setting{"cloth.flag.pin", "[5000]"};
+    const Scene set = parse_scene(small_scene(), "t", {&setting, 1});
+    CHECK(error_of([&] { build_scene(set); }).starts_with("--set cloth.flag.pin: pin: vertices of cloth 'flag': vertex 5000 "));
 }
 
 TEST_CASE("events are checked before anything runs") {

@@ -105,6 +105,7 @@ TEST_CASE("what check cannot do is refused") {
     folder.write("a.toml", falling_sheet());
     CHECK(refused(run_program({"check", "a.toml", "--jobs", "0"}, folder.path()), "1 ... 256"));
     CHECK(refused(run_program({"check", "a.toml", "--frames", "obj"}, folder.path()), "check writes no frames"));
+    CHECK(refused(run_program({"check", "a.toml", "--junit", "absent/junit.xml"}, folder.path()), "absent/junit.xml"));
     CHECK(run_program({"check", "a.toml", "--threads", "99"}, folder.path()).exit_code == 2);
     CHECK(run_program({"check", "a.toml", "--threads", "2"}, folder.path()).exit_code == 0);
     CHECK(run_program({"check", "a.toml", "--frames", "none"}, folder.path()).exit_code == 0);

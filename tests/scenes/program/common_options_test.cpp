@@ -46,10 +46,11 @@ TEST_CASE("wrong common options are refused, and nothing is written") {
     CHECK(refused(run_with(folder, {"--set", "=3"}), "KEY=VALUE"));
     CHECK(refused(run_with(folder, {"--set", "duratoin=3"}), "duration"));
     CHECK(refused(run_with(folder, {"--set", "duration=-3"}), "duration"));
-    CHECK(refused(run_with(folder, {"--threads", "65"}), "1 ... 64"));
+    CHECK(refused(run_with(folder, {"--threads", "65"}),
+                  "percale: --threads: step.threads = 65 is out of range; allowed: 1 ... 64"));
     CHECK(refused(run_with(folder, {"--threads", "0"}), "1 ... 64"));
     CHECK(refused(run_with(folder, {"--threads", "two"}), "threads"));
-    CHECK(refused(run_with(folder, {"--fps", "0"}), "fps"));
+    CHECK(refused(run_with(folder, {"--fps", "0"}), "percale: --fps: output.fps = 0 1/s is out of range"));
     CHECK(refused(run_with(folder, {"--fps", "fast"}), "fps"));
     CHECK(refused(run_with(folder, {"--checkpoint", "1"}), "lacks"));
     CHECK(refused(run_with(folder, {"--resume", "file"}), "lacks"));

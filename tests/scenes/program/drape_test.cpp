@@ -51,6 +51,20 @@ TEST_CASE("when the time is up the garment is written all the same, and the spee
     CHECK(folder.holds("draped.obj"));
 }
 
+TEST_CASE("a garment that is not on the body at the end is told to be moved") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    const ProgramRun run = run_program(
+        {"drape", "sheet.obj", "block.obj", "-o", "draped.obj", "--seconds", "0.2", "--move", "2", "0", "0"}, folder.path());
+    CHECK(run.exit_code == 1);
+    CHECK(run.error == "percale: draped.obj: the garment never met the body; use --move to start it where it can catch\n");
+    CHECK(folder.holds("draped.obj"));
+    const ProgramRun slid = run_program(
+        {"drape", "sheet.obj", "block.obj", "-o", "slid.obj", "--seconds", "1.5", "--move", "0.13", "0", "0"}, folder.path());
+    CHECK(slid.exit_code == 1);
+    CHECK(slid.error == "percale: slid.obj: the garment fell off the body; use --move to start it where it can catch\n");
+}
+
 TEST_CASE("files in millimetres drape as the same files in metres do") {
     const TestFolder folder;
     write_pair(folder, 1.0);
@@ -77,7 +91,8 @@ TEST_CASE("what cannot be draped is refused before anything is written") {
     CHECK(refused(draped({"--thickness", "-1"}), "thickness"));
     CHECK(refused(draped({"--friction", "-1"}), "friction"));
     CHECK(refused(draped({"--body-unit", "inch"}), "mm, cm or m"));
-    CHECK(refused(run_program({"drape", "sheet.obj", "absent.obj", "-o", "out.obj"}, folder.path()), "absent.obj"));
+    CHECK(refused(run_program({"drape", "sheet.obj", "absent.obj", "-o", "out.obj"}, folder.path()),
+                  "percale: absent.obj: 'body': no such file\n"));
     CHECK(refused(run_program({"drape", "sheet.obj", "block.obj", "-o", "out.ply"}, folder.path()), ".obj"));
     CHECK(refused(run_program({"drape", "sheet.obj", "block.obj", "-o", "absent/out.obj"}, folder.path()), "absent/out.obj"));
     CHECK(refused(run_program({"drape", "block.obj", "block.obj", "-o", "out.obj"}, folder.path()), "body"));

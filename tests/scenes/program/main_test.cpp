@@ -32,7 +32,10 @@ TEST_CASE("a command that this build lacks is told from one that does not exist"
 TEST_CASE("a command line that cannot be read ends with exit code 2 and one message") {
     CHECK(refused(run_program({}), "subcommand"));
     CHECK(refused(run_program({"run"}), "SCENE"));
-    CHECK(refused(run_program({"run", "a.toml", "--no-such-option"}), "--no-such-option"));
+    CHECK(refused(run_program({"run", "a.toml", "--no-such-option"}), "percale: no such option '--no-such-option' (see --help)"));
+    CHECK(refused(run_program({"run", "a.toml", "--frmes", "none"}), "no such option '--frmes'; did you mean '--frames'?"));
+    CHECK(refused(run_program({"run", "a.toml", "--thread=2"}), "no such option '--thread'; did you mean '--threads'?"));
+    CHECK(refused(run_program({"run", "a.toml", "b.toml", "c.toml"}), "unexpected argument 'b.toml'"));
     CHECK(refused(run_program({"check", "a.toml", "--jobs", "many"}), "many"));
     CHECK(refused(run_program({"drape", "a.obj"}), "BODY"));
 }

@@ -1,0 +1,51 @@
+#include "lacking.h"
+
+#include <algorithm>
+#include <span>
+
+namespace percale::scenes {
+namespace {
+
+/// Without words the key itself.
+struct Lacking {
+    std::string_view path;
+    std::span<const std::string_view> words = {};
+};
+
+constexpr std::string_view schemes[] = {"forward_euler", "midpoint", "implicit_midpoint", "trapezoid", "bdf2", "tr_bdf2", "auto"};
+constexpr std::string_view responses[] = {"projection"};
+constexpr std::string_view time_steps[] = {"auto"};
+constexpr std::string_view frame_formats[] = {"ply", "glb", "pc2", "mdd", "vtp"};
+
+constexpr Lacking lacking[] = {
+    {.path = "step.scheme", .words = schemes},
+    {.path = "step.contact_response", .words = responses},
+    {.path = "step.time_step", .words = time_steps},
+    {.path = "output.frames", .words = frame_formats},
+    {.path = "step.tolerance"},
+    {.path = "fabric.preset"},
+    {.path = "fabric.stretch_stiffness"},
+    {.path = "fabric.shear_stiffness"},
+    {.path = "fabric.bend_stiffness"},
+    {.path = "fabric.damping_time"},
+    {.path = "fabric.self_contact"},
+    {.path = "fabric.friction"},
+    {.path = "cloth.pattern"},
+    {.path = "event.wind"},
+    {.path = "event.detach"},
+};
+
+}  // namespace
+
+bool lacks_key(std::string_view path) {
+    return std::any_of(std::begin(lacking), std::end(lacking),
+                       [&](const Lacking& entry) { return entry.words.empty() && entry.path == path; });
+}
+
+bool lacks_choice(std::string_view path, std::string_view word) {
+    for (const Lacking& entry : lacking)
+        if (entry.path == path && std::find(entry.words.begin(), entry.words.end(), word) != entry.words.end()) return true;
+    return false;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,34 @@
+#include "scenes/lacking.h"
+
+#include "scenes/scene_keys.h"
+#include "tests/support/catch.h"
+
+using namespace percale::scenes;
+
+TEST_CASE("keys and words that this build lacks are known as such") {
+    for (const char* path :
+         {"step.tolerance", "fabric.preset", "fabric.stretch_stiffness", "fabric.shear_stiffness", "fabric.bend_stiffness",
+          "fabric.damping_time", "fabric.self_contact", "fabric.friction", "cloth.pattern", "event.wind", "event.detach"}) {
+        CAPTURE(path);
+        CHECK(lacks_key(path));
+        CHECK(find_scene_key(path) == nullptr);
+    }
+    for (const char* word : {"forward_euler", "midpoint", "implicit_midpoint", "trapezoid", "bdf2", "tr_bdf2", "auto"})
+        CHECK(lacks_choice("step.scheme", word));
+    CHECK(lacks_choice("step.contact_response", "projection"));
+    CHECK(lacks_choice("step.time_step", "auto"));
+    CHECK(lacks_choice("output.frames", "ply"));
+}
+
+TEST_CASE("nothing that this build has is lacking, nor is a slip") {
+    for (const SceneKey& key : scene_keys()) {
+        CAPTURE(key.path);
+        CHECK_FALSE(lacks_key(key.path));
+        for (const std::string& choice : key.choices) CHECK_FALSE(lacks_choice(key.path, choice));
+    }
+    CHECK_FALSE(lacks_key("fabric.presset"));
+    CHECK_FALSE(lacks_key("step.scheme"));
+    CHECK_FALSE(lacks_choice("step.scheme", "bdf3"));
+    CHECK_FALSE(lacks_choice("step.detector", "bdf2"));
+    CHECK_FALSE(lacks_choice("step.tolerance", ""));
+}
