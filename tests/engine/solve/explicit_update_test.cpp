@@ -83,7 +83,7 @@ TEST_CASE("Prescribed vertices go straight to their targets and keep the speed t
     }
 }
 
-TEST_CASE("Symplectic Euler is the two lines of the lecture") {
+TEST_CASE("Symplectic Euler is v += dt f(x, v)/m, then x += dt v") {
     SolverScene scene = taut_string(Scheme::symplectic_euler, 1e-3);
     const SpringNetwork& springs = scene.model.springs;
     std::vector<Vec3> x = scene.state.points, v(11, Vec3::Zero());
