@@ -1,8 +1,16 @@
 #!/usr/bin/env bash
-# Fetches the real meshes some tests drape cloth over: .ci/fetch_meshes.sh [DIR], DIR = build/real_meshes unless given.
+# Fetches the real meshes some tests drape cloth over: .ci/fetch_meshes.sh [--required] [DIR], DIR = build/real_meshes unless given.
 # They come from Debian's package libcgal-demo, which is only unpacked (installing it would pull in 246 MB) and never copied into
-# the repository. Without them those tests are skipped, so being offline is told and is no error.
+# the repository. Without them those tests are skipped, so being offline is told and is no error; with --required it is one if a
+# body scan is missing then.
 set -euo pipefail
+
+required=()
+if [ "${1:-}" = --required ]; then
+    required=(man armadillo bunny00)
+    shift
+fi
+case "${1:-}" in -*) echo "fetch_meshes.sh: no option '$1' (--required)"; exit 2 ;; esac
 
 directory=${1:-"$(cd "$(dirname "$0")/.." && pwd)/build/real_meshes"}
 meshes=(man armadillo bunny00 refined_elephant elephant fandisk anchor_dense knot1 hand larger_sphere
@@ -17,7 +25,16 @@ if [ ${#missing[@]} -eq 0 ]; then
     exit 0
 fi
 
+# Ends the script: meshes are missing for a reason.
 skip() {
+    local mesh lacking=()
+    for mesh in "${required[@]}"; do
+        [ -s "$directory/$mesh.off" ] || lacking+=("$mesh")
+    done
+    if [ ${#lacking[@]} -gt 0 ]; then
+        echo "real meshes: $1; required, but not in $directory: ${lacking[*]}"
+        exit 1
+    fi
     echo "real meshes: $1; the tests that need them will be skipped"
     exit 0
 }

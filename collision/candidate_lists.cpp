@@ -183,7 +183,6 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) 
 bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes) {
     const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 4000000L + 300L * static_cast<long>(room_.size());
     considered_ = 0;
-    builds_ += static_cast<long>(dirty_.size());
     asked_.clear();
     for (const std::size_t i : dirty_) {
         lists_[i].pairs.clear();

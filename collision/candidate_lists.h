@@ -38,7 +38,6 @@ public:
 
     std::span<const ClothCluster> clusters() const { return clusters_.clusters; }
     std::span<ClusterList> lists() { return lists_; }
-    long builds() const { return builds_; }  // of a cluster's list, since the beginning
 
 private:
     bool covers(std::size_t cluster, const ClothMove& move, int version) const;
@@ -67,7 +66,6 @@ private:
     std::vector<Vec3> shortened_;  // the end of the part of a long move that is covered
     double seen_fraction_ = 0.0;
     long considered_ = 0;  // pairs, while lists are built
-    long builds_ = 0;
 };
 
 }  // namespace percale

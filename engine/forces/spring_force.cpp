@@ -93,17 +93,4 @@ double largest_strain(const SpringNetwork& network, const Vectors& positions) {
     return largest;
 }
 
-SpringJacobians spring_jacobians(const Vec3& x, const Vec3& v, double rest_length, double stiffness, double damping) {
-    const double l = x.norm();
-    const Vec3 d = x / l;
-    const double rate = v.dot(d);
-    const Eigen::Matrix3d along = d * d.transpose();
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along;
-    // f = -T d with T = ks (l - l0) + kd (v . d):  df/dx = -d (dT/dx)^T - T dd/dx,  dd/dx = (I - d d^T)/l,
-    // dT/dx = ks d + kd (I - d d^T) v / l
-    const double tension = stiffness * (l - rest_length) + damping * rate;
-    const Vec3 tension_slope = stiffness * d + damping * (across * v) / l;
-    return {.by_position = -d * tension_slope.transpose() - (tension / l) * across, .by_velocity = -damping * along};
-}
-
 }  // namespace percale

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "kernels/compute.h"
@@ -68,13 +67,5 @@ double elastic_energy(const SpringNetwork& network, const Vectors& positions);
 
 /// Largest (l - l0)/l0 over structural springs; 0 without any.
 double largest_strain(const SpringNetwork& network, const Vectors& positions);
-
-/// The exact Jacobians of the force on the first vertex of one spring with velocity damping, by the positions and velocities of
-/// that vertex, symmetrised nowhere: Jq = df/dx (N/m), Jv = df/dv (N s/m). Baraff and Witkin 1998 style derivation, damping along
-/// the spring. `x` = x_i - x_j != 0 (m), `v` = v_i - v_j (m/s).
-struct SpringJacobians {
-    Eigen::Matrix3d by_position, by_velocity;
-};
-SpringJacobians spring_jacobians(const Vec3& x, const Vec3& v, double rest_length, double stiffness, double damping);
 
 }  // namespace percale

@@ -5,6 +5,7 @@
 namespace percale {
 namespace {
 
+// One entry a scheme, in the order of the enum.
 constexpr SchemeFacts table[] = {
     {Scheme::symplectic_euler, "symplectic_euler", 1, false, 2.0, 1, "amplitude kept for a < 2, grows beyond"},
     {Scheme::rk4, "rk4", 4, false, 2.8284271247461903, 4, "damped for a < 2 sqrt 2, grows beyond"},
@@ -13,8 +14,6 @@ constexpr SchemeFacts table[] = {
 };
 
 }  // namespace
-
-std::span<const SchemeFacts> scheme_table() { return table; }
 
 const SchemeFacts& facts_of(Scheme scheme) { return table[static_cast<int>(scheme)]; }
 

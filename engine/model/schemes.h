@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <string_view>
 
 #include "percale/settings.h"
@@ -18,8 +17,6 @@ struct SchemeFacts {
     std::string_view stability;  // one sentence
 };
 
-/// One entry a scheme, in the order of the enum.
-std::span<const SchemeFacts> scheme_table();
 const SchemeFacts& facts_of(Scheme scheme);
 
 }  // namespace percale

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,6 +18,9 @@ namespace percale::test {
 
 /// What tests compute with: the best kernels of this machine.
 inline const Compute compute;
+
+/// In the order of the enum.
+inline constexpr std::array all_schemes = {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler};
 
 /// The sheet that every measured figure refers to.
 inline Fabric sheet_fabric() {

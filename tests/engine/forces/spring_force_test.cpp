@@ -5,6 +5,7 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
+#include "tests/support/spring_jacobians.h"
 
 namespace percale::test {
 namespace {
@@ -44,7 +45,7 @@ Eigen::Matrix3d matrix_of(const SpringBlock& block) {
 }
 
 /// -ks (l - l0) d - kd (v . d) d
-Vec3 lecture_force(const Vec3& x, const Vec3& v, const Link& link) {
+Vec3 damped_spring_force(const Vec3& x, const Vec3& v, const Link& link) {
     const Vec3 d = x.normalized();
     return -(link.stiffness * (x.norm() - link.rest_length) + link.damping * v.dot(d)) * d;
 }
@@ -83,7 +84,7 @@ TEST_CASE("A spring pulls with ks times its stretch and kd times its rate of str
     for (int i = 0; i < 100; ++i) {
         const Vec3 x = random.point(1.0), v = random.point(2.0);
         const Link link{0, 1, random.number(0.1, 2.0), random.decades(1.0, 1e5), random.number(0.0, 5.0)};
-        const Vec3 expected = lecture_force(x, v, link);
+        const Vec3 expected = damped_spring_force(x, v, link);
         CHECK((OneSpring(x, v, link).evaluate().force - expected).norm() <= 1e-12 * expected.norm() + 1e-12);
     }
 }
@@ -153,8 +154,8 @@ TEST_CASE("Exact spring Jacobians agree with finite differences, damping include
         Eigen::Matrix3d by_position, by_velocity;
         for (int axis = 0; axis < 3; ++axis) {
             const Vec3 e = 1e-6 * Vec3::Unit(axis);
-            by_position.col(axis) = (lecture_force(x + e, v, link) - lecture_force(x - e, v, link)) / 2e-6;
-            by_velocity.col(axis) = (lecture_force(x, v + e, link) - lecture_force(x, v - e, link)) / 2e-6;
+            by_position.col(axis) = (damped_spring_force(x + e, v, link) - damped_spring_force(x - e, v, link)) / 2e-6;
+            by_velocity.col(axis) = (damped_spring_force(x, v + e, link) - damped_spring_force(x, v - e, link)) / 2e-6;
         }
         CHECK((jacobians.by_position - by_position).norm() <= 1e-7 * (by_position.norm() + link.stiffness));
         CHECK((jacobians.by_velocity - by_velocity).norm() <= 1e-7 * (by_velocity.norm() + link.stiffness));
@@ -277,7 +278,7 @@ TEST_CASE("Forces are added to what is there, each vertex getting the sum over i
         const int i = list.first[k], j = list.second[k];
         const Link link{0, 1, list.rest_length[k], list.stiffness[k], list.damping[k]};
         const Vec3 x = network.positions.at(i) - network.positions.at(j), v = network.velocities.at(i) - network.velocities.at(j);
-        const Vec3 force = lecture_force(x, v, link);
+        const Vec3 force = damped_spring_force(x, v, link);
         expected[i] += force;
         expected[j] -= force;
         size += force.norm();

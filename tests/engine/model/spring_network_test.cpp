@@ -54,7 +54,7 @@ int count(const SpringNetwork& network, SpringKind kind) {
 
 }  // namespace
 
-TEST_CASE("A grid has the springs of the lecture: rows and columns, both diagonals, two apart") {
+TEST_CASE("A grid has structural, shear and bend springs: rows and columns, both diagonals, two apart") {
     for (const auto& [columns, rows] : {std::pair(2, 2), std::pair(2, 5), std::pair(3, 3), std::pair(7, 4)}) {
         CAPTURE(columns, rows);
         const SpringNetwork network = network_of(make_grid(1.0, 2.0, columns, rows), sheet_fabric());

@@ -29,7 +29,7 @@ SolverScene crumpled_sheet(const StepSettings& settings, int size = 5) {
     return scene;
 }
 
-SolverScene homework_scene(int iterations) {
+SolverScene scene_without_jacobians(int iterations) {
     SolverScene scene =
         crumpled_sheet({.time_step = 1e-4, .newton_iterations = iterations, .damping_form = DampingForm::velocity});
     scene.options = {.jacobians = false, .line_search = false, .predict = false};
@@ -39,7 +39,7 @@ SolverScene homework_scene(int iterations) {
 }  // namespace
 
 TEST_CASE("With Jacobians of zero and one iteration backward Euler is symplectic Euler, bit for bit") {
-    SolverScene implicit = homework_scene(1), explicit_one = homework_scene(1);
+    SolverScene implicit = scene_without_jacobians(1), explicit_one = scene_without_jacobians(1);
     for (int n = 0; n < 200; ++n) {
         implicit.step_implicit();
         explicit_one.step_explicit();
@@ -50,7 +50,7 @@ TEST_CASE("With Jacobians of zero and one iteration backward Euler is symplectic
 }
 
 TEST_CASE("With Jacobians of zero and more iterations backward Euler is a fixed-point iteration") {
-    SolverScene twice = homework_scene(2), once = homework_scene(1);
+    SolverScene twice = scene_without_jacobians(2), once = scene_without_jacobians(1);
     const Vectors start = once.state.velocities;
     once.step_implicit();
     // The second iteration: forces at the end of the first, applied to the start velocities.
