@@ -36,8 +36,6 @@ StepSettings tight(Scheme scheme) {
     return {.time_step = scheme == Scheme::backward_euler ? 1.0 / 60.0 : 5e-4, .scheme = scheme, .newton_tolerance = 1e-11};
 }
 
-constexpr Scheme all_schemes[] = {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler};
-
 }  // namespace
 
 TEST_CASE("A scene that is turned and shifted as a whole moves the same") {
