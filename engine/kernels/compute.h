@@ -39,7 +39,9 @@ template <class Work>
 double sum_stretches(const Compute& compute, int slices, int grain, Work work) {
     double sum = 0.0;
     if (!compute.pool || slices < least_shared_slices) {
-        for (int first = 0; first < slices; first += grain) sum += work(Slices{first, std::min(first + grain, slices)}, 0);
+        for_stretches(compute, slices, grain, false, [&](int first, int last, int thread) {
+            sum += work(Slices{first, last}, thread);
+        });
         return sum;
     }
     std::vector<double>& sums = compute.pool->sums();

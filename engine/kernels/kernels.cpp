@@ -12,17 +12,13 @@ namespace {
 
 const Kernels& chosen_kernels() {
     const char* wish = std::getenv("PERCALE_INSTRUCTIONS");
-    const std::string_view name = wish ? wish : "";
-    if (wish && name != "baseline" && name != "avx2" && name != "avx512") {
-        throw SceneError("PERCALE_INSTRUCTIONS = '" + std::string(name) +
-                         "' in the environment; allowed: baseline, avx2, avx512");
-    }
-    for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2}) {
+    bool narrow_enough = wish == nullptr;
+    for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2, InstructionSet::baseline}) {
+        narrow_enough = narrow_enough || std::string_view(wish) == instruction_set_name(set);
         const Kernels* kernels = kernels_for(set);
-        if (!kernels || name == "baseline" || (name == "avx2" && set == InstructionSet::avx512)) continue;
-        return *kernels;
+        if (narrow_enough && kernels) return *kernels;
     }
-    return baseline_kernels;
+    throw SceneError("PERCALE_INSTRUCTIONS = '" + std::string(wish) + "' in the environment; allowed: baseline, avx2, avx512");
 }
 
 }  // namespace

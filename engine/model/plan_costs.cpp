@@ -17,7 +17,7 @@ constexpr double more_stages = 168.0;  // a vertex, of Runge-Kutta
 constexpr double near_cloth_triangle = 270.0;
 constexpr double obstacle_triangle = 475.0;
 
-// Newton iterations of a step and linear iterations of each, the mean over the scenes in data/scenes.
+// Newton iterations of a step and linear iterations of each, on sheets of 65 x 65 vertices (percale_step_cost).
 constexpr int free_newton = 3, contact_newton = 7;
 constexpr double linear_iterations = 5.0;
 // Cost over that of one evaluation of all springs.

@@ -117,6 +117,16 @@ double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<doubl
     return sum + add_contact_product(matrix, x, y);
 }
 
+void set_residual(const BlockMatrix& matrix, const Vectors& b, const Vectors& x, AlignedVector<double>& points, Vectors& r) {
+    multiply(matrix, x, points, r);
+    const auto subtract = [&](const AlignedVector<double>& right, AlignedVector<double>& product) {
+        for (std::size_t i = 0; i < product.size(); ++i) product[i] = matrix.free[i] * right[i] - product[i];
+    };
+    subtract(b.x, r.x);
+    subtract(b.y, r.y);
+    subtract(b.z, r.z);
+}
+
 void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z) {
     for_chunks(*matrix.compute, matrix.slices(), [&](Slices range) {
         matrix.compute->kernels->jacobi(matrix.inverse.data(), matrix.padded(), r.axes(), z.axes(), range);

@@ -11,6 +11,9 @@
 
 namespace percale {
 
+/// Where entry (a, b) of a symmetric block stands in xx xy xz yy yz zz.
+constexpr int symmetric_entry[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+
 /// What all contacts of one vertex add to its diagonal block, each row taken whole at every vertex by weight (an upper bound that
 /// equals the row itself where the vertices move alike).
 struct VertexContact {
@@ -49,6 +52,9 @@ void fill_matrix(const SpringTerms& springs, std::span<const ContactBlock> conta
 
 /// y = A x on the free vertices, 0 at prescribed ones; returns x . y over the free ones. `points` is work space.
 double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y);
+
+/// r = b - A x on the free vertices, 0 at prescribed ones.
+void set_residual(const BlockMatrix& matrix, const Vectors& b, const Vectors& x, AlignedVector<double>& points, Vectors& r);
 
 /// z = D^-1 r for free vertices, 0 for the others (D: block diagonal).
 void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z);

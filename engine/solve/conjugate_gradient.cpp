@@ -49,10 +49,7 @@ private:
         if (space_.r.padded_size() != b.padded_size()) {
             for (auto* vectors : {&space_.r, &space_.z, &space_.p, &space_.q}) vectors->resize(static_cast<int>(b.padded_size()));
         }
-        multiply(matrix_, x, space_.points, space_.q);
-        space_.r = b;
-        filter(matrix_, space_.r);
-        add_scaled(space_.r, -1.0, space_.q);
+        set_residual(matrix_, b, x, space_.points, space_.r);
         return dot(compute_, space_.r, space_.r);
     }
 

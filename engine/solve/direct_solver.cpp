@@ -10,14 +10,12 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-constexpr int symmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-
 /// Adds the lower part of a block; blocks off the diagonal are given once, in either order.
 void add_block(int i, int j, const std::array<double, 6>& block, Triplets& entries) {
     for (int a = 0; a < 3; ++a) {
         for (int b = 0; b < 3; ++b) {
             const int row = 3 * std::max(i, j) + a, column = 3 * std::min(i, j) + b;
-            if (row >= column) entries.emplace_back(row, column, block[symmetric[a][b]]);
+            if (row >= column) entries.emplace_back(row, column, block[symmetric_entry[a][b]]);
         }
     }
 }
@@ -68,7 +66,7 @@ struct DirectSolver::Factor {
     Sparse matrix;
     Triplets entries;
     std::vector<int> columns, rows;  // of the matrix that was analysed
-    Vectors product;
+    Vectors residual;
     AlignedVector<double> points;
 
     void factorise(const BlockMatrix& from) {
@@ -94,11 +92,11 @@ bool DirectSolver::solve(const BlockMatrix& matrix, const Vectors& b, Vectors& x
     Factor& factor = *factor_;
     factor.factorise(matrix);
     if (factor.ldlt.info() != Eigen::Success || !(factor.ldlt.vectorD().array() > 0.0).all()) return false;
-    factor.product.resize(static_cast<int>(x.padded_size()));
-    multiply(matrix, x, factor.points, factor.product);
+    factor.residual.resize(static_cast<int>(x.padded_size()));
+    set_residual(matrix, b, x, factor.points, factor.residual);
     const int count = matrix.pattern->vertex_count;
     Eigen::VectorXd right(3 * count);
-    for (int i = 0; i < count; ++i) right.segment<3>(3 * i) = matrix.free[i] * b.at(i) - factor.product.at(i);
+    for (int i = 0; i < count; ++i) right.segment<3>(3 * i) = factor.residual.at(i);
     const Eigen::VectorXd solution = factor.ldlt.solve(right);
     for (int i = 0; i < count; ++i) {
         if (matrix.free[i] > 0.0) x.add(i, solution.segment<3>(3 * i));

@@ -265,14 +265,13 @@ void Multigrid::scatter_ground() {
 }
 
 void Multigrid::fill_bottom() {
-    constexpr int symmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
     const Level& level = levels_.back();
     const LevelPattern& pattern = patterns_.back();
     std::fill(bottom_.begin(), bottom_.end(), 0.0);
     const auto add = [&](int i, int j, double sign, const auto& block) {
         for (int a = 0; a < 3; ++a) {
             for (int b = 0; b < 3; ++b) {
-                bottom_[static_cast<std::size_t>(3 * i + a) * bottom_stride_ + 3 * j + b] += sign * block(symmetric[a][b]);
+                bottom_[static_cast<std::size_t>(3 * i + a) * bottom_stride_ + 3 * j + b] += sign * block(symmetric_entry[a][b]);
             }
         }
     };

@@ -39,15 +39,12 @@ private:
     void size_space(const Vectors& b) {
         for (auto* list : {&space_.x, &space_.p, &space_.q}) list->resize(3 * multigrid_.padded());
         if (space_.r.padded_size() == b.padded_size()) return;
-        for (auto* vectors : {&space_.r, &space_.product}) vectors->resize(static_cast<int>(b.padded_size()));
+        space_.r.resize(static_cast<int>(b.padded_size()));
     }
 
     /// r = b - A x on the free vertices, in double precision; returns its norm.
     double set_residual(const Vectors& b, const Vectors& x) {
-        multiply(matrix_, x, space_.points, space_.product);
-        space_.r = b;
-        filter(matrix_, space_.r);
-        add_scaled(space_.r, -1.0, space_.product);
+        percale::set_residual(matrix_, b, x, space_.points, space_.r);
         return std::sqrt(dot(compute_, space_.r, space_.r));
     }
 

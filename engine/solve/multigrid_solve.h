@@ -9,7 +9,7 @@ namespace percale {
 /// Work space, sized on first use.
 struct MultigridSpace {
     AlignedVector<float> x, p, q;
-    Vectors r, product;
+    Vectors r;
     AlignedVector<double> points;
 };
 

@@ -93,6 +93,13 @@ struct RandomSystem {
         return x;
     }
 
+    /// Random values where vertices are prescribed, 0 elsewhere.
+    Eigen::VectorXd prescribed_values() {
+        Eigen::VectorXd x = random_vector();
+        for (int i = 0; i < x.size(); ++i) x[i] *= 1.0 - matrix.free[i / 3];
+        return x;
+    }
+
     /// Assembled block by block from springs and contacts, without the pattern.
     Eigen::MatrixXd dense() const {
         const int count = model.vertex_count();

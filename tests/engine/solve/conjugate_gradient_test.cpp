@@ -6,13 +6,6 @@
 namespace percale::test {
 namespace {
 
-/// Prescribed values where vertices are prescribed, 0 elsewhere.
-Eigen::VectorXd prescribed(RandomSystem& system) {
-    Eigen::VectorXd x = system.random_vector();
-    for (int i = 0; i < x.size(); ++i) x[i] *= 1.0 - system.matrix.free[i / 3];
-    return x;
-}
-
 double energy_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& x) { return std::sqrt(x.dot(a * x)); }
 
 struct Solved {
@@ -38,7 +31,7 @@ double free_residual(const RandomSystem& system, const Eigen::VectorXd& b, const
 TEST_CASE("Conjugate gradient agrees with a dense factorisation, prescribed vertices kept") {
     for (const int vertices : {2, 9, 25, 60}) {
         RandomSystem system(vertices + 7u, vertices);
-        const Eigen::VectorXd b = system.random_vector(), start = prescribed(system);
+        const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
         const Solved solved = solve(system, b, start, {.relative_residual = 1e-13});
         const Eigen::VectorXd expected = system.solve_dense(b, start);
         CAPTURE(vertices, solved.report.iterations);
@@ -59,7 +52,7 @@ TEST_CASE("A system that the preconditioner inverts takes one iteration") {
         block.weight = {1.0, 0.0, 0.0, 0.0};
     }
     fill_matrix(system.terms, system.contacts, system.matrix);
-    const Eigen::VectorXd b = system.random_vector(), start = prescribed(system);
+    const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
     // The inverses are held in single precision; what that leaves goes in the second iteration.
     const Eigen::VectorXd expected = system.solve_dense(b, start);
     const Solved solved = solve(system, b, start, {.relative_residual = 1e-5});
@@ -82,7 +75,7 @@ TEST_CASE("Nothing to do takes no iteration") {
 
 TEST_CASE("The residual rule stops at the residual it names") {
     RandomSystem system(33, 50);
-    const Eigen::VectorXd b = system.random_vector(), start = prescribed(system);
+    const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
     const double first = free_residual(system, b, start);
     int before = 0;
     for (const double target : {1e-1, 1e-3, 1e-6, 1e-9}) {
@@ -100,7 +93,7 @@ TEST_CASE("The residual rule stops at the residual it names") {
 TEST_CASE("The energy rule leaves an error of about its share of the solution, in the energy norm") {
     for (unsigned seed = 40; seed < 50; ++seed) {
         RandomSystem system(seed, 80);
-        const Eigen::VectorXd b = system.random_vector(), start = prescribed(system);
+        const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
         const Eigen::VectorXd exact = system.solve_dense(b, start);
         const Eigen::MatrixXd a = system.dense();
         const Solved solved = solve(system, b, start, {.relative_gain = 0.05});
@@ -112,7 +105,7 @@ TEST_CASE("The energy rule leaves an error of about its share of the solution, i
 
 TEST_CASE("The absolute energy rule works alone and stops sooner the more is allowed") {
     RandomSystem system(51, 80);
-    const Eigen::VectorXd b = system.random_vector(), start = prescribed(system);
+    const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
     const Eigen::MatrixXd a = system.dense();
     const Eigen::VectorXd exact = system.solve_dense(b, start);
     const double whole = energy_norm(a, exact - start);
@@ -128,7 +121,7 @@ TEST_CASE("The absolute energy rule works alone and stops sooner the more is all
 
 TEST_CASE("The iteration limit is kept and reported as not converged") {
     RandomSystem system(34, 50);
-    const Eigen::VectorXd b = system.random_vector(), start = prescribed(system);
+    const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
     const Solved solved = solve(system, b, start, {.relative_residual = 1e-14, .most_iterations = 3});
     CHECK(solved.report.iterations == 3);
     CHECK_FALSE(solved.report.converged);
@@ -136,7 +129,7 @@ TEST_CASE("The iteration limit is kept and reported as not converged") {
 
 TEST_CASE("A second solve in the same work space has the same bits") {
     RandomSystem system(35, 30), small(36, 5);
-    const Eigen::VectorXd b = system.random_vector(), start = prescribed(system);
+    const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
     SolveSpace space;
     Vectors first = from_dense(start), second = from_dense(start), other = from_dense(Eigen::VectorXd::Zero(15));
     solve_cg(system.matrix, from_dense(b), {.relative_residual = 1e-8}, space, first);

@@ -8,15 +8,8 @@
 namespace percale::test {
 namespace {
 
-/// Prescribed values where vertices are prescribed, 0 elsewhere.
-Eigen::VectorXd prescribed(RandomSystem& system) {
-    Eigen::VectorXd x = system.random_vector();
-    for (int i = 0; i < x.size(); ++i) x[i] *= 1.0 - system.matrix.free[i / 3];
-    return x;
-}
-
 void check_against_dense(DirectSolver& solver, RandomSystem& system) {
-    const Eigen::VectorXd b = system.random_vector(), start = prescribed(system), expected = system.solve_dense(b, start);
+    const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values(), expected = system.solve_dense(b, start);
     Vectors x = from_dense(start);
     REQUIRE(solver.solve(system.matrix, from_dense(b), x));
     CHECK((to_dense(x, system.model.vertex_count()) - expected).norm() <= 1e-9 * expected.norm());
