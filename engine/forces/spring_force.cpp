@@ -7,10 +7,12 @@ namespace percale {
 namespace {
 
 /// Springs in bands are summed in longer chunks: each begins with the springs of the guard before it once more.
-constexpr int band_chunk_slices = 128;
+int band_chunk_slices(const BandPattern& bands) { return std::max(128, 6 * static_cast<int>(bands.guard) / slice_lanes); }
 
 double length(const SpringNetwork& network, const Vectors& x, int k) {
-    return (x.at(network.first[k]) - x.at(network.second[k])).norm();
+    const int i = network.first[k], j = network.second[k];
+    const double dx = x.x[i] - x.x[j], dy = x.y[i] - x.y[j], dz = x.z[i] - x.z[j];
+    return std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 
 /// Blocks before the first vertex are zero.
@@ -51,7 +53,8 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
     if (with_matrix && terms.values.size() != adjacency.value_count()) terms.values.assign(adjacency.value_count(), 0.0f);
     const BandPattern& bands = adjacency.bands;
     if (with_matrix) clear_guards(bands, terms.values);
-    const std::size_t scratch = 3 * bands.count * (bands.guard + std::min(slices, band_chunk_slices) * slice_lanes);
+    const int grain = bands.count > 0 ? band_chunk_slices(bands) : chunk_slices;
+    const std::size_t scratch = 3 * bands.count * (bands.guard + std::min(slices, grain) * slice_lanes);
     terms.scratch.resize(scratch * (compute.pool ? compute.pool->threads() : 1));
     const SpringPass pass{.springs = springs.entries,
                           .positions = motion.positions.axes(),
@@ -62,7 +65,7 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
                           .forces = forces.axes(),
                           .values = with_matrix ? terms.values.data() : nullptr,
                           .scratch = nullptr};
-    return sum_stretches(compute, slices, bands.count > 0 ? band_chunk_slices : chunk_slices, [&](Slices range, int thread) {
+    return sum_stretches(compute, slices, grain, [&](Slices range, int thread) {
         SpringPass own = pass;
         own.scratch = terms.scratch.data() + thread * scratch;
         return compute.kernels->springs(own, range);
@@ -76,12 +79,10 @@ SpringBlock spring_block(const Adjacency& adjacency, const SpringTerms& terms, i
 }
 
 double elastic_energy(const SpringNetwork& network, const Vectors& positions) {
-    double energy = 0.0;
-    for (int k = 0; k < network.size(); ++k) {
-        const double stretch = length(network, positions, k) - network.rest_length[k];
-        energy += 0.5 * network.stiffness[k] * stretch * stretch;
-    }
-    return energy;
+    return 0.5 * sum_terms(0, network.size(), [&](int k) {
+               const double stretch = length(network, positions, k) - network.rest_length[k];
+               return network.stiffness[k] * stretch * stretch;
+           });
 }
 
 double largest_strain(const SpringNetwork& network, const Vectors& positions) {

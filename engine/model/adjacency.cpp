@@ -39,8 +39,7 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
     return result;
 }
 
-constexpr double least_filled = 0.7;        // of the places of all bands
-constexpr std::size_t longest_guard = 512;  // vertices; every chunk begins with the springs of the guard once more
+constexpr double least_filled = 0.7;  // of the places of all bands
 
 /// The bands of a network, if few bands hold all springs, each place at most one.
 BandPattern find_bands(const SpringNetwork& network, int vertex_count) {
@@ -61,7 +60,6 @@ BandPattern find_bands(const SpringNetwork& network, int vertex_count) {
     if (network.size() < least_filled * bands.count * vertex_count) return {};
     const int widest = *std::max_element(bands.offset, bands.offset + bands.count);
     bands.guard = static_cast<std::size_t>((widest + slice_lanes - 1) / slice_lanes) * slice_lanes;
-    if (bands.guard > longest_guard) return {};
     bands.padded = static_cast<std::size_t>((vertex_count + slice_lanes - 1) / slice_lanes) * slice_lanes;
     return bands;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -49,6 +50,43 @@ inline void add_scaled(Vectors& y, double factor, const Vectors& x) {
 inline double dot(const Compute& compute, const Vectors& a, const Vectors& b) {
     return sum_chunks(compute, a.slices(), [&](Slices range) { return compute.kernels->dot(a.axes(), b.axes(), range); });
 }
+
+/// Sum of term(i) for i = first ... first + count - 1: eight sums side by side, so that no addition waits for the one before;
+/// their order depends on count alone.
+template <class Term>
+double sum_terms(int first, int count, Term term) {
+    double sums[8] = {};
+    const int last = first + count;
+    int i = first;
+    for (; i + 8 <= last; i += 8) {
+        for (int k = 0; k < 8; ++k) sums[k] += term(i + k);
+    }
+    for (int k = 0; i < last; ++i, ++k) sums[k] += term(i);
+    return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+}
+
+/// Largest of term(i) >= 0 for i = first ... first + count - 1; 0 if there is none.
+template <class Term>
+double largest_term(int first, int count, Term term) {
+    double largest[4] = {};
+    const int last = first + count;
+    int i = first;
+    for (; i + 4 <= last; i += 4) {
+        for (int k = 0; k < 4; ++k) {
+            const double value = term(i + k);
+            largest[k] = value > largest[k] ? value : largest[k];
+        }
+    }
+    for (; i < last; ++i) largest[0] = std::max(largest[0], term(i));
+    return std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3]));
+}
+
+/// |a_i - b_i|^2
+inline double square_between(const Vectors& a, const Vectors& b, int i) {
+    const double x = a.x[i] - b.x[i], y = a.y[i] - b.y[i], z = a.z[i] - b.z[i];
+    return x * x + y * y + z * z;
+}
+inline double square_at(const Vectors& a, int i) { return a.x[i] * a.x[i] + a.y[i] * a.y[i] + a.z[i] * a.z[i]; }
 
 inline void copy_out(const Vectors& from, std::span<Vec3> to) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = {from.x[i], from.y[i], from.z[i]};

@@ -1,11 +1,13 @@
 #include "linear_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace percale {
 namespace {
 
 constexpr int dear_jacobi = 25;  // iterations from which multigrid is cheaper
+constexpr int most_jacobi = 40;  // after which a solve is left to multigrid
 
 }  // namespace
 
@@ -21,7 +23,10 @@ void StepSolver::set_model(const Compute& compute, const ClothModel& model, Line
 
 void StepSolver::fill(const SpringTerms& springs, std::span<const ContactBlock> contacts) {
     fill_matrix(springs, contacts, matrix);
-    if (in_use_ != LinearSolver::multigrid) return;
+    if (in_use_ == LinearSolver::multigrid) fill_multigrid();
+}
+
+void StepSolver::fill_multigrid() {
     if (!multigrid_) multigrid_ = std::make_unique<Multigrid>(*matrix.compute, model_->adjacency, model_->rest);
     multigrid_->fill(matrix, stale_ ? Multigrid::Coarser::filled : Multigrid::Coarser::kept);
     if (stale_) fresh_iterations_ = 0;
@@ -29,20 +34,31 @@ void StepSolver::fill(const SpringTerms& springs, std::span<const ContactBlock> 
 }
 
 SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vectors& x) {
+    int before = 0;
+    if (in_use_ == LinearSolver::cg) {
+        const bool may_change = wish_ == LinearSolver::automatic && model_->vertex_count() > dense_vertices;
+        SolveTarget first = target;
+        if (may_change) first.most_iterations = std::min(target.most_iterations, most_jacobi);
+        const SolveReport report = solve_cg(matrix, b, first, space_, x);
+        if (!may_change || report.iterations <= dear_jacobi) return report;
+        in_use_ = LinearSolver::multigrid;
+        fill_multigrid();
+        if (report.converged) return report;
+        before = report.iterations;
+    }
     SolveReport report;
     if (in_use_ == LinearSolver::direct) {
         if (!direct_) direct_ = std::make_unique<DirectSolver>();
         report = {.iterations = 1, .converged = direct_->solve(matrix, b, x)};
-    } else if (in_use_ == LinearSolver::multigrid) {
+    } else {
         report = solve_multigrid(matrix, *multigrid_, b, target, multigrid_space_, x);
         if (fresh_iterations_ == 0) fresh_iterations_ = report.iterations;
         stale_ = report.iterations > 2 * fresh_iterations_ + 2;
     }
+    report.iterations += before;
     if (report.converged) return report;
-    // Chosen, or what is left where the others broke down or reached their precision.
+    // What is left where the others broke down or reached their precision.
     const SolveReport rest = solve_cg(matrix, b, target, space_, x);
-    const bool can_coarsen = model_->vertex_count() > dense_vertices;
-    if (wish_ == LinearSolver::automatic && can_coarsen && rest.iterations > dear_jacobi) in_use_ = LinearSolver::multigrid;
     return {.iterations = report.iterations + rest.iterations, .converged = rest.converged};
 }
 

@@ -12,9 +12,10 @@ namespace percale {
 
 /// The step matrix with the solver that the settings or the counts so far choose.
 ///
-/// `automatic` begins with block Jacobi and changes to multigrid, for good, when a solve has shown that to be dearer, in products
-/// with the matrix: a multigrid solve costs about 8 products for its coarser matrices and 3 an iteration, and needs about five
-/// iterations where block Jacobi needs more than 25. Counts only, no clock: runs repeat bit for bit.
+/// `automatic` begins with block Jacobi and changes to multigrid, for good and in the midst of a solve, when that has turned out
+/// to be dearer, in products with the matrix: a multigrid solve costs about 8 products for its coarser matrices and 3 an
+/// iteration, and needs about five iterations where block Jacobi needs more than 25. Counts only, no clock: runs repeat bit for
+/// bit.
 class StepSolver {
 public:
     /// Prepares for a model, which is viewed and must stay as it is.
@@ -44,6 +45,8 @@ public:
     BlockMatrix matrix;
 
 private:
+    void fill_multigrid();
+
     const ClothModel* model_ = nullptr;
     LinearSolver wish_ = LinearSolver::automatic;
     LinearSolver first_ = LinearSolver::cg;

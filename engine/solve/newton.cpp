@@ -146,21 +146,23 @@ private:
     /// r = M (v - v_n) - dt f and the incremental potential whose gradient by v it is.
     void set_residual(NewtonPoint& point) {
         if (point.residual.padded_size() != point.velocities.padded_size()) point.residual.resize(model_.vertex_count());
-        double kinetic = 0.0;
-        for (int i = 0; i < model_.vertex_count(); ++i) {
-            const double free = (*part_.free)[i], mass = model_.mass[i];
-            const Vec3 change = point.velocities.at(i) - space_.start_velocities.at(i);
-            kinetic += 0.5 * mass * free * change.squaredNorm();
-            point.residual.set(i, free * (mass * change - part_.dt * point.forces.total.at(i)));
-        }
-        point.objective = kinetic + point.forces.potential;
+        const Vectors &force = point.forces.total, &velocity = point.velocities, &start = space_.start_velocities;
+        const double *free = part_.free->data(), *mass = model_.mass.data();
+        const int count = model_.vertex_count();
+        const double dt = part_.dt;
+        const auto set_axis = [=](const double* f, const double* v, const double* v_start, double* r) {
+            for (int i = 0; i < count; ++i) r[i] = free[i] * (mass[i] * (v[i] - v_start[i]) - dt * f[i]);
+        };
+        set_axis(force.x.data(), velocity.x.data(), start.x.data(), point.residual.x.data());
+        set_axis(force.y.data(), velocity.y.data(), start.y.data(), point.residual.y.data());
+        set_axis(force.z.data(), velocity.z.data(), start.z.data(), point.residual.z.data());
+        point.objective = 0.5 * velocity_change(0, count, velocity) + point.forces.potential;
     }
 
     /// |r| in velocity units weighted by mass: sqrt(sum |r_i|^2/m_i).
     double residual_norm() const {
-        double sum = 0.0;
-        for (int i = 0; i < model_.vertex_count(); ++i) sum += space_.current.residual.at(i).squaredNorm() / model_.mass[i];
-        return std::sqrt(sum);
+        const Vectors& residual = space_.current.residual;
+        return std::sqrt(sum_terms(0, model_.vertex_count(), [&](int i) { return square_at(residual, i) / model_.mass[i]; }));
     }
 
     void iterate() {
@@ -264,24 +266,17 @@ private:
             const double forcing = iteration > 0 ? std::clamp(0.9 * ratio * ratio, 1e-6, 0.1) : 0.1;
             return {.relative_residual = std::min(0.3, std::max(forcing, wanted))};
         }
-        const double change = iteration > 0 ? energy_accuracy * energy_accuracy * velocity_change() : 0.0;
+        const double change = iteration > 0 ? energy_accuracy * energy_accuracy *
+                                                  velocity_change(0, model_.vertex_count(), space_.current.velocities)
+                                            : 0.0;
         return {.relative_residual = 1e-10, .relative_gain = energy_accuracy, .absolute_gain = change};
     }
 
-    /// |v - v_n|_M^2 over free vertices, J.
-    double velocity_change() const {
-        double sum = 0.0;
-        for (const ClothRange& cloth : model_.cloths) sum += velocity_change(cloth, space_.current.velocities);
-        return sum;
-    }
-
-    double velocity_change(const ClothRange& cloth, const Vectors& velocities) const {
-        double sum = 0.0;
-        for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
-            if ((*part_.free)[i] == 0.0) continue;
-            sum += model_.mass[i] * (velocities.at(i) - space_.start_velocities.at(i)).squaredNorm();
-        }
-        return sum;
+    /// |v - v_n|_M^2 over the free of some vertices, J.
+    double velocity_change(int first, int count, const Vectors& velocities) const {
+        const Vectors& start = space_.start_velocities;
+        const double *free = part_.free->data(), *mass = model_.mass.data();
+        return sum_terms(first, count, [&](int i) { return free[i] * mass[i] * square_between(velocities, start, i); });
     }
 
     /// Line search and cut along the direction; false when the target is met or nothing more can be gained.
@@ -350,14 +345,15 @@ private:
     /// in the mean and at its worst vertex by twice that.
     bool change_is_small(const Vectors& ahead, double share) const {
         return std::all_of(model_.cloths.begin(), model_.cloths.end(), [&](const ClothRange& cloth) {
-            double gain = 0.0, worst = 0.0, worst_error = 0.0;
-            for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
-                gain -= space_.current.residual.at(i).dot(space_.direction.at(i));
-                worst = std::max(worst, space_.direction.at(i).squaredNorm());
-                worst_error = std::max(worst_error, (ahead.at(i) - space_.start_velocities.at(i)).squaredNorm());
-            }
+            const Vectors &residual = space_.current.residual, &direction = space_.direction;
+            const double gain = -sum_terms(cloth.first, cloth.count, [&](int i) {
+                return residual.x[i] * direction.x[i] + residual.y[i] * direction.y[i] + residual.z[i] * direction.z[i];
+            });
+            const double worst = largest_term(cloth.first, cloth.count, [&](int i) { return square_at(direction, i); });
+            const double worst_error =
+                largest_term(cloth.first, cloth.count, [&](int i) { return square_between(ahead, space_.start_velocities, i); });
             const double change = part_.dt * std::sqrt(std::max(gain, 0.0) / cloth.mass);
-            const double time_error = 0.5 * part_.dt * std::sqrt(velocity_change(cloth, ahead) / cloth.mass);
+            const double time_error = 0.5 * part_.dt * std::sqrt(velocity_change(cloth.first, cloth.count, ahead) / cloth.mass);
             const double floor =
                 space_.current.forces.rows.size() > 0 ? smallest_share * model_.thickness[cloth.first] : smallest_change;
             return change <= share * time_error + floor &&

@@ -23,9 +23,7 @@ std::uint64_t hash_of(const ContactRows& rows) {
 }
 
 double largest_speed(const World& world) {
-    double square = 0.0;
-    for (int i = 0; i < world.model.vertex_count(); ++i) square = std::max(square, world.state.velocities.at(i).squaredNorm());
-    return std::sqrt(square);
+    return std::sqrt(largest_term(0, world.model.vertex_count(), [&](int i) { return square_at(world.state.velocities, i); }));
 }
 
 }  // namespace
@@ -34,9 +32,8 @@ namespace {
 
 StepEnergy energy_of(const World& world, bool with_gravity) {
     StepEnergy energy;
-    for (int i = 0; i < world.model.vertex_count(); ++i) {
-        energy.kinetic += 0.5 * world.model.mass[i] * world.state.velocities.at(i).squaredNorm();
-    }
+    energy.kinetic = 0.5 * sum_terms(0, world.model.vertex_count(),
+                                     [&](int i) { return world.model.mass[i] * square_at(world.state.velocities, i); });
     if (with_gravity) energy.gravity = gravity_energy(world.model.mass, world.settings.gravity, world.state.positions);
     energy.elastic = elastic_energy(world.model.springs, world.state.positions);
     energy.contact = world.contact_energy;
