@@ -7,7 +7,7 @@ namespace percale {
 namespace {
 
 /// Springs in bands are summed in longer chunks: each begins with the springs of the guard before it once more.
-int band_chunk_slices(const BandPattern& bands) { return std::max(128, 6 * static_cast<int>(bands.guard) / slice_lanes); }
+constexpr int band_chunk_slices = 128;
 
 double length(const SpringNetwork& network, const Vectors& x, int k) {
     const int i = network.first[k], j = network.second[k];
@@ -53,7 +53,7 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
     if (with_matrix && terms.values.size() != adjacency.value_count()) terms.values.assign(adjacency.value_count(), 0.0f);
     const BandPattern& bands = adjacency.bands;
     if (with_matrix) clear_guards(bands, terms.values);
-    const int grain = bands.count > 0 ? band_chunk_slices(bands) : chunk_slices;
+    const int grain = bands.count > 0 ? band_chunk_slices : chunk_slices;
     const std::size_t scratch = 3 * bands.count * (bands.guard + std::min(slices, grain) * slice_lanes);
     terms.scratch.resize(scratch * (compute.pool ? compute.pool->threads() : 1));
     const SpringPass pass{.springs = springs.entries,

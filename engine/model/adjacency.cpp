@@ -40,6 +40,9 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
 }
 
 constexpr double least_filled = 0.7;  // of the places of all bands
+/// Vertices. Wider grids leave the caches: the many arrays that bands read side by side then are slower than slices, which read
+/// one (percale_force_cost at N = 257: a product took 1.5 times as long).
+constexpr std::size_t longest_guard = 512;
 
 /// The bands of a network, if few bands hold all springs, each place at most one.
 BandPattern find_bands(const SpringNetwork& network, int vertex_count) {
@@ -60,6 +63,7 @@ BandPattern find_bands(const SpringNetwork& network, int vertex_count) {
     if (network.size() < least_filled * bands.count * vertex_count) return {};
     const int widest = *std::max_element(bands.offset, bands.offset + bands.count);
     bands.guard = static_cast<std::size_t>((widest + slice_lanes - 1) / slice_lanes) * slice_lanes;
+    if (bands.guard > longest_guard) return {};
     bands.padded = static_cast<std::size_t>((vertex_count + slice_lanes - 1) / slice_lanes) * slice_lanes;
     return bands;
 }

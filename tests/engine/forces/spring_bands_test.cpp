@@ -18,9 +18,9 @@ struct Shape {
     double width, depth;  // m
 };
 /// Few and many columns, square and oblong cells, one and several chunks of either layout.
-constexpr Shape some_shapes[] = {{2, 9, 1.0, 8.0},   {2, 40, 0.1, 1.0},   {3, 3, 1.0, 1.0},   {3, 50, 0.3, 7.0},
-                                 {17, 33, 1.0, 1.0}, {65, 40, 1.0, 0.62}, {33, 17, 2.0, 0.5}, {65, 70, 1.0, 1.0},
-                                 {5, 900, 0.1, 9.0}, {600, 14, 6.0, 0.2}};
+constexpr Shape some_shapes[] = {{2, 9, 1.0, 8.0},   {2, 40, 0.1, 1.0},  {3, 3, 1.0, 1.0},
+                                 {3, 50, 0.3, 7.0},  {17, 33, 1.0, 1.0}, {65, 40, 1.0, 0.62},
+                                 {33, 17, 2.0, 0.5}, {65, 70, 1.0, 1.0}, {5, 900, 0.1, 9.0}};
 
 /// A sheet in some state, its springs laid out in one way.
 struct Sheet {

@@ -157,7 +157,7 @@ TEST_CASE("A network is damped if one of its springs is") {
 }
 
 TEST_CASE("The springs of a grid lie in bands, fewer where a kind is not built") {
-    for (const auto& [columns, rows] : {std::pair{17, 33}, {65, 40}, {24, 24}, {9, 30}, {700, 12}}) {
+    for (const auto& [columns, rows] : {std::pair{17, 33}, {65, 40}, {24, 24}, {9, 30}}) {
         CAPTURE(columns, rows);
         const TriangleMesh grid = make_grid(1.0, 0.7, columns, rows);
         check_bands(cloth_model(grid, fabric_with(500.0, 10.0)), 6);
