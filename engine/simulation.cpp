@@ -65,7 +65,7 @@ struct Simulation::Implementation {
 
     int vertex(ClothId id, int index) const {
         const ClothRange& range = cloth(id);
-        if (index >= 0 && index < range.count) return range.first + index;
+        if (index >= 0 && index < range.count) return range.index_of(index);
         throw SceneError(range.name + ": there is no vertex " + std::to_string(index) + ", vertices are 0 ... " +
                          std::to_string(range.count - 1));
     }
@@ -85,14 +85,42 @@ struct Simulation::Implementation {
         if (world.detector) world.detector->set_cloth(world.model.triangles, world.model.thickness);
     }
 
-    /// The cloth that owns a vertex of the whole system, and its index there.
-    std::string vertex_name(int vertex_index) const {
+    /// Brings the view of positions up to date.
+    void update_views() {
         for (const ClothRange& range : world.model.cloths) {
-            if (vertex_index < range.first + range.count) {
-                return "vertex " + std::to_string(vertex_index - range.first) + " of " + range.name;
+            if (range.order.kept()) continue;
+            world.views.positions.resize(world.state.points.size());
+            for (int i = 0; i < range.count; ++i) {
+                world.views.positions[range.first + i] = world.state.points[range.index_of(i)];
             }
         }
-        return "vertex " + std::to_string(vertex_index);
+    }
+
+    /// The view of masses, after a cloth was added.
+    void add_masses(const ClothRange& range) {
+        if (range.order.kept()) return;
+        world.views.masses.resize(world.model.mass.size());
+        for (int i = 0; i < range.count; ++i) world.views.masses[range.first + i] = world.model.mass[range.index_of(i)];
+    }
+
+    /// The cloth that owns a vertex of the whole system; null if there is no such vertex.
+    const ClothRange* owner(int index) const {
+        for (const ClothRange& range : world.model.cloths) {
+            if (index >= range.first && index < range.first + range.count) return &range;
+        }
+        return nullptr;
+    }
+
+    std::string vertex_name(int index) const {
+        const ClothRange* range = owner(index);
+        if (!range) return "vertex " + std::to_string(index);
+        return "vertex " + std::to_string(range->user_vertex(index)) + " of " + range->name;
+    }
+
+    /// As the user numbers vertices, counted through all cloths.
+    int user_index(int index) const {
+        const ClothRange* range = owner(index);
+        return range ? range->first + range->user_vertex(index) : index;
     }
 
     std::string start_text(const StartFault& fault) const {
@@ -111,8 +139,11 @@ struct Simulation::Implementation {
     }
 
     void check_start() {
-        const StartFault fault = world.detector->check_start(world.state.points);
-        if (fault.any()) throw StartError(start_text(fault), fault);
+        StartFault fault = world.detector->check_start(world.state.points);
+        if (!fault.any()) return;
+        const std::string text = start_text(fault);
+        fault.inside_vertex = user_index(fault.inside_vertex);
+        throw StartError(text, fault);
     }
 
     void check_scheme() const {
@@ -143,6 +174,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     rest.vertices = transform(normalised(pose), mesh.vertices);
     ClothModel model = world.model;
     append_cloth(model, rest, fabric, name);
+    order_last_cloth(model);
     finish_model(model);
     world.model = std::move(model);
     world.newton.solver.forget_model();
@@ -150,7 +182,8 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     ClothState state;
     for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(world.model.vertex_count());
     state.points = world.state.points;
-    state.points.insert(state.points.end(), rest.vertices.begin(), rest.vertices.end());
+    state.points.insert(state.points.end(), world.model.rest.end() - static_cast<long>(rest.vertices.size()),
+                        world.model.rest.end());
     copy_in(state.points, state.positions);
     for (std::size_t i = 0; i < world.state.points.size(); ++i) {
         state.velocities.set(static_cast<int>(i), world.state.velocities.at(static_cast<int>(i)));
@@ -165,6 +198,8 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     world.state = std::move(state);
     world.script.free = std::move(free);
     world.script.pin_targets = std::move(targets);
+    implementation_->update_views();
+    implementation_->add_masses(world.model.cloths.back());
     implementation_->pass_cloth_to_detector();
     world.changed = true;
     scene_changed(world);
@@ -244,10 +279,11 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     }
     for (int i = 0; i < range.count; ++i) check_finite(positions[i], range.name + ": position " + std::to_string(i));
     for (int i = 0; i < range.count; ++i) {
-        world.state.positions.set(range.first + i, positions[i]);
-        world.script.pin_targets.set(range.first + i, positions[i]);
+        world.state.positions.set(range.index_of(i), positions[i]);
+        world.script.pin_targets.set(range.index_of(i), positions[i]);
     }
     update_points(world.state);
+    implementation_->update_views();
     world.contact_energy = 0.0;  // known again after the next step
     world.changed = true;
     wake(world.rest);
@@ -262,8 +298,8 @@ void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities)
     }
     for (int i = 0; i < range.count; ++i) check_finite(velocities[i], range.name + ": velocity " + std::to_string(i));
     for (int i = 0; i < range.count; ++i) {
-        const bool free = world.script.free[range.first + i] > 0.0;
-        world.state.velocities.set(range.first + i, free ? velocities[i] : Vec3(Vec3::Zero()));
+        const bool free = world.script.free[range.index_of(i)] > 0.0;
+        world.state.velocities.set(range.index_of(i), free ? velocities[i] : Vec3(Vec3::Zero()));
     }
     wake(world.rest);
 }
@@ -282,6 +318,7 @@ StepReport Simulation::step() {
     const double start = cpu_seconds();
     prepare();
     StepReport report = percale::step(world);
+    if (!report.slept) implementation_->update_views();
     report.cpu_s = cpu_seconds() - start;
     return report;
 }
@@ -294,20 +331,25 @@ int Simulation::cloth_count() const { return static_cast<int>(implementation_->w
 
 std::span<const Vec3> Simulation::positions(ClothId cloth) const {
     const ClothRange& range = implementation_->cloth(cloth);
-    return std::span(implementation_->world.state.points).subspan(range.first, range.count);
+    const World& world = implementation_->world;
+    const std::vector<Vec3>& all = range.order.kept() ? world.state.points : world.views.positions;
+    return std::span(all).subspan(range.first, range.count);
 }
 
 std::span<const Vec3> Simulation::velocities(ClothId cloth) const {
     const ClothRange& range = implementation_->cloth(cloth);
     World& world = implementation_->world;
-    world.velocity_points.resize(world.state.points.size());
-    copy_out(world.state.velocities, world.velocity_points);
-    return std::span<const Vec3>(world.velocity_points).subspan(range.first, range.count);
+    std::vector<Vec3>& all = world.views.velocities;
+    all.resize(world.state.points.size());
+    for (int i = 0; i < range.count; ++i) all[range.first + i] = world.state.velocities.at(range.index_of(i));
+    return std::span<const Vec3>(all).subspan(range.first, range.count);
 }
 
 std::span<const double> Simulation::masses(ClothId cloth) const {
     const ClothRange& range = implementation_->cloth(cloth);
-    return std::span<const double>(implementation_->world.model.mass).subspan(range.first, range.count);
+    const World& world = implementation_->world;
+    const std::vector<double>& all = range.order.kept() ? world.model.mass : world.views.masses;
+    return std::span(all).subspan(range.first, range.count);
 }
 
 Pose Simulation::obstacle_pose(ObstacleId obstacle) const { return implementation_->obstacle(obstacle).start; }

@@ -1,9 +1,21 @@
 #include "cloth_model.h"
 
+#include <algorithm>
+
 #include "lumped_mass.h"
 #include "percale/options.h"
 
 namespace percale {
+namespace {
+
+/// The numbers of a cloth's vertices, put from the user's order into that in memory.
+template <class T>
+void put_in_order(const ClothRange& cloth, std::vector<T>& list) {
+    const std::vector<T> before(list.begin() + cloth.first, list.end());
+    for (int i = 0; i < cloth.count; ++i) list[cloth.first + i] = before[cloth.order.vertex[i]];
+}
+
+}  // namespace
 
 void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fabric, const std::string& name) {
     check_mesh(rest, name, true);
@@ -21,6 +33,23 @@ void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fab
     model.thickness.resize(model.mass.size(), fabric.thickness);
     for (const auto& [a, b, c] : rest.triangles) model.triangles.push_back({first + a, first + b, first + c});
     model.cloths.push_back(range);
+}
+
+void order_last_cloth(ClothModel& model) {
+    ClothRange& cloth = model.cloths.back();
+    if (cloth.grid) return;
+    const auto& firsts = model.springs.first;
+    const auto own = std::partition_point(firsts.begin(), firsts.end(), [&](int vertex) { return vertex < cloth.first; });
+    const int first_spring = static_cast<int>(own - firsts.begin());
+    cloth.order = memory_order(std::span(model.rest).subspan(cloth.first),
+                               springs_at_vertices(model.springs, first_spring, cloth.first, cloth.count));
+    renumber_springs(model.springs, first_spring, cloth.first, cloth.order);
+    put_in_order(cloth, model.mass);
+    put_in_order(cloth, model.rest);
+    for (Triangle& t : model.triangles) {
+        if (t[0] < cloth.first) continue;
+        for (int& vertex : t) vertex = cloth.index_of(vertex - cloth.first);
+    }
 }
 
 void finish_model(ClothModel& model) { model.adjacency = make_adjacency(model.springs, model.vertex_count()); }

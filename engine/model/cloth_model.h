@@ -8,6 +8,7 @@
 #include "percale/mesh.h"
 #include "spring_network.h"
 #include "vectors.h"
+#include "vertex_order.h"
 
 namespace percale {
 
@@ -19,23 +20,32 @@ struct ClothRange {
     double mass = 0.0;  // kg
     bool grid = false;  // otherwise a free mesh
     Fabric fabric = {};
+    VertexOrder order = {};
+
+    /// The number in the system of a vertex in the user's mesh, and back.
+    int index_of(int user_vertex) const { return first + order.place_of(user_vertex); }
+    int user_vertex(int index) const { return order.vertex_at(index - first); }
 };
 
 /// All cloth of a simulation as one system: what does not change from step to step.
 struct ClothModel {
     std::vector<ClothRange> cloths;
-    std::vector<double> mass;       // kg, one a vertex
-    std::vector<double> thickness;  // m, one a vertex
-    std::vector<Vec3> rest;         // m, positions without strain
-    std::vector<Triangle> triangles;
+    std::vector<double> mass;         // kg, one a vertex
+    std::vector<double> thickness;    // m, one a vertex
+    std::vector<Vec3> rest;           // m, positions without strain
+    std::vector<Triangle> triangles;  // in the user's order, whatever that of the vertices
     SpringNetwork springs;
     Adjacency adjacency;
 
     int vertex_count() const { return static_cast<int>(mass.size()); }
 };
 
-/// Appends a cloth; `rest` in m, world. Throws SceneError naming `name`. The adjacency is made anew by finish_model.
+/// Appends a cloth, its vertices in the user's order; `rest` in m, world. Throws SceneError naming `name`. The adjacency is made
+/// anew by finish_model.
 void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fabric, const std::string& name);
+/// Puts the vertices of the cloth that was appended last into memory_order, if it is a free mesh; grids keep theirs, in which
+/// their springs lie in bands.
+void order_last_cloth(ClothModel& model);
 void finish_model(ClothModel& model);
 
 /// What may change in a step.

@@ -1,5 +1,9 @@
 #include "spring_network.h"
 
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
 #include "percale/error.h"
 #include "topology.h"
 
@@ -71,6 +75,13 @@ void add_free(SpringWriter& writer, const TriangleMesh& mesh) {
     }
 }
 
+/// list[from + k] = what stood at number[k].
+template <class T>
+void rearrange(std::vector<T>& list, int from, const std::vector<int>& number) {
+    const std::vector<T> before(list.begin() + from, list.end());
+    for (std::size_t k = 0; k < number.size(); ++k) list[from + k] = before[number[k] - from];
+}
+
 }  // namespace
 
 void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex,
@@ -83,6 +94,30 @@ void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabr
     SpringWriter writer(network, rest, fabric, first_vertex, name);
     rest.is_grid() ? add_grid(writer, rest) : add_free(writer, rest);
     if (network.size() == before) throw SceneError(name + ": the fabric has no springs; springs.structural must be above 0 N/m");
+}
+
+std::vector<int> springs_at_vertices(const SpringNetwork& network, int from, int first_vertex, int vertex_count) {
+    std::vector<int> springs(vertex_count, 0);
+    for (int k = from; k < network.size(); ++k) {
+        ++springs[network.first[k] - first_vertex];
+        ++springs[network.second[k] - first_vertex];
+    }
+    return springs;
+}
+
+void renumber_springs(SpringNetwork& network, int from, int first_vertex, const VertexOrder& order) {
+    for (int k = from; k < network.size(); ++k) {
+        const int one = order.place_of(network.first[k] - first_vertex), other = order.place_of(network.second[k] - first_vertex);
+        network.first[k] = first_vertex + std::min(one, other);
+        network.second[k] = first_vertex + std::max(one, other);
+    }
+    std::vector<int> number(network.size() - from);
+    std::iota(number.begin(), number.end(), from);
+    const auto key = [&](int k) { return std::tuple(network.kind[k], network.first[k], network.second[k]); };
+    std::sort(number.begin(), number.end(), [&](int a, int b) { return key(a) < key(b); });
+    for (auto* ends : {&network.first, &network.second}) rearrange(*ends, from, number);
+    for (auto* constants : {&network.rest_length, &network.stiffness, &network.damping}) rearrange(*constants, from, number);
+    rearrange(network.kind, from, number);
 }
 
 }  // namespace percale

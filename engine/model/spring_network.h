@@ -5,6 +5,7 @@
 
 #include "percale/fabric.h"
 #include "percale/mesh.h"
+#include "vertex_order.h"
 
 namespace percale {
 
@@ -28,5 +29,12 @@ struct SpringNetwork {
 /// free mesh, no spring at all, or a spring of no length.
 void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex,
                     const std::string& name);
+
+/// Of the springs from number `from` on: their number at each of the cloth's vertices, which start at `first_vertex`.
+std::vector<int> springs_at_vertices(const SpringNetwork& network, int from, int first_vertex, int vertex_count);
+
+/// Gives the ends of the springs from number `from` on, those of one cloth whose vertices start at `first_vertex`, the numbers of
+/// an order, and sorts these springs by kind and ends.
+void renumber_springs(SpringNetwork& network, int from, int first_vertex, const VertexOrder& order);
 
 }  // namespace percale

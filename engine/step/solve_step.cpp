@@ -108,13 +108,14 @@ void name_blocked_pin(World& world) {
     double farthest = 0.0;
     for (std::size_t c = 0; c < world.model.cloths.size(); ++c) {
         const ClothRange& cloth = world.model.cloths[c];
-        for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
+        for (int vertex = 0; vertex < cloth.count; ++vertex) {
+            const int i = cloth.index_of(vertex);
             if (world.script.free[i] > 0.0) continue;
             const double missing = (world.newton.current.positions.at(i) - world.part_targets.at(i)).norm();
             if (missing <= farthest) continue;
             farthest = missing;
             world.report.blocked_cloth = static_cast<int>(c);
-            world.report.blocked_vertex = i - cloth.first;
+            world.report.blocked_vertex = vertex;
             world.report.blocked_name = cloth.name;
         }
     }

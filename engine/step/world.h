@@ -29,6 +29,13 @@ struct Script {
     std::vector<ObstacleState> obstacles;
 };
 
+/// What callers see, one entry a vertex in the user's order. Positions and masses are kept only if some cloth has another order.
+struct UserViews {
+    std::vector<Vec3> positions;   // m
+    std::vector<Vec3> velocities;  // m/s, of the cloths that were asked for
+    std::vector<double> masses;    // kg
+};
+
 /// Everything one simulation holds.
 struct World {
     std::unique_ptr<ThreadPool> pool;  // with more than one thread
@@ -50,8 +57,8 @@ struct World {
     ExplicitSpace explicit_space;
     ClothState before;  // the state at the start of the running step
     Vectors part_targets;
-    double contact_energy = 0.0;        // J, of the current state
-    std::vector<Vec3> velocity_points;  // velocities one after the other, for callers
+    double contact_energy = 0.0;  // J, of the current state
+    UserViews views;
     StepReport report;
 };
 

@@ -37,6 +37,11 @@ double peak_bytes() {
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
+struct MeshChoice {
+    std::string kind;
+    bool shuffle = false;
+};
+
 /// A mesh of about n x n vertices.
 TriangleMesh mesh_of(const std::string& kind, int n) {
     if (kind == "irregular") return percale::test::irregular_sheet(1.0, n * n);
@@ -46,8 +51,9 @@ TriangleMesh mesh_of(const std::string& kind, int n) {
 }
 
 /// A sheet by two corners, a garment by the two vertices nearest to the ends of its upper edge.
-percale::Simulation make_scene(const std::string& kind, int n) {
-    const TriangleMesh mesh = mesh_of(kind, n);
+percale::Simulation make_scene(const MeshChoice& choice, int n) {
+    TriangleMesh mesh = mesh_of(choice.kind, n);
+    if (choice.shuffle) mesh = percale::test::shuffled(mesh);
     percale::Fabric fabric = percale::test::bench_fabric();
     if (!mesh.is_grid()) fabric.springs.shear = 0.0;
     Vec3 low = mesh.vertices[0], high = low;
@@ -80,10 +86,10 @@ void take_steps(percale::Simulation& simulation, int steps, Cost& cost) {
     cost.is_ok = true;
 }
 
-Cost run(const std::string& kind, int n, int steps) {
+Cost run(const MeshChoice& choice, int n, int steps) {
     Cost cost;
     const double before = peak_bytes(), start = percale::test::cpu_seconds();
-    percale::Simulation simulation = make_scene(kind, n);
+    percale::Simulation simulation = make_scene(choice, n);
     simulation.prepare();
     cost.prepare_ms = 1e3 * (percale::test::cpu_seconds() - start);
     cost.vertices = static_cast<double>(simulation.positions({0}).size());
@@ -93,14 +99,14 @@ Cost run(const std::string& kind, int n, int steps) {
 }
 
 /// `run` in a child process. Throws if the child died or a step failed.
-Cost run_apart(const std::string& kind, int n, int steps) {
+Cost run_apart(const MeshChoice& choice, int n, int steps) {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe to a child process");
     std::fflush(stdout);
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("no child process");
     if (child == 0) {
-        const Cost cost = run(kind, n, steps);
+        const Cost cost = run(choice, n, steps);
         _exit(write(ends[1], &cost, sizeof cost) == sizeof cost ? 0 : 1);
     }
     close(ends[1]);
@@ -139,19 +145,19 @@ Figures row(const Cost& cost) {
             {"bytes_per_vertex", cost.bytes / cost.vertices}};
 }
 
-Figures measure(const std::string& kind, int largest, int steps) {
+Figures measure(const MeshChoice& choice, int largest, int steps) {
     std::printf("%8s %10s %10s %12s %10s %7s %8s %8s\n", "vertices", "ms/step", "least", "us/vertex", "prepare", "newton",
                 "linear", "B/vertex");
     Figures rows = Figures::array();
     std::vector<double> vertices, ms;
     for (const int n : {33, 65, 129, 257, 513}) {
         if (n > largest) break;
-        const Cost cost = run_apart(kind, n, steps);
+        const Cost cost = run_apart(choice, n, steps);
         rows.push_back(row(cost));
         vertices.push_back(cost.vertices);
         ms.push_back(cost.ms);
     }
-    Figures figures{{"mesh", kind}, {"steps", steps}, {"rows", rows}};
+    Figures figures{{"mesh", choice.kind}, {"shuffled", choice.shuffle}, {"steps", steps}, {"rows", rows}};
     if (ms.size() > 1) {
         figures["exponent"] = fitted_exponent(vertices, ms);
         std::printf("time grows with the number of vertices to the power %.3f\n", figures["exponent"].get<double>());
@@ -164,11 +170,12 @@ Figures measure(const std::string& kind, int largest, int steps) {
 int main(int argc, char** argv) {
     CLI::App app("How time and memory of a step grow with the number of vertices.", "percale_growth");
     int largest = 257, steps = 5;
-    std::string kind = "grid";
+    MeshChoice choice{.kind = "grid"};
     app.add_option("--largest", largest, "largest N of 33, 65, 129, 257, 513")->capture_default_str()->check(CLI::Range(33, 513));
     app.add_option("--steps", steps, "steps of each size")->capture_default_str()->check(CLI::Range(1, 100000));
-    app.add_option("--mesh", kind, "grid, irregular, skirt or shirt")
+    app.add_option("--mesh", choice.kind, "grid, irregular, skirt or shirt")
         ->capture_default_str()
         ->check(CLI::IsMember({"grid", "irregular", "skirt", "shirt"}));
-    return percale::test::run_bench(app, argc, argv, [&] { return measure(kind, largest, steps); });
+    app.add_flag("--shuffle", choice.shuffle, "number the vertices at random (a grid becomes a free mesh)");
+    return percale::test::run_bench(app, argc, argv, [&] { return measure(choice, largest, steps); });
 }

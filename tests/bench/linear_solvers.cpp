@@ -74,13 +74,17 @@ public:
             if (!report.ok()) throw std::runtime_error(report.explanation());
         }
         percale::append_cloth(model, scene.mesh, scene.fabric, scene.name);
+        percale::order_last_cloth(model);
         percale::finish_model(model);
         for (auto* vectors : {&positions_, &velocities_, &right}) vectors->resize(model.vertex_count());
-        percale::copy_in(simulation.positions(cloth), positions_);
-        percale::copy_in(simulation.velocities(cloth), velocities_);
+        const std::span<const Vec3> positions = simulation.positions(cloth), velocities = simulation.velocities(cloth);
+        for (int i = 0; i < model.vertex_count(); ++i) {
+            positions_.set(i, positions[model.cloths[0].user_vertex(i)]);
+            velocities_.set(i, velocities[model.cloths[0].user_vertex(i)]);
+        }
         free.assign(right.padded_size(), 0.0);
         std::fill_n(free.begin(), model.vertex_count(), 1.0);
-        for (const int pin : scene.pins) free[pin] = 0.0;
+        for (const int pin : scene.pins) free[model.cloths[0].index_of(pin)] = 0.0;
         evaluate();
         for (int i = 0; i < model.vertex_count(); ++i) right.set(i, free[i] * dt * forces.total.at(i));
         percale::set_pattern(compute, model.adjacency, model.mass, matrix);

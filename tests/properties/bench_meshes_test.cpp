@@ -140,6 +140,24 @@ TEST_CASE("Meshes for measurements are the same each time they are made") {
     CHECK(once.triangles == again.triangles);
 }
 
+TEST_CASE("A shuffled mesh has every triangle in its place, under other numbers that lie far apart") {
+    const TriangleMesh mesh = irregular_sheet(1.0, 1000), other = shuffled(mesh);
+    const int count = static_cast<int>(mesh.vertices.size());
+    REQUIRE(other.vertices.size() == mesh.vertices.size());
+    REQUIRE(other.triangles.size() == mesh.triangles.size());
+    check_mesh(other, "shuffled", true);  // so every vertex is in use
+    double apart = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            CHECK(other.vertices[other.triangles[t][k]] == mesh.vertices[mesh.triangles[t][k]]);
+            apart += std::abs(other.triangles[t][k] - other.triangles[t][(k + 1) % 3]);
+        }
+    }
+    // Two random numbers below n differ by n/3 in the mean.
+    CHECK(apart / (3.0 * static_cast<double>(mesh.triangles.size())) == Approx(count / 3.0).epsilon(0.1));
+    CHECK(shuffled(mesh).triangles == other.triangles);
+}
+
 TEST_CASE("A free sheet that hangs from two corners takes a step") {
     const TriangleMesh mesh = irregular_sheet(1.0, 1000);
     Simulation simulation({});

@@ -32,8 +32,12 @@ std::vector<Vec3> run(const StepSettings& settings, const TriangleMesh& mesh, co
     return copy(simulation.positions(cloth));
 }
 
+/// Iterations enough that no step is halved: near their limit rounding would decide it.
 StepSettings tight(Scheme scheme) {
-    return {.time_step = scheme == Scheme::backward_euler ? 1.0 / 60.0 : 5e-4, .scheme = scheme, .newton_tolerance = 1e-11};
+    return {.time_step = scheme == Scheme::backward_euler ? 1.0 / 60.0 : 5e-4,
+            .scheme = scheme,
+            .newton_tolerance = 1e-11,
+            .newton_iterations = 500};
 }
 
 }  // namespace
@@ -74,12 +78,13 @@ TEST_CASE("Renumbering vertices and triangles renumbers the result") {
 }
 
 TEST_CASE("A mirrored scene moves mirrored") {
+    const int steps = 12;  // later the sheet buckles, which way rounding decides
     TriangleMesh mirrored = free_sheet();
     for (Vec3& x : mirrored.vertices) x.x() = -x.x();
     for (Triangle& t : mirrored.triangles) std::swap(t[1], t[2]);
-    std::vector<Vec3> image = run(tight(Scheme::backward_euler), mirrored, {}, {0, 24}, 15);
+    std::vector<Vec3> image = run(tight(Scheme::backward_euler), mirrored, {}, {0, 24}, steps);
     for (Vec3& x : image) x.x() = -x.x();
-    CHECK(largest_difference(image, run(tight(Scheme::backward_euler), free_sheet(), {}, {0, 24}, 15)) < 1e-9);
+    CHECK(largest_difference(image, run(tight(Scheme::backward_euler), free_sheet(), {}, {0, 24}, steps)) < 1e-9);
 }
 
 TEST_CASE("Lengths, times and masses may be measured in other units") {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "tests/support/collision_random.h"
 
@@ -197,6 +199,19 @@ TriangleMesh irregular_sheet(double size, int vertices) {
 TriangleMesh tube_skirt(int vertices) { return with_vertices(vertices, 1.12, skirt_of_spacing); }
 
 TriangleMesh t_shirt(int vertices) { return with_vertices(vertices, 1.0, shirt_of_spacing); }
+
+TriangleMesh shuffled(const TriangleMesh& mesh) {
+    Random random(4);
+    std::vector<int> new_number(mesh.vertices.size());
+    std::iota(new_number.begin(), new_number.end(), 0);
+    for (std::size_t i = new_number.size(); i > 1; --i) {
+        std::swap(new_number[i - 1], new_number[random.index(static_cast<int>(i))]);
+    }
+    TriangleMesh result{.vertices = mesh.vertices, .triangles = mesh.triangles};
+    for (std::size_t i = 0; i < new_number.size(); ++i) result.vertices[new_number[i]] = mesh.vertices[i];
+    for (Triangle& t : result.triangles) t = {new_number[t[0]], new_number[t[1]], new_number[t[2]]};
+    return result;
+}
 
 int nearest_vertex(const TriangleMesh& mesh, const Vec3& point) {
     const auto nearer = [&point](const Vec3& a, const Vec3& b) { return (a - point).norm() < (b - point).norm(); };

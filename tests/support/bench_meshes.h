@@ -19,6 +19,10 @@ TriangleMesh tube_skirt(int vertices);
 /// = 0.
 TriangleMesh t_shirt(int vertices);
 
+/// The same mesh with its vertices numbered at random, the same numbers for the same mesh: what is near in space is then far
+/// apart in memory. Of a grid it makes a free mesh.
+TriangleMesh shuffled(const TriangleMesh& mesh);
+
 /// The vertex nearest to a point.
 int nearest_vertex(const TriangleMesh& mesh, const Vec3& point);
 

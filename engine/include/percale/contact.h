@@ -43,14 +43,15 @@ struct StepFraction {
     double to = 1.0;
 };
 
-/// What is wrong with a start position: the first obstacle that the cloth crosses, is inside of or touches.
+/// What is wrong with a start position: the first obstacle that the cloth crosses, is inside of or touches. Vertices have the
+/// engine's numbers where a detector returns it, those of the meshes in a StartError.
 struct StartFault {
     int obstacle = -1;           // -1 = nothing is wrong
     int intersecting_pairs = 0;  // cloth triangles that cross a triangle of it
-    int cloth_triangle = -1;     // one of them
+    int cloth_triangle = -1;     // one of them, counted through all cloths
     int obstacle_triangle = -1;
     int vertices_inside = 0;  // cloth vertices inside it, if it is watertight
-    int inside_vertex = -1;   // one of them
+    int inside_vertex = -1;   // one of them, counted through all cloths
 
     bool any() const { return obstacle >= 0; }
 };
@@ -72,7 +73,8 @@ class ContactDetector {
 public:
     virtual ~ContactDetector() = default;
 
-    /// All cloth triangles of the simulation and the contact thickness of each vertex, m, > 0.
+    /// All cloth triangles of the simulation, in the order of the meshes that were added, and the contact thickness of each
+    /// vertex, m, > 0. Here and in all positions and rows vertices have the engine's numbers, not those of the meshes.
     virtual void set_cloth(std::span<const Triangle> triangles, std::span<const double> vertex_thickness) = 0;
 
     /// Returns the obstacle's number. Throws SceneError if nothing is left of the mesh after cleaning.

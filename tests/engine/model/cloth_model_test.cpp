@@ -37,6 +37,37 @@ TEST_CASE("A cloth's range knows its mass") {
     CHECK(model.mass == lumped_masses(grid, 0.2));
 }
 
+TEST_CASE("Ordering a free mesh moves masses, rest positions and triangle corners along, and nothing of the cloth before it") {
+    const TriangleMesh grid = make_grid(1.0, 1.0, 4, 3), ball = make_sphere(0.2, 2);
+    Fabric free = sheet_fabric();
+    free.springs.shear = 0.0;
+    ClothModel model;
+    append_cloth(model, grid, sheet_fabric(), "grid");
+    order_last_cloth(model);
+    CHECK(model.cloths[0].order.kept());
+    CHECK(model.rest == grid.vertices);
+    append_cloth(model, ball, free, "ball");
+    const ClothModel plain = model;
+    order_last_cloth(model);
+    const ClothRange& range = model.cloths[1];
+    CHECK_FALSE(range.order.kept());
+    for (int i = 0; i < range.count; ++i) {
+        CHECK(range.user_vertex(range.index_of(i)) == i);
+        CHECK(model.rest[range.index_of(i)] == ball.vertices[i]);
+        CHECK(model.mass[range.index_of(i)] == plain.mass[12 + i]);
+    }
+    for (std::size_t t = 0; t < ball.triangles.size(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            CHECK(model.triangles[grid.triangles.size() + t][k] == range.index_of(ball.triangles[t][k]));
+        }
+    }
+    for (int i = 0; i < 12; ++i) {
+        CHECK(model.rest[i] == grid.vertices[i]);
+        CHECK(model.mass[i] == plain.mass[i]);
+    }
+    for (std::size_t t = 0; t < grid.triangles.size(); ++t) CHECK(model.triangles[t] == grid.triangles[t]);
+}
+
 TEST_CASE("A cloth that cannot be simulated is refused by name") {
     ClothModel model;
     Fabric heavy = sheet_fabric();

@@ -1,7 +1,9 @@
 #include "engine/model/spring_network.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -125,6 +127,41 @@ TEST_CASE("Springs that cannot be are refused by name") {
     TriangleMesh touching = make_grid(1.0, 1.0, 3, 3);
     touching.vertices[8] = touching.vertices[6];
     CHECK(mentions(scene_error([&] { network_of(touching, sheet_fabric()); }), {"sail", "vertices 6 and 8", "same place"}));
+}
+
+TEST_CASE("Renumbered springs join the same places with the same constants, sorted by kind and ends") {
+    const TriangleMesh ball = make_sphere(0.3, 2);
+    const int count = static_cast<int>(ball.vertices.size()), before = 9;
+    SpringNetwork network = network_of(make_grid(1.0, 1.0, 3, 3), sheet_fabric());
+    const int from = network.size();
+    append_springs(network, ball, fabric_of(900.0, 0.0, 7.0), before, "ball");
+    const SpringNetwork old = network;
+    const std::vector<int> springs = springs_at_vertices(network, from, before, count);
+    CHECK(std::accumulate(springs.begin(), springs.end(), 0) == 2 * (network.size() - from));
+    CHECK(std::count(springs.begin(), springs.end(), 10) == 12);  // where five triangles meet; else six
+    CHECK(std::count(springs.begin(), springs.end(), 12) == count - 12);
+
+    const VertexOrder order = memory_order(ball.vertices, springs);
+    renumber_springs(network, from, before, order);
+    using Key = std::tuple<SpringKind, int, int>;
+    std::map<Key, std::array<double, 3>> expected;
+    for (int k = from; k < old.size(); ++k) {
+        const int one = order.place_of(old.first[k] - before), other = order.place_of(old.second[k] - before);
+        expected[{old.kind[k], before + std::min(one, other), before + std::max(one, other)}] = {
+            old.rest_length[k], old.stiffness[k], old.damping[k]};
+    }
+    REQUIRE(network.size() - from == static_cast<int>(expected.size()));
+    int k = from;
+    for (const auto& [key, constants] : expected) {
+        CHECK(Key(network.kind[k], network.first[k], network.second[k]) == key);
+        CHECK(std::array{network.rest_length[k], network.stiffness[k], network.damping[k]} == constants);
+        ++k;
+    }
+    for (int i = 0; i < from; ++i) {
+        CHECK(network.first[i] == old.first[i]);
+        CHECK(network.second[i] == old.second[i]);
+        CHECK(network.rest_length[i] == old.rest_length[i]);
+    }
 }
 
 }  // namespace percale::test
