@@ -1,6 +1,7 @@
 #include "internal_faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "certificate/inside_test.h"
@@ -22,21 +23,40 @@ struct Solid {
 /// How a triangle lies to all that are not its neighbours.
 enum class Meeting : unsigned char { none, touched, crossed };
 
-bool share_a_vertex(const Triangle& a, const Triangle& b) {
-    return std::any_of(a.begin(), a.end(), [&](int v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+bool holds(const Triangle& t, int vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
+
+bool share_a_vertex(const Triangle& a, const Triangle& b) { return holds(b, a[0]) || holds(b, a[1]) || holds(b, a[2]); }
+
+/// Whether all corners of `other` that are not corners of `first`, too, lie clearly on one side of its plane: neighbours that do
+/// share no more than their common corners. Far above rounding, so that it needs no exact test.
+bool clearly_on_one_side(const Solid& solid, int first, int other) {
+    const Corners& t = solid.corners[first];
+    const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    double least = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        if (holds(solid.triangles[first], solid.triangles[other][k])) continue;
+        const Vec3 from = solid.corners[other][k] - t[0];
+        const double height = normal.dot(from), little = 1e-9 * normal.norm() * (from.norm() + t[0].norm());
+        if (std::abs(height) <= little || height * least < 0.0) return false;
+        least = height;
+    }
+    return true;
+}
+
+Meeting meeting_of(const Solid& solid, int i, int j) {
+    const bool neighbours = share_a_vertex(solid.triangles[i], solid.triangles[j]);
+    if (neighbours && (clearly_on_one_side(solid, i, j) || clearly_on_one_side(solid, j, i))) return Meeting::none;
+    const Overlap overlap = certificate::classify(solid.corners[i], solid.corners[j]);
+    if (overlap == Overlap::crossing) return Meeting::crossed;
+    return overlap == Overlap::touching && !neighbours ? Meeting::touched : Meeting::none;
 }
 
 std::vector<Meeting> find_meetings(const Solid& solid) {
     std::vector<Meeting> meeting(solid.triangles.size(), Meeting::none);
-    const auto note = [&](int i, Meeting what) { meeting[i] = std::max(meeting[i], what); };
     solid.tree.walk_overlaps(solid.tree, [&](int i, int j) {
-        if (i >= j) return;
-        const Overlap overlap = certificate::classify(solid.corners[i], solid.corners[j]);
-        const bool neighbours = share_a_vertex(solid.triangles[i], solid.triangles[j]);
-        if (overlap == Overlap::disjoint || (overlap == Overlap::touching && neighbours)) return;
-        const Meeting what = overlap == Overlap::crossing ? Meeting::crossed : Meeting::touched;
-        note(i, what);
-        note(j, what);
+        if (i >= j || (meeting[i] == Meeting::crossed && meeting[j] == Meeting::crossed)) return;
+        const Meeting what = meeting_of(solid, i, j);
+        for (const int triangle : {i, j}) meeting[triangle] = std::max(meeting[triangle], what);
     });
     return meeting;
 }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "collision/certificate/inside_test.h"
 #include "collision/obstacle_surface.h"
 #include "percale/certify.h"
 #include "tests/support/catch.h"
+#include "tests/support/collision_off.h"
 #include "tests/support/collision_shapes.h"
 
 using namespace percale;
@@ -90,4 +92,25 @@ TEST_CASE("what is left of overlapping parts is connected consistently") {
     for (const Triangle& t : surface.triangles) {
         for (const int v : t) REQUIRE(v < static_cast<int>(surface.vertices.size()));
     }
+}
+
+TEST_CASE("what is dropped of a body scan that passes through itself has the solid on both sides, triangle by triangle") {
+    const auto scan = read_off(real_mesh_folder() / "man.off");
+    if (!scan) {
+        WARN("skipped: no man.off in " << real_mesh_folder() << " (PERCALE_REAL_MESHES)");
+        return;
+    }
+    const std::vector<bool> dropped = internal(*scan);
+    const std::vector<certificate::Corners> corners = certificate::corners_of(*scan);
+    const certificate::BoxTree tree{std::span<const certificate::Corners>(corners)};
+    int wrong = 0;
+    for (std::size_t i = 0; i < dropped.size(); ++i) {
+        if (!dropped[i]) continue;
+        const certificate::Corners& t = corners[i];
+        const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0, normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+        for (const double side : {1e-7, -1e-7}) wrong += certificate::winding_number(middle + side * normal, corners, tree) == 0;
+    }
+    CHECK(count(dropped) > 100);
+    CHECK(wrong == 0);
+    CHECK(cleaning_report(*scan).internal_triangles == count(dropped));
 }
