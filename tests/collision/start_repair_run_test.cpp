@@ -187,7 +187,7 @@ TEST_CASE("a pin dragged into an obstacle ends the step with the pin's name and 
 
 TEST_CASE("a start is checked where the obstacle has come to, also after steps") {
     SteppedScene scene(moved(make_grid(0.3, 0.3, 7, 7), {0, 2, 0}),
-                       {.time_step = 1.0 / 60.0, .gravity = Vec3::Zero(), .start = StartRule::refuse});
+                       {.time_step = 1.0 / 60.0, .start = StartRule::refuse, .gravity = Vec3::Zero()});
     scene.add(make_box({0.5, 0.1, 0.5}), "box");
     scene.simulation.move_obstacle(scene.obstacles[0], {.translation = Vec3(0, 1, 0)});
     REQUIRE(scene.simulation.step().ok());
