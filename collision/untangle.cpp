@@ -51,12 +51,25 @@ struct Attempt {
     }
 };
 
-/// The connected vertices in conflict that hold the lowest such vertex; empty where there are none.
-Patch first_patch(const Tangle& tangle) {
+/// For each vertex the obstacle that it is in conflict with or behind, -1.
+std::vector<int> conflicts_of(const Tangle& tangle) {
     std::vector<int> conflict = find_conflicts(tangle.cloth, tangle.obstacles, tangle.positions, {});
     for (std::size_t v = 0; v < conflict.size(); ++v) {
         if (tangle.behind[v] >= 0) conflict[v] = tangle.behind[v];
     }
+    return conflict;
+}
+
+void add_vertex(const Tangle& tangle, int vertex, int obstacle, Patch& patch) {
+    patch.vertices.push_back(vertex);
+    patch.margin = std::max(patch.margin, tangle.cloth.thickness[vertex]);
+    const bool deep = tangle.behind[vertex] >= 0 || tangle.obstacles[obstacle].inside(tangle.positions[vertex]);
+    if (deep) patch.deep.push_back(vertex);
+}
+
+/// The connected vertices in conflict that hold the lowest such vertex; empty where there are none.
+Patch first_patch(const Tangle& tangle) {
+    std::vector<int> conflict = conflicts_of(tangle);
     Patch patch;
     const auto first = std::find_if(conflict.begin(), conflict.end(), [](int obstacle) { return obstacle >= 0; });
     if (first == conflict.end()) return patch;
@@ -66,11 +79,8 @@ Patch first_patch(const Tangle& tangle) {
         const int v = waiting.back();
         waiting.pop_back();
         if (conflict[v] < 0) continue;
-        const bool deep = tangle.behind[v] >= 0 || tangle.obstacles[conflict[v]].inside(tangle.positions[v]);
+        add_vertex(tangle, v, conflict[v], patch);
         conflict[v] = -1;
-        patch.vertices.push_back(v);
-        if (deep) patch.deep.push_back(v);
-        patch.margin = std::max(patch.margin, tangle.cloth.thickness[v]);
         waiting.insert(waiting.end(), tangle.cloth.neighbours[v].begin(), tangle.cloth.neighbours[v].end());
     }
     std::sort(patch.vertices.begin(), patch.vertices.end());
@@ -239,6 +249,27 @@ bool holds_fixed(const Tangle& tangle, const Patch& patch) {
     return std::any_of(patch.deep.begin(), patch.deep.end(), [&](int v) { return !(tangle.cloth.free[v] > 0.0); });
 }
 
+void accept(Attempt found, int obstacle, Tangle& tangle, std::vector<int>& cause) {
+    for (std::size_t v = 0; v < cause.size(); ++v) {
+        if (found.moved[v]) cause[v] = obstacle;
+    }
+    tangle.positions = std::move(found.positions);
+}
+
+/// All patches of a closed obstacle at once to the nearest places of its surface, if that tears nothing: garments overlap bodies
+/// a little in hundreds of places.
+void push_out_shallow(int obstacle, Tangle& tangle, std::vector<int>& cause) {
+    if (!tangle.obstacles[obstacle].watertight()) return;
+    const std::vector<int> conflict = conflicts_of(tangle);
+    Patch all{.vertices = {}, .deep = {}, .obstacle = obstacle};
+    for (std::size_t v = 0; v < conflict.size(); ++v) {
+        if (conflict[v] == obstacle) add_vertex(tangle, static_cast<int>(v), obstacle, all);
+    }
+    if (all.vertices.empty() || first_patch(tangle).vertices.size() == all.vertices.size()) return;
+    std::optional<Attempt> found = follow(tangle, all, {.nearest = true, .reach = all.margin}, extent(tangle));
+    if (found && !found->tears()) accept(std::move(*found), obstacle, tangle, cause);
+}
+
 }  // namespace
 
 std::optional<Untangled> untangle(const TangledCloth& cloth, std::span<const SolidObstacle> obstacles,
@@ -249,16 +280,14 @@ std::optional<Untangled> untangle(const TangledCloth& cloth, std::span<const Sol
                   .behind = find_behind(cloth, obstacles, positions),
                   .limit = distance_from_fixed(cloth, positions)};
     std::vector<int> cause(positions.size(), -1);
+    for (int k = 0; k < static_cast<int>(obstacles.size()); ++k) push_out_shallow(k, tangle, cause);
     for (int round = 0; round < most_patches; ++round) {
         const Patch patch = first_patch(tangle);
         if (patch.vertices.empty()) return Untangled{.positions = std::move(tangle.positions), .obstacle = std::move(cause)};
         if (holds_fixed(tangle, patch)) return std::nullopt;
         std::optional<Attempt> found = best_attempt(tangle, patch);
         if (!found) return std::nullopt;
-        tangle.positions = std::move(found->positions);
-        for (std::size_t v = 0; v < positions.size(); ++v) {
-            if (found->moved[v]) cause[v] = patch.obstacle;
-        }
+        accept(std::move(*found), patch.obstacle, tangle, cause);
         for (const int v : patch.vertices) tangle.behind[v] = -1;
     }
     return std::nullopt;

@@ -182,6 +182,21 @@ TEST_CASE("fixed vertices stay, the cloth between them leaves; a fixed vertex in
     CHECK_FALSE(c.out);
 }
 
+TEST_CASE("shallow overlap in very many places is pushed out everywhere at once") {
+    Random random(31);
+    Case c{.cloth = crumpled_sheet(0.8, 61, 0.002, random),
+           .obstacles = {moved(make_box({1, 1, 1}), {0, -0.5, 0}), make_box({9, 1, 1})}};
+    c.obstacles[1] = moved(c.obstacles[1], {0, -7, 0});
+    int inside = 0;
+    for (const Vec3& x : c.cloth.vertices) inside += x.y() < 0.0;
+    REQUIRE(inside > 1000);
+    c.solve();
+    REQUIRE(c.out);
+    CHECK(c.clear());
+    CHECK(c.stretch < 0.5);
+    CHECK(c.largest_move() < 4 * thickness);
+}
+
 TEST_CASE("the same start is repaired to the same bits") {
     Case c{.cloth = turned(make_grid(1, 1, 17, 17), 0.3), .obstacles = {spiky_ball(0.25, 2, 0.3, 3)}};
     c.solve();
