@@ -1,7 +1,6 @@
 #include "untangle.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "signed_depth_convex.h"
 #include "untangle_spread.h"
@@ -9,7 +8,6 @@
 namespace percale {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_stretch = 0.5;
 constexpr int most_patches = 256;
 constexpr int most_rounds = 60;       // of one way

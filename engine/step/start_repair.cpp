@@ -14,7 +14,7 @@ constexpr double most_strain = 0.5;
 constexpr double good_strain = 0.1;             // relaxing ends there
 constexpr int most_relaxations = 60;            // steps
 constexpr double relaxation_step = 1.0 / 60.0;  // s
-constexpr double seen_part = 1e-3;              // of the thickness: smaller moves are not told
+constexpr double seen_part = 0.1;               // of the thickness: smaller moves are not counted
 
 /// What steps change besides positions; put back when relaxing is over.
 class Paused {
