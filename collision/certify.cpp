@@ -118,9 +118,9 @@ double distance_to_surface(const Vec3& x, const Surface& surface) {
 }
 
 void measure_depth(const TriangleMesh& cloth, const Surface& obstacle, const std::vector<bool>& free, Certificate& result) {
-    const std::vector<int> inside = vertices_inside(cloth, obstacle, free);
-    result.vertices_inside = static_cast<int>(inside.size());
-    for (const int v : inside) {
+    result.inside_vertices = vertices_inside(cloth, obstacle, free);
+    result.vertices_inside = static_cast<int>(result.inside_vertices.size());
+    for (const int v : result.inside_vertices) {
         const double depth = distance_to_surface(cloth.vertices[v], obstacle);
         if (result.deepest_vertex >= 0 && depth <= result.deepest_penetration) continue;
         result.deepest_penetration = depth;

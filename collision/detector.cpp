@@ -6,6 +6,7 @@
 
 #include "candidate_lists.h"
 #include "percale/certify.h"
+#include "untangle.h"
 
 namespace percale {
 namespace {
@@ -22,7 +23,8 @@ StartFault start_fault(int obstacle, const Certificate& certificate) {
     StartFault fault{.obstacle = obstacle,
                      .intersecting_pairs = static_cast<int>(certificate.pairs.size()),
                      .vertices_inside = certificate.vertices_inside,
-                     .inside_vertex = certificate.deepest_vertex};
+                     .inside_vertex = certificate.deepest_vertex,
+                     .inside_vertices = certificate.inside_vertices};
     if (!certificate.pairs.empty()) {
         fault.cloth_triangle = certificate.pairs[0].first;
         fault.obstacle_triangle = certificate.pairs[0].second;
@@ -57,6 +59,12 @@ public:
             return start_fault(static_cast<int>(i), certificate);
         }
         return {};
+    }
+
+    std::optional<Untangled> untangle(std::span<const Vec3> positions, std::span<const double> free) override {
+        std::vector<SolidObstacle> solids;
+        for (const auto& obstacle : obstacles_) solids.emplace_back(obstacle->given_mesh());
+        return percale::untangle(make_tangled_cloth(triangles_, thickness_, free), solids, positions);
     }
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {

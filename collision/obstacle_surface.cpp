@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "internal_faces.h"
 #include "percale/error.h"
 
 namespace percale {
@@ -53,11 +54,13 @@ void keep_good_triangles(std::span<const Vec3> vertices, std::span<const Triangl
     }
 }
 
-void drop_unused_vertices(std::span<const Vec3> vertices, ObstacleSurface& surface) {
+/// Keeps of `vertices` those that a triangle of the surface uses.
+void keep_used_vertices(std::span<const Vec3> vertices, ObstacleSurface& surface) {
     std::vector<int> number(vertices.size(), -1);
     for (const Triangle& t : surface.triangles) {
         for (const int vertex : t) number[vertex] = 0;
     }
+    surface.vertices.clear();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         if (number[i] < 0) continue;
         number[i] = static_cast<int>(surface.vertices.size());
@@ -66,6 +69,10 @@ void drop_unused_vertices(std::span<const Vec3> vertices, ObstacleSurface& surfa
     for (Triangle& t : surface.triangles) {
         for (int& vertex : t) vertex = number[vertex];
     }
+}
+
+void drop_unused_vertices(std::span<const Vec3> vertices, ObstacleSurface& surface) {
+    keep_used_vertices(vertices, surface);
     surface.cleaning.unreferenced_vertices =
         static_cast<int>(vertices.size() - surface.vertices.size()) - surface.cleaning.merged_vertices;
 }
@@ -105,6 +112,8 @@ std::vector<HalfEdge> half_edges(const ObstacleSurface& surface) {
 }
 
 void connect_edges(ObstacleSurface& surface) {
+    surface.edges.clear();
+    surface.opposite.clear();
     const std::vector<HalfEdge> halves = half_edges(surface);
     surface.triangle_edges.resize(surface.triangles.size());
     surface.opposite_start.assign(1, 0);
@@ -134,6 +143,7 @@ void connect_vertices(ObstacleSurface& surface) {
         rings[edge.vertex[0]].push_back(edge.vertex[1]);
         rings[edge.vertex[1]].push_back(edge.vertex[0]);
     }
+    surface.ring.clear();
     surface.ring_start.assign(1, 0);
     for (const std::vector<int>& ring : rings) {
         surface.ring.insert(surface.ring.end(), ring.begin(), ring.end());
@@ -204,8 +214,7 @@ bool faces_outwards(const ObstacleSurface& surface) {
     return true;
 }
 
-void mark_touchable(ObstacleSurface& surface) {
-    const bool valleys_are_safe = surface.watertight && faces_outwards(surface);
+void mark_touchable(ObstacleSurface& surface, bool valleys_are_safe) {
     surface.vertex_can_touch.assign(surface.vertices.size(), false);
     for (std::size_t i = 0; i < surface.edges.size(); ++i) {
         SurfaceEdge& edge = surface.edges[i];
@@ -218,16 +227,38 @@ void mark_touchable(ObstacleSurface& surface) {
     }
 }
 
+void connect(ObstacleSurface& surface) {
+    connect_edges(surface);
+    connect_vertices(surface);
+}
+
+/// The solid stays the same, so a closed surface still counts as one.
+void drop_internal_faces(ObstacleSurface& surface) {
+    const std::vector<bool> internal = internal_faces(surface.vertices, surface.triangles);
+    std::vector<Triangle> left;
+    for (std::size_t i = 0; i < internal.size(); ++i) {
+        if (!internal[i]) left.push_back(surface.triangles[i]);
+    }
+    surface.cleaning.internal_triangles = static_cast<int>(internal.size() - left.size());
+    if (surface.cleaning.internal_triangles == 0) return;
+    surface.triangles = std::move(left);
+    surface.cleaning.triangles = static_cast<int>(surface.triangles.size());
+    keep_used_vertices(std::vector<Vec3>(surface.vertices), surface);
+    connect(surface);
+    surface.watertight = true;
+}
+
 }  // namespace
 
 ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
     ObstacleSurface surface = clean(vertices, triangles);
-    connect_edges(surface);
-    connect_vertices(surface);
-    mark_touchable(surface);
+    connect(surface);
+    const bool valleys_are_safe = surface.watertight && faces_outwards(surface);
+    if (surface.watertight) drop_internal_faces(surface);
+    mark_touchable(surface, valleys_are_safe);
     return surface;
 }
 
-CleaningReport cleaning_report(const TriangleMesh& mesh) { return clean(mesh.vertices, mesh.triangles).cleaning; }
+CleaningReport cleaning_report(const TriangleMesh& mesh) { return make_surface(mesh.vertices, mesh.triangles).cleaning; }
 
 }  // namespace percale

@@ -28,7 +28,7 @@ struct ObstacleSurface {
     std::vector<bool> vertex_can_touch;              // some edge at it can touch
     std::vector<int> ring_start, ring;          // neighbours of vertex v: ring[ring_start[v]] ... ring[ring_start[v + 1] - 1]
     std::vector<int> opposite_start, opposite;  // vertices opposite edge e in its triangles, likewise
-    bool watertight = false;                    // every edge in exactly two triangles, which agree on its direction
+    bool watertight = false;                    // every edge in two triangles that agree on its direction, internal ones counted
     CleaningReport cleaning;
 
     std::span<const int> neighbours(int v) const {
@@ -39,7 +39,8 @@ struct ObstacleSurface {
     }
 };
 
-/// Merges vertices at the same place, drops triangles without area and repeated ones, drops unused vertices.
+/// Merges vertices at the same place, drops triangles without area and repeated ones, those inside a closed surface
+/// (internal_faces.h), and unused vertices.
 /// Throws SceneError if nothing is left.
 ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 

@@ -13,6 +13,7 @@ constexpr std::string_view scheme_words[] = {"symplectic_euler", "rk4", "backwar
 constexpr std::string_view solver_words[] = {"auto", "cg", "multigrid", "direct"};
 constexpr std::string_view response_words[] = {"penalty"};
 constexpr std::string_view damping_words[] = {"length_rate", "velocity"};
+constexpr std::string_view start_words[] = {"repair", "refuse"};
 constexpr std::string_view measure_words[] = {"all", "none"};
 
 constexpr Option<Fabric> fabric_list[] = {
@@ -112,6 +113,13 @@ constexpr Option<StepSettings> step_list[] = {
      .choices = measure_words,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.measure); },
      .set_choice = [](StepSettings& s, int i) { s.measure = static_cast<StepMeasures>(i); }},
+    {.key = "start",
+     .unit = "",
+     .sentence = "Cloth that starts through, inside or touching an obstacle: repair = it is moved out first, and the report says "
+                 "what moved how far; refuse = it is an error.",
+     .choices = start_words,
+     .get_choice = [](const StepSettings& s) { return static_cast<int>(s.start); },
+     .set_choice = [](StepSettings& s, int i) { s.start = static_cast<StartRule>(i); }},
     {.key = "skip",
      .unit = "",
      .sentence = "Whether work that the scene does not need is left out (percale plan lists it); false runs everything.",

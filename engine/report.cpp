@@ -20,6 +20,12 @@ std::string failure_text(const StepReport& report) {
                  << " cannot reach its target without taking the cloth through " << blocker;
             break;
         case StepStatus::obstacle_too_fast:
+            if (report.second_obstacle >= 0) {
+                text << blocker << " and " << numbered("obstacle", report.second_obstacle, report.second_name)
+                     << " close on the cloth, which cannot get out of their way; smallest safe fraction of a move "
+                     << report.smallest_fraction;
+                break;
+            }
             text << blocker << " moves faster than the cloth can follow, smallest safe fraction of a move "
                  << report.smallest_fraction << "; take a shorter time step or a slower motion";
             break;

@@ -1,5 +1,6 @@
 #include "percale/simulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "percale/options.h"
 #include "step/measure.h"
 #include "step/planning.h"
+#include "step/start_repair.h"
 #include "step/step.h"
 #include "support/hash.h"
 #include "support/stage_timer.h"
@@ -50,6 +52,7 @@ void check_finite(const Vec3& value, const std::string& what) {
 
 struct Simulation::Implementation {
     World world;
+    std::vector<StartMove> start_moves;
 
     const ClothRange& cloth(ClothId id) const {
         if (id.index >= 0 && id.index < static_cast<int>(world.model.cloths.size())) return world.model.cloths[id.index];
@@ -129,21 +132,60 @@ struct Simulation::Implementation {
             const int corner = world.model.triangles[fault.cloth_triangle][0];
             return "the cloth starts through " + obstacle_name + ": " + std::to_string(fault.intersecting_pairs) +
                    " intersecting triangle pairs, one of them at " + vertex_name(corner) + " and triangle " +
-                   std::to_string(fault.obstacle_triangle) + "; move the cloth or the obstacle apart";
+                   std::to_string(fault.obstacle_triangle);
         }
         if (fault.vertices_inside > 0) {
             return "the cloth starts inside " + obstacle_name + ": " + std::to_string(fault.vertices_inside) +
-                   " vertices, one of them " + vertex_name(fault.inside_vertex) + "; move the cloth or the obstacle apart";
+                   " vertices, one of them " + vertex_name(fault.inside_vertex);
         }
-        return "the cloth starts touching " + obstacle_name + "; leave some distance";
+        return "the cloth starts touching " + obstacle_name;
     }
 
-    void check_start() {
-        StartFault fault = world.detector->check_start(world.state.points);
-        if (!fault.any()) return;
-        const std::string text = start_text(fault);
+    /// The first pinned vertex inside the obstacle, -1 where there is none.
+    int pin_inside(const StartFault& fault) const {
+        const auto pinned = [&](int v) { return world.script.free[v] == 0.0; };
+        const auto found = std::find_if(fault.inside_vertices.begin(), fault.inside_vertices.end(), pinned);
+        return found == fault.inside_vertices.end() ? -1 : *found;
+    }
+
+    /// Throws StartError, its vertices as the user numbers them.
+    [[noreturn]] void refuse_start(const std::string& message, StartFault fault) const {
         fault.inside_vertex = user_index(fault.inside_vertex);
-        throw StartError(text, fault);
+        for (int& vertex : fault.inside_vertices) vertex = user_index(vertex);
+        std::sort(fault.inside_vertices.begin(), fault.inside_vertices.end());
+        throw StartError(message, fault);
+    }
+
+    /// Throws where the start is not clear and cannot or may not be made so.
+    void clear_start() {
+        start_moves.clear();
+        place_obstacles();
+        const StartFault fault = world.detector->check_start(world.state.points);
+        if (!fault.any()) return;
+        if (const int pin = pin_inside(fault); pin >= 0) {
+            refuse_start("pinned " + vertex_name(pin) + " starts inside " + world.script.obstacles[fault.obstacle].name +
+                             "; move the pin or the obstacle, or do not pin this vertex",
+                         fault);
+        }
+        if (world.settings.start == StartRule::refuse) {
+            refuse_start(start_text(fault) + "; move the cloth or the obstacle apart, or allow start = repair", fault);
+        }
+        StartRepair repair = repair_start(world);
+        if (!repair.obstruction.empty()) {
+            refuse_start(start_text(fault) + ", and " + repair.obstruction + "; move the cloth or the obstacle apart", fault);
+        }
+        start_moves = std::move(repair.moves);
+        update_views();
+    }
+
+    /// The detector may know the obstacles from the start of an earlier step only.
+    void place_obstacles() {
+        for (std::size_t k = 0; k < world.script.obstacles.size(); ++k) {
+            ObstacleState& obstacle = world.script.obstacles[k];
+            if (obstacle.settled) continue;
+            world.detector->move_obstacle(static_cast<int>(k), obstacle.start, obstacle.start);
+            obstacle.settled = true;
+        }
     }
 
     void check_scheme() const {
@@ -308,9 +350,11 @@ void Simulation::prepare() {
     World& world = implementation_->world;
     if (!world.changed) return;
     implementation_->check_scheme();
-    if (world.detector && !world.script.obstacles.empty() && !world.model.cloths.empty()) implementation_->check_start();
+    if (world.detector && !world.script.obstacles.empty() && !world.model.cloths.empty()) implementation_->clear_start();
     world.changed = false;
 }
+
+std::span<const StartMove> Simulation::start_repair() const { return implementation_->start_moves; }
 
 StepReport Simulation::step() {
     World& world = implementation_->world;

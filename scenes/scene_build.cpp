@@ -7,6 +7,7 @@
 #include "percale/detectors.h"
 #include "percale/error.h"
 #include "scene_text.h"
+#include "start_fault.h"
 #include "timeline.h"
 #include "vertex_selection.h"
 
@@ -121,13 +122,22 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     built.obstacle_meshes.push_back(std::move(mesh));
 }
 
-// Obstacles have the same numbers in the scene and in the simulation.
+// Obstacles and cloths have the same numbers in the scene and in the simulation.
+[[noreturn]] void refuse_start(const BuiltScene& built, const StartError& error) {
+    const auto number = static_cast<std::size_t>(error.fault().obstacle);
+    TriangleMesh obstacle = built.obstacle_meshes.at(number);
+    obstacle.vertices =
+        transform(built.simulation.obstacle_pose(built.obstacles[number]), std::span<const Vec3>(obstacle.vertices));
+    const std::string where = place_text(built.scene.obstacles.at(number).place);
+    throw StartRefused((where.empty() ? "" : where + ": ") + error.what(), offending_triangles(built.cloth_meshes, obstacle));
+}
+
 void check_start(BuiltScene& built) {
     const Scene& scene = built.scene;
     try {
         built.simulation.prepare();
     } catch (const StartError& error) {
-        fail_at(scene.obstacles.at(static_cast<std::size_t>(error.fault().obstacle)).place, error.what());
+        refuse_start(built, error);
     } catch (const SceneError& error) {
         fail_at(scene.scheme_place, std::string("step.scheme: ") + error.what());
     }

@@ -18,8 +18,9 @@ struct BuiltScene {
     std::vector<TriangleMesh> obstacle_meshes;  // in their own coordinates, unit applied, pose not
 };
 
-/// Reads meshes, selects pins, makes the detector and the simulation, and checks the start (Simulation::prepare). Throws
-/// SceneError with the place of the cloth, obstacle, event or key in the scene file.
+/// Reads meshes, selects pins, makes the detector and the simulation, and checks the start (Simulation::prepare), which may move
+/// cloth out of obstacles. Throws SceneError with the place of the cloth, obstacle, event or key in the scene file; where the
+/// start is the trouble, StartRefused (start_fault.h).
 BuiltScene build_scene(const Scene& scene);
 
 /// A path of the scene file as the program can open it: relative ones start at the scene file's folder.

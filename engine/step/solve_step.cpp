@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scripted_motion.h"
 #include "support/stage_timer.h"
@@ -121,6 +122,20 @@ void name_blocked_pin(World& world) {
     }
 }
 
+/// Of the contacts with other obstacles that push against the closest one's direction, the closest.
+void name_second_obstacle(World& world, std::size_t closest) {
+    const ContactRows& rows = world.newton.current.forces.rows;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const bool other = rows.obstacle[row] != rows.obstacle[closest];
+        if (!other || rows.direction[row].dot(rows.direction[closest]) >= 0.0 || rows.distance[row] >= least) continue;
+        least = rows.distance[row];
+        world.report.second_obstacle = rows.obstacle[row];
+    }
+    if (world.report.second_obstacle < 0) return;
+    world.report.second_name = world.script.obstacles[world.report.second_obstacle].name;
+}
+
 /// The obstacle of the closest contact.
 void name_blocking_obstacle(World& world) {
     const ContactRows& rows = world.newton.current.forces.rows;
@@ -128,6 +143,7 @@ void name_blocking_obstacle(World& world) {
     const auto closest = std::min_element(rows.distance.begin(), rows.distance.end());
     world.report.blocking_obstacle = rows.obstacle[static_cast<std::size_t>(closest - rows.distance.begin())];
     world.report.blocking_name = world.script.obstacles[world.report.blocking_obstacle].name;
+    name_second_obstacle(world, static_cast<std::size_t>(closest - rows.distance.begin()));
 }
 
 void fail(World& world, NewtonEnd end) {

@@ -114,8 +114,19 @@ ordered_json obstacle_list(const BuiltScene& built) {
                         {"merged_vertices", cleaning.merged_vertices},
                         {"degenerate_triangles", cleaning.degenerate_triangles},
                         {"duplicate_triangles", cleaning.duplicate_triangles},
-                        {"unreferenced_vertices", cleaning.unreferenced_vertices}});
+                        {"unreferenced_vertices", cleaning.unreferenced_vertices},
+                        {"internal_triangles", cleaning.internal_triangles}});
     }
+    return list;
+}
+
+ordered_json start_move_list(const Simulation& simulation) {
+    ordered_json list = ordered_json::array();
+    for (const StartMove& move : simulation.start_repair())
+        list.push_back({{"cloth", move.cloth_name},
+                        {"obstacle", move.obstacle_name},
+                        {"vertices_moved", move.vertices_moved},
+                        {"largest_move", move.largest_move}});
     return list;
 }
 
@@ -137,6 +148,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     put_counts(json, result.totals);
     put_costs(json, result.totals);
     json["obstacles"] = obstacle_list(built);
+    json["start_repair"] = start_move_list(built.simulation);
     json["skipped"] = skipped_list(result.skipped);
     put_contact_and_energy(json, result.totals);
     put_measures(json, result.measures);

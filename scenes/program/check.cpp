@@ -12,6 +12,7 @@
 #include "program/exit_codes.h"
 #include "program/stop_signals.h"
 #include "run_scene.h"
+#include "start_fault.h"
 #include "whole_file.h"
 
 namespace percale::program {
@@ -30,8 +31,9 @@ struct CheckOptions {
 struct Outcome {
     CheckedScene scene;
     int exit_code = all_well;
-    std::string ending;            // "finished: 60 steps, 1 s"
-    std::uint64_t state_hash = 0;  // of the last state
+    std::string ending;                    // "finished: 60 steps, 1 s"
+    std::vector<std::string> start_moves;  // what was moved out of obstacles
+    std::uint64_t state_hash = 0;          // of the last state
 };
 
 std::string rounded_text(double value) {
@@ -45,6 +47,7 @@ void run_into(Outcome& outcome, const std::vector<Override>& overrides, const St
     // Nothing else of this command reads them.
     if (!read_step_measures(scene.expectations)) scene.step.measure = StepMeasures::none;
     BuiltScene built = build_scene(scene);
+    for (const StartMove& move : built.simulation.start_repair()) outcome.start_moves.push_back(start_move_text(move));
     RunHooks hooks;
     hooks.stop_asked = [&] { return signals.asked(); };
     const RunResult result = run_scene(built, hooks);
@@ -80,6 +83,7 @@ void print_outcome(const CheckOptions& options, const Outcome& outcome) {
         std::fprintf(stderr, "percale: %s: did not finish: %s\n", scene.file.c_str(), scene.reason.c_str());
     if (options.common.quiet) return;
     std::printf("%s: %s\n", scene.file.c_str(), scene.error.empty() ? outcome.ending.c_str() : "did not run");
+    for (const std::string& move : outcome.start_moves) std::printf("  %s\n", move.c_str());
     if (scene.error.empty() && scene.expectations.empty())
         std::printf("  no expectations: the scene passes if its run finishes\n");
     for (const ExpectationResult& expectation : scene.expectations) std::printf("  %s\n", expectation.text.c_str());

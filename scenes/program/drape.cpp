@@ -15,6 +15,7 @@
 #include "program/stop_signals.h"
 #include "scene_build.h"
 #include "scene_text.h"
+#include "start_fault.h"
 #include "whole_file.h"
 
 namespace percale::program {
@@ -140,7 +141,10 @@ int drape_garment(const DrapeOptions& options) {
     const Scene scene = drape_scene(options);
     check_options(options);
     BuiltScene built = build_scene(scene);
-    if (!options.quiet) std::printf("%s onto %s\n", options.garment.c_str(), options.body.c_str());
+    if (!options.quiet) {
+        std::printf("%s onto %s\n", options.garment.c_str(), options.body.c_str());
+        print_start_moves(built.simulation);
+    }
     std::fflush(stdout);
     const Drape drape = settle(built.simulation, options);
     if (drape.end == DrapeEnd::failed) {

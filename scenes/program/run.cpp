@@ -5,6 +5,7 @@
 
 #include "expectations.h"
 #include "export/run_folder.h"
+#include "obj_file.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/common_options.h"
@@ -12,6 +13,7 @@
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
 #include "scene_text.h"
+#include "start_fault.h"
 
 namespace percale::program {
 
@@ -30,11 +32,36 @@ std::string default_folder(const std::string& scene) {
     return stem;
 }
 
-void print_start(const RunOptions& options, const Scene& scene) {
+void print_start(const RunOptions& options, const BuiltScene& built) {
+    const Scene& scene = built.scene;
     const StepCount count = count_steps(scene.duration, scene.step.time_step);
     std::printf("%s: %ld steps of %.6g s into %s\n", options.scene.c_str(), count.steps, scene.step.time_step,
                 options.folder.c_str());
+    print_start_moves(built.simulation);
     std::fflush(stdout);
+}
+
+/// Leaves what is wrong with a start beside the output folder; the name of the file, or nothing where it cannot be written.
+std::string leave_picture(const RunOptions& options, const TriangleMesh& triangles) {
+    std::string folder = options.folder;
+    while (folder.ends_with('/')) folder.pop_back();
+    try {
+        write_obj(folder + "_start.obj", triangles.vertices, triangles.triangles);
+    } catch (const SceneError&) {
+        return "";  // the start itself is what has to be told
+    }
+    return folder + "_start.obj";
+}
+
+BuiltScene built_scene(const RunOptions& options) {
+    const Scene scene = load_scene(options.scene, scene_overrides(options.common));
+    try {
+        return build_scene(scene);
+    } catch (const StartRefused& refused) {
+        const std::string file = refused.triangles().triangles.empty() ? "" : leave_picture(options, refused.triangles());
+        if (file.empty()) throw;
+        throw SceneError(std::string(refused.what()) + " (the triangles concerned: " + file + ")");
+    }
 }
 
 void print_summary(const RunOptions& options, const BuiltScene& built, const RunResult& result,
@@ -70,14 +97,14 @@ int verdict(const RunOptions& options, const RunResult& result, std::span<const 
 int run(RunOptions options) {
     check_common_options(options.common);
     if (options.folder.empty()) options.folder = default_folder(options.scene);
-    BuiltScene built = build_scene(load_scene(options.scene, scene_overrides(options.common)));
+    BuiltScene built = built_scene(options);
     RunFolder folder(options.folder, built.scene, options.common.replay_hash);
     const StopSignals signals;
     ProgressBar bar(!options.common.quiet, built.scene.duration);
     RunHooks hooks;
     hooks.begin = [&] {
         folder.begin();
-        if (!options.common.quiet) print_start(options, built.scene);
+        if (!options.common.quiet) print_start(options, built);
     };
     hooks.frame = [&](const Frame& frame) { folder.add(frame); };
     hooks.step = [&](const StepReport& report, const Simulation& simulation) {

@@ -64,6 +64,10 @@ TEST_CASE("Failures say what failed and what to do") {
     StepReport fast = report_of(StepStatus::obstacle_too_fast);
     fast.blocking_obstacle = 3;
     CHECK(mentions(fast.explanation(), {"obstacle 3", "0.0625", "shorter time step"}));
+    fast.blocking_name = "press";
+    fast.second_obstacle = 5;
+    fast.second_name = "anvil";
+    CHECK(mentions(fast.explanation(), {"obstacle 3 (press)", "obstacle 5 (anvil)", "close on the cloth", "0.0625"}));
     CHECK(mentions(report_of(StepStatus::not_finite).explanation(), {"infinite", "shorter time step"}));
 }
 

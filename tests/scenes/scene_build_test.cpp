@@ -170,16 +170,35 @@ TEST_CASE("obstacles need a detector; a scene without obstacles needs none") {
 TEST_CASE("a cloth that starts through, inside or touching an obstacle is refused at the obstacle") {
     const auto start_on = [](const std::string& shape, double height) {
         const std::string far = body("plane = {}");
-        return fault(small_scene() + far + "[[obstacle]]\nname = \"block\"\nshape = { " + shape +
+        return fault("[step]\nstart = \"refuse\"\n" + small_scene() + far + "[[obstacle]]\nname = \"block\"\nshape = { " + shape +
                      " }\npose = { translation = [0, " + number_text(height) + ", 0] }\n");
     };
     const std::string through = start_on("sphere = { radius = 0.1 }", 0.0);
-    CHECK(through.starts_with("t:12:1: the cloth starts through block: "));
+    CHECK(through.starts_with("t:14:1: the cloth starts through block: "));
     CHECK(through.find(" of flag and triangle ") != std::string::npos);
-    CHECK(start_on("sphere = { radius = 2 }", 0.0).starts_with("t:12:1: the cloth starts inside block: 20 vertices"));
+    CHECK(start_on("sphere = { radius = 2 }", 0.0).starts_with("t:14:1: the cloth starts inside block: 20 vertices"));
     CHECK(start_on("capsule = { radius = 0.25, height = 0.5 }", -0.5) ==
-          "t:12:1: the cloth starts touching block; leave some distance");
+          "t:14:1: the cloth starts touching block; move the cloth or the obstacle apart, or allow start = repair");
     CHECK(start_on("capsule = { radius = 0.25, height = 0.5 }", -0.51) == "nothing was thrown");
+}
+
+TEST_CASE("a start is repaired unless the scene refuses that") {
+    const auto ball = [](double height) {
+        return body("plane = {}") +
+               "[[obstacle]]\nname = \"block\"\nshape = { sphere = { radius = 0.1 } }\npose = { translation = [0, " +
+               number_text(height) + ", 0] }\n";
+    };
+    const BuiltScene repaired = build_scene(parse_scene(small_scene() + ball(0.0), "t"));
+    REQUIRE(repaired.simulation.start_repair().size() == 1);
+    CHECK(repaired.simulation.start_repair()[0].obstacle_name == "block");
+    CHECK(repaired.simulation.start_repair()[0].cloth_name == "flag");
+    CHECK(build_scene(parse_scene(small_scene() + ball(0.5), "t")).simulation.start_repair().empty());
+}
+
+TEST_CASE("a pin inside an obstacle is an error at the obstacle that names the pin") {
+    const std::string text = small_scene() + "pin = [7]\n" + body("plane = {}") +
+                             "[[obstacle]]\nname = \"block\"\nshape = { sphere = { radius = 2 } }\n";
+    CHECK(fault(text).starts_with("t:13:1: pinned vertex 7 of flag starts inside block; move the pin or the obstacle"));
 }
 
 TEST_CASE("an explicit scheme with obstacles is refused where the scheme is said") {

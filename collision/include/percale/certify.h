@@ -20,6 +20,7 @@ struct Certificate {
     int touching_pairs = 0;               // pairs that share points but do not cross
     bool watertight = false;              // whether the obstacle is closed, so that depth has a meaning
     int vertices_inside = 0;              // cloth vertices inside a watertight obstacle
+    std::vector<int> inside_vertices;     // these, ascending
     int deepest_vertex = -1;
     double deepest_penetration = 0.0;                                    // m; 0 on an open obstacle
     double smallest_distance = std::numeric_limits<double>::infinity();  // m, cloth to obstacle, 0 where they intersect

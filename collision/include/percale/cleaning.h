@@ -11,6 +11,7 @@ struct CleaningReport {
     int degenerate_triangles = 0;  // without area
     int duplicate_triangles = 0;
     int unreferenced_vertices = 0;
+    int internal_triangles = 0;  // of a closed mesh: with the solid on both sides, where parts of it overlap
 };
 
 /// What every detector makes of this mesh when it is added as an obstacle; in the mesh's own coordinates, before any pose. Throws

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,10 +51,17 @@ struct StartFault {
     int intersecting_pairs = 0;  // cloth triangles that cross a triangle of it
     int cloth_triangle = -1;     // one of them, counted through all cloths
     int obstacle_triangle = -1;
-    int vertices_inside = 0;  // cloth vertices inside it, if it is watertight
-    int inside_vertex = -1;   // one of them, counted through all cloths
+    int vertices_inside = 0;                // cloth vertices inside it, if it is watertight
+    int inside_vertex = -1;                 // the deepest of them, counted through all cloths
+    std::vector<int> inside_vertices = {};  // all of them, ascending
 
     bool any() const { return obstacle >= 0; }
+};
+
+/// Cloth moved out of the obstacles that it started through, inside of or touching.
+struct Untangled {
+    std::vector<Vec3> positions;  // m, of all vertices; clear of every obstacle
+    std::vector<int> obstacle;    // for each vertex the obstacle it was moved out of; -1 where it was not moved
 };
 
 /// Cloth that starts where no simulation may start.
@@ -86,6 +94,14 @@ public:
 
     /// Whether this start may be simulated: no crossing, no touching, no vertex inside a watertight obstacle.
     virtual StartFault check_start(std::span<const Vec3> positions) = 0;
+
+    /// Positions clear of every obstacle, as near to the given ones as was found; nothing where none were found. Vertices with
+    /// free = 0 stay. A connected patch of cloth leaves by one side; what is near it follows, so that the cloth is not torn, but
+    /// it may be stretched. Obstacles are where they are at the start of the step. A detector need not be able to do this.
+    virtual std::optional<Untangled> untangle(std::span<const Vec3> positions, std::span<const double> free) {
+        static_cast<void>(positions), static_cast<void>(free);
+        return std::nullopt;
+    }
 
     /// Once a step: makes the candidate lists good for moves between these positions. Outrunning them later is allowed:
     /// the lists then grow.

@@ -66,7 +66,9 @@ struct StepReport {
     int blocked_vertex = -1;
     int blocking_obstacle = -1;
     std::string blocked_name, blocking_name;  // of that cloth and obstacle
-    std::uint64_t contact_hash = 0;           // of the contact rows at the end
+    int second_obstacle = -1;                 // pushes the cloth towards the blocking one
+    std::string second_name;
+    std::uint64_t contact_hash = 0;  // of the contact rows at the end
     StepEnergy energy;
     StageTimes stages;
     double cpu_s = 0.0;  // s, of all threads

@@ -11,6 +11,7 @@ enum class LinearSolver { automatic, cg, multigrid, direct };
 enum class ContactResponse { penalty };
 enum class DampingForm { length_rate, velocity };
 enum class StepMeasures { all, none };
+enum class StartRule { repair, refuse };
 
 /// How the simulation steps. Ranges and sentences of every field: options.h.
 struct StepSettings {
@@ -26,6 +27,9 @@ struct StepSettings {
     int threads = 1;  // of one simulation; same bits for any number
     /// none: a step report has no energy, strain and speed (NaN); Simulation::energy still tells on demand.
     StepMeasures measure = StepMeasures::all;
+    /// repair: cloth that starts through, inside or touching an obstacle is moved out before the first step, as
+    /// Simulation::start_repair tells; refuse: such a start is an error.
+    StartRule start = StartRule::repair;
     bool skip = true;                      // leave out what the scene does not need (Simulation::plan); false runs everything
     Vec3 gravity = Vec3(0.0, -9.81, 0.0);  // m/s^2
 };

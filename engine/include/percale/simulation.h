@@ -26,6 +26,15 @@ struct ObstacleSettings {
     std::string name = "obstacle";  // for messages
 };
 
+/// What was done to a cloth that started through, inside or touching an obstacle.
+struct StartMove {
+    int cloth = -1;
+    int obstacle = -1;
+    std::string cloth_name = {}, obstacle_name = {};
+    int vertices_moved = 0;
+    double largest_move = 0.0;  // m
+};
+
 /// Cloth, obstacles and their motion in time. Wrong arguments throw SceneError from the call that was wrong; a step never
 /// throws for numerical trouble but returns a status. One thread at a time per simulation; simulations are independent.
 class Simulation {
@@ -52,9 +61,13 @@ public:
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
 
-    /// Checks the scene as a whole; the first step calls it. Throws StartError where cloth starts through, inside or touching an
-    /// obstacle, SceneError where the scheme takes no obstacles.
+    /// Checks the scene as a whole; the first step calls it. Cloth that starts through, inside or touching an obstacle is moved
+    /// out (StepSettings::start): its free vertices only, no structural spring longer than by half; velocities stay. Throws
+    /// StartError, and leaves everything as it was, where that is not possible or not wanted, or where a pinned vertex is inside
+    /// an obstacle; SceneError where the scheme takes no obstacles.
     void prepare();
+    /// What the last `prepare` that found something to check moved out of obstacles; empty where the start was clear.
+    std::span<const StartMove> start_repair() const;
     StepReport step();
     /// What the coming steps are made of and what is left out; runs nothing. `to_come`: what will change later on.
     ScenePlan plan(const ScriptedChanges& to_come = {}) const;

@@ -97,14 +97,29 @@ TEST_CASE("a report says what is left of each obstacle mesh and what was dropped
                                   {"merged_vertices", 0},
                                   {"degenerate_triangles", 0},
                                   {"duplicate_triangles", 0},
-                                  {"unreferenced_vertices", 0}});
+                                  {"unreferenced_vertices", 0},
+                                  {"internal_triangles", 0}});
     CHECK(list[1] == ordered_json{{"name", "flap"},
                                   {"triangles", 1},
                                   {"merged_vertices", 1},
                                   {"degenerate_triangles", 1},
                                   {"duplicate_triangles", 1},
-                                  {"unreferenced_vertices", 2}});
+                                  {"unreferenced_vertices", 2},
+                                  {"internal_triangles", 0}});
     CHECK(report_of(built(falling_sheet()), RunResult{}).at("obstacles").empty());
+}
+
+TEST_CASE("the report says what the start moved") {
+    CHECK(report_of(built(sheet_on_box()), RunResult{}).at("start_repair").empty());
+    std::string inside = sheet_on_box();
+    inside.replace(inside.find("0.015"), 5, "-0.01");
+    const ordered_json list = report_of(built(inside), RunResult{}).at("start_repair");
+    REQUIRE(list.size() == 1);
+    CHECK(list[0].at("cloth") == "sheet");
+    CHECK(list[0].at("obstacle") == "box");
+    CHECK(list[0].at("vertices_moved") == 36);
+    CHECK(list[0].at("largest_move").get<double>() > 0.01);
+    CHECK(list[0].at("largest_move").get<double>() < 0.025);
 }
 
 TEST_CASE("what was not computed is left out, and infinity is null") {

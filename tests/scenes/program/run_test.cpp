@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -145,4 +146,27 @@ TEST_CASE("the tree that finds contacts changes no bit of a run") {
                 .exit_code == 0);
     CHECK(hashes_in(folder, "fcl") == hashes_in(folder, "brute_force"));
     CHECK(hashes_in(folder, "fcl") == hashes_in(folder, "bullet"));
+}
+
+TEST_CASE(
+    "run moves cloth out of obstacles first and says so; refused starts leave a picture beside the folder and nothing else") {
+    const TestFolder folder;
+    std::string inside = sheet_on_box();
+    inside.replace(inside.find("0.015"), 5, "-0.01");
+    folder.write("inside.toml", inside);
+    const ProgramRun run = run_program({"run", "inside.toml", "-o", "out"}, folder.path());
+    CHECK(run.exit_code == 0);
+    CHECK(run.out.find("36 vertices of sheet moved out of box before the start, the farthest by 0.0") != std::string::npos);
+    CHECK(report_in(folder, "out").at("start_repair").at(0).at("vertices_moved") == 36);
+    CHECK(report_in(folder, "out").at("intersections") == 0);
+    CHECK_FALSE(folder.holds("out_start.obj"));
+
+    const ProgramRun refused = run_program({"run", "inside.toml", "-o", "no/", "--set", "step.start=refuse"}, folder.path());
+    CHECK(refused.exit_code == 2);
+    CHECK(line_count(refused.error) == 1);
+    CHECK(refused.error.find("inside.toml:17:1: the cloth starts inside box: 36 vertices") != std::string::npos);
+    CHECK(refused.error.find("(the triangles concerned: no_start.obj)") != std::string::npos);
+    CHECK_FALSE(folder.holds("no"));
+    const std::string picture = folder.read("no_start.obj");
+    CHECK(std::count(picture.begin(), picture.end(), 'f') == 50);
 }

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "percale/mesh.h"
+
+namespace percale {
+
+/// Of a closed surface the triangles that have the solid on both sides (winding number not 0, Jacobson et al. 2013): parts of a
+/// mesh that overlap leave them inside. Nothing can meet them without crossing others first. A triangle that others cross is
+/// never counted among them.
+std::vector<bool> internal_faces(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+}  // namespace percale

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "percale/error.h"
+#include "percale/simulation.h"
+
+namespace percale::scenes {
+
+/// A scene refused because its cloth starts through or inside an obstacle, with the triangles concerned to look at.
+class StartRefused : public SceneError {
+public:
+    StartRefused(const std::string& message, TriangleMesh triangles) : SceneError(message), triangles_(std::move(triangles)) {}
+    /// World coordinates; of cloth and obstacle in one mesh.
+    const TriangleMesh& triangles() const { return triangles_; }
+
+private:
+    TriangleMesh triangles_;
+};
+
+/// The cloth triangles that cross the obstacle or have a vertex inside it, and the obstacle triangles that cross them.
+TriangleMesh offending_triangles(std::span<const TriangleMesh> cloths, const TriangleMesh& obstacle);
+
+/// "12 vertices of sheet moved out of ball before the start, the farthest by 0.021 m"
+std::string start_move_text(const StartMove& move);
+
+/// Prints what a scene's start needed, a line each.
+void print_start_moves(const Simulation& simulation);
+
+}  // namespace percale::scenes
