@@ -108,11 +108,12 @@ TEST_CASE("wrong input is exit code 2, and no folder is made") {
     std::string inside = sheet_on_box();
     inside.replace(inside.find("0.015"), 5, "-0.01");
     folder.write("inside.toml", inside);
-    CHECK(refused(run_program({"run", "inside.toml", "-o", "out"}, folder.path()), "box"));
+    CHECK(refused(run_program({"run", "inside.toml", "-o", "out", "--set", "step.start=refuse"}, folder.path()), "box"));
     folder.write("reference.toml", falling_sheet() + "[expect]\nmatches = { file = \"absent.obj\", within = 1e-3 }\n");
     CHECK(refused(run_program({"run", "reference.toml", "-o", "out"}, folder.path()), "absent.obj"));
     CHECK_FALSE(folder.holds("out"));
-    CHECK(folder.file_count() == 4);
+    CHECK(folder.holds("out_start.obj"));
+    CHECK(folder.file_count() == 5);
 }
 
 TEST_CASE("an output folder that cannot be made is wrong input") {
@@ -164,7 +165,7 @@ TEST_CASE(
     const ProgramRun refused = run_program({"run", "inside.toml", "-o", "no/", "--set", "step.start=refuse"}, folder.path());
     CHECK(refused.exit_code == 2);
     CHECK(line_count(refused.error) == 1);
-    CHECK(refused.error.find("inside.toml:17:1: the cloth starts inside box: 36 vertices") != std::string::npos);
+    CHECK(refused.error.find("inside.toml:15:1: the cloth starts inside box: 36 vertices") != std::string::npos);
     CHECK(refused.error.find("(the triangles concerned: no_start.obj)") != std::string::npos);
     CHECK_FALSE(folder.holds("no"));
     const std::string picture = folder.read("no_start.obj");
