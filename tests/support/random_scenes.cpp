@@ -260,10 +260,12 @@ RandomScene make_random_scene(unsigned seed, int index) {
     RandomScene scene{.obstacle = draw.obstacle.name,
                       .motion = {},
                       .cloth = draw.cloth.name,
+                      .pinned = false,
                       .description = {},
                       .built = build_clear(draw, motion, random)};
     scene.motion = motion;
     const std::string pins = pin_some(scene.built, random);
+    scene.pinned = pins != "free";
     const Vec3 towards = draw.spec.pose.translation.normalized();
     const double speed = random.number(0.0, 3.0);
     scene.built.simulation.set_velocities(scene.built.cloths[0],

@@ -8,7 +8,7 @@ namespace percale::test {
 namespace {
 
 TEST_CASE("Nothing crosses in 200 random scenes, by the exact certificate after every step") {
-    int touched = 0, blocked = 0;
+    int touched = 0, blocked = 0, blocked_free = 0;
     long steps = 0;
     for (int index = 0; index < 200; ++index) {
         RandomScene scene = make_random_scene(1, index);
@@ -20,11 +20,14 @@ TEST_CASE("Nothing crosses in 200 random scenes, by the exact certificate after 
         CHECK(outcome.last != StepStatus::not_finite);
         touched += outcome.result.totals.contacts_most > 0 ? 1 : 0;
         blocked += outcome.blocked() ? 1 : 0;
+        blocked_free += outcome.blocked() && !scene.pinned ? 1 : 0;
         steps += outcome.result.totals.steps;
     }
     std::printf("200 random scenes: %ld steps, %d with contact, %d blocked\n", steps, touched, blocked);
     CHECK(touched > 100);
-    CHECK(blocked < 10);
+    // Where an obstacle runs over a pin nothing can be done; cloth that nothing holds gets away.
+    CHECK(blocked_free == 0);
+    CHECK(blocked < 30);
 }
 
 }  // namespace
