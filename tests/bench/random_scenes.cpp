@@ -21,24 +21,26 @@ struct Options {
 
 /// Counts of some scenes.
 struct Tally {
-    int scenes = 0, touched = 0, blocked = 0, bad = 0;
+    int scenes = 0, touched = 0, blocked = 0, blocked_free = 0, bad = 0;
     long steps = 0;
     double cpu_s = 0.0;
 
-    void add(const RandomOutcome& outcome) {
+    void add(const RandomScene& scene, const RandomOutcome& outcome) {
         ++scenes;
         touched += outcome.result.totals.contacts_most > 0 ? 1 : 0;
         blocked += outcome.blocked() ? 1 : 0;
+        blocked_free += outcome.blocked() && !scene.pinned ? 1 : 0;
         bad += outcome.good() ? 0 : 1;
         steps += outcome.result.totals.steps;
         cpu_s += outcome.result.totals.cpu_s;
     }
     Figures figures(const std::string& kind) const {
-        return {{"kind", kind}, {"scenes", scenes}, {"touched", touched}, {"blocked", blocked},
+        return {{"kind", kind}, {"scenes", scenes}, {"touched", touched}, {"blocked", blocked}, {"blocked_free", blocked_free},
                 {"bad", bad},   {"steps", steps},   {"cpu_s", cpu_s}};
     }
     void print(const std::string& kind) const {
-        std::printf("%-14s %6d %7d %7d %4d %8ld %8.2f\n", kind.c_str(), scenes, touched, blocked, bad, steps, cpu_s);
+        std::printf("%-14s %6d %7d %7d %8d %4d %8ld %8.2f\n", kind.c_str(), scenes, touched, blocked, blocked_free, bad, steps,
+                    cpu_s);
     }
 };
 
@@ -59,11 +61,11 @@ Figures sweep(const Options& options, bool& good) {
         const RandomOutcome outcome = percale::test::run_random_scene(scene);
         if (options.only >= 0 || !outcome.good() || outcome.blocked()) print_one(index, scene, outcome);
         for (const std::string& kind : {scene.obstacle, scene.motion, scene.cloth, std::string("all")})
-            tallies[kind].add(outcome);
+            tallies[kind].add(scene, outcome);
         good = good && outcome.good();
     }
     Figures rows = Figures::array();
-    std::printf("%-14s %6s %7s %7s %4s %8s %8s\n", "", "scenes", "touched", "blocked", "bad", "steps", "CPU s");
+    std::printf("%-14s %6s %7s %7s %8s %4s %8s %8s\n", "", "scenes", "touched", "blocked", "unpinned", "bad", "steps", "CPU s");
     for (const auto& [kind, tally] : tallies) {
         tally.print(kind);
         rows.push_back(tally.figures(kind));
