@@ -48,6 +48,14 @@ ExpectationResult judged(const Expectation& expectation, const std::map<std::str
 
 std::span<const MeasureDescription> measure_descriptions() { return measure_list; }
 
+std::vector<Expectation> with_every_step(std::vector<Expectation> expectations) {
+    for (const char* measure : {"intersections_at_every_step", "deepest_penetration_at_every_step"}) {
+        Expectation& none = expectations.emplace_back();
+        none.measure = measure;
+    }
+    return expectations;
+}
+
 std::string limit_text(const Expectation& expectation) {
     const std::string lowest = number_text(expectation.lowest), highest = number_text(expectation.highest);
     if (expectation.lowest == expectation.highest) return "= " + lowest;

@@ -28,6 +28,10 @@ struct ExpectationResult {
     std::string text;  // "largest_strain 0.12, expected < 0.3: passed"
 };
 
+/// What is expected of a run whose every step is certified, beside what its scene says: no intersecting pair and no vertex inside
+/// an obstacle after any step.
+std::vector<Expectation> with_every_step(std::vector<Expectation> expectations);
+
 /// "< 0.3", "= 0", "0.2 ... 0.45"; for matches "<= 0.002".
 std::string limit_text(const Expectation& expectation);
 

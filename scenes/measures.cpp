@@ -32,6 +32,17 @@ void add_frame(Measures& measures, int index, const FrameCheck& check) {
     measures.worst_frame = index;
 }
 
+void add_state(StepChecks& checks, int step, double time, const FrameCheck& check) {
+    ++checks.states;
+    checks.intersections += check.intersections;
+    checks.deepest_penetration = std::max(checks.deepest_penetration, check.deepest_penetration);
+    checks.smallest_distance = std::min(checks.smallest_distance, check.smallest_distance);
+    if (!worse(check, checks.worst)) return;
+    checks.worst = check;
+    checks.worst_step = step;
+    checks.worst_time = time;
+}
+
 void add_step(Measures& measures, const StepReport& report, double energy_before) {
     measures.smallest_distance = std::min(measures.smallest_distance, report.smallest_distance);
     measures.largest_strain = std::max(measures.largest_strain, report.largest_strain);
@@ -74,6 +85,10 @@ std::map<std::string, double> measure_values(const Measures& measures) {
         {"lowest_vertex", measures.lowest_vertex},
     };
     std::erase_if(values, [](const auto& value) { return std::isnan(value.second); });
+    if (measures.steps) {
+        values["intersections_at_every_step"] = measures.steps->intersections;
+        values["deepest_penetration_at_every_step"] = measures.steps->deepest_penetration;
+    }
     if (measures.matches) values["matches"] = *measures.matches;
     return values;
 }

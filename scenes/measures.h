@@ -25,6 +25,21 @@ struct FrameCheck {
 
 void add_certificate(FrameCheck& check, const Certificate& certificate);
 
+/// What the certificates of all states say, one after each step and one of the start.
+struct StepChecks {
+    int states = 0;
+    int intersections = 0;                                               // pairs, summed
+    double deepest_penetration = 0.0;                                    // m
+    double smallest_distance = std::numeric_limits<double>::infinity();  // m; infinity if nothing was near
+    int worst_step = -1;      // after which the distance was smallest, 0 = the start; -1: nothing was near
+    double worst_time = 0.0;  // s, of that state
+    FrameCheck worst;         // of that state
+};
+
+/// `step`: 0 is the start. Of two states with equal distances (0 where both intersect) the one with more intersecting pairs is
+/// the worse.
+void add_state(StepChecks& checks, int step, double time, const FrameCheck& check);
+
 /// The measures of a run; the names of the fields are those of scene files and reports.
 struct Measures {
     int intersections = 0;                                               // summed over the frames, the start included
@@ -39,6 +54,8 @@ struct Measures {
     std::optional<double> matches;                                   // m, largest distance from the reference at the end
 
     FrameCheck worst;  // of the frame `worst_frame`
+
+    std::optional<StepChecks> steps;  // if every step was certified
 };
 
 /// Of two frames with equal distances (0 where both intersect) the one with more intersecting pairs is the worse.

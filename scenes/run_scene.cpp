@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "mesh_import.h"
+#include "motion_parts.h"
 #include "percale/error.h"
 #include "scene_plan.h"
 #include "scene_text.h"
@@ -90,18 +91,48 @@ void place_and_certify(const BuiltScene& built, Frame& frame) {
             add_certificate(frame.check, certify(frame.cloths[cloth], obstacle, distance_limit(built, cloth)));
 }
 
-/// Frames due by now; several where the frame rate is higher than the step rate.
-void make_due_frames(const BuiltScene& built, const RunHooks& hooks, double slack, Frame& frame, Measures& measures) {
-    const double fps = built.scene.output.fps;
-    bool placed = false;
-    while (static_cast<double>(frame.index) / fps <= built.simulation.time() + slack) {
-        if (!placed) place_and_certify(built, frame);
-        placed = true;
-        add_frame(measures, frame.index, frame.check);
-        if (hooks.frame) hooks.frame(frame);
-        ++frame.index;
+/// Looks at the state after each step: certificates, frames.
+class Observer {
+public:
+    Observer(const BuiltScene& built, const RunHooks& hooks, const RunSettings& settings, Measures& measures)
+        : built_(built), hooks_(hooks), measures_(measures), frame_(first_frame(built)) {
+        if (settings.certify_steps) measures_.steps.emplace();
     }
-}
+
+    /// The state after so many steps.
+    void look(int steps) {
+        seen_ = false;
+        if (measures_.steps) {
+            see();
+            add_state(*measures_.steps, steps, frame_.time, frame_.check);
+        }
+        make_due_frames();
+    }
+
+private:
+    void see() {
+        if (!seen_) place_and_certify(built_, frame_);
+        seen_ = true;
+    }
+
+    /// Frames due by now; several where the frame rate is higher than the step rate.
+    void make_due_frames() {
+        const double fps = built_.scene.output.fps;
+        const double slack = 1e-6 * built_.scene.step.time_step;  // accumulated rounding of the time
+        while (static_cast<double>(frame_.index) / fps <= built_.simulation.time() + slack) {
+            see();
+            add_frame(measures_, frame_.index, frame_.check);
+            if (hooks_.frame) hooks_.frame(frame_);
+            ++frame_.index;
+        }
+    }
+
+    const BuiltScene& built_;
+    const RunHooks& hooks_;
+    Measures& measures_;
+    Frame frame_;
+    bool seen_ = false;  // the frame shows the current state
+};
 
 void add_cost(RunTotals& totals, const StepReport& report) {
     totals.newton_iterations += report.newton_iterations;
@@ -129,7 +160,7 @@ bool changes_gravity(const Scene& scene) {
                        [](const EventSpec& event) { return std::holds_alternative<GravityEvent>(event.what); });
 }
 
-/// One step: script, simulation, figures. False if it failed.
+/// One step of the simulation: script, simulation, figures. False if it failed.
 bool make_step(BuiltScene& built, const RunHooks& hooks, Timeline& timeline, double dt, RunResult& result) {
     RunTotals& totals = result.totals;
     timeline.apply(built, built.simulation.time(), dt);
@@ -149,18 +180,31 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, Timeline& timeline, dou
     return true;
 }
 
-void run_steps(BuiltScene& built, const RunHooks& hooks, RunResult& result) {
+/// What happens beside the steps.
+struct Script {
+    Timeline timeline;
+    Observer observer;
+};
+
+/// One step of the scene, in parts where an obstacle moves far; looks at the state after each. False if it failed.
+bool make_parts(BuiltScene& built, const RunHooks& hooks, Script& script, double dt, RunResult& result) {
+    const int parts = motion_parts(built, dt);
+    built.simulation.set_time_step(dt / parts);
+    for (int part = 0; part < parts; ++part) {
+        if (!make_step(built, hooks, script.timeline, dt / parts, result)) return false;
+        script.observer.look(result.totals.steps);
+    }
+    return true;
+}
+
+void run_steps(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings, RunResult& result) {
     const double time_step = built.scene.step.time_step;
-    const double slack = 1e-6 * time_step;  // accumulated rounding of the time
     const StepCount count = count_steps(built.scene.duration, time_step);
-    Timeline timeline(built);
-    Frame frame = first_frame(built);
-    make_due_frames(built, hooks, slack, frame, result.measures);
+    Script script{Timeline(built), Observer(built, hooks, settings, result.measures)};
+    script.observer.look(0);
     for (long i = 0; i < count.steps; ++i) {
         const bool last = i + 1 == count.steps;
-        if (last && count.last_dt != time_step) built.simulation.set_time_step(count.last_dt);
-        if (!make_step(built, hooks, timeline, last ? count.last_dt : time_step, result)) return;
-        make_due_frames(built, hooks, slack, frame, result.measures);
+        if (!make_parts(built, hooks, script, last ? count.last_dt : time_step, result)) return;
         if (!last && hooks.stop_asked && hooks.stop_asked()) {
             result.status = RunStatus::stopped;
             result.reason = "stopped after " + std::to_string(i + 1) + " of " + std::to_string(count.steps) + " steps";
@@ -171,14 +215,14 @@ void run_steps(BuiltScene& built, const RunHooks& hooks, RunResult& result) {
 
 }  // namespace
 
-RunResult run_scene(BuiltScene& built, const RunHooks& hooks) {
+RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings) {
     const auto start = std::chrono::steady_clock::now();
     const std::optional<std::vector<Vec3>> reference = read_reference(built);
     if (hooks.begin) hooks.begin();
     RunResult result;
     result.skipped = plan_of(built).skipped;
     result.totals.energy = built.simulation.energy();
-    run_steps(built, hooks, result);
+    run_steps(built, hooks, settings, result);
     if (std::isnan(result.totals.energy.elastic))
         result.measures.largest_strain = result.measures.energy_gain = result.totals.energy.elastic;
     add_end(result.measures, built.simulation, built.cloths);

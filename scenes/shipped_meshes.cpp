@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "funnel.h"
 #include "mannequin.h"
 #include "poncho.h"
 #include "spikes.h"
@@ -20,10 +21,10 @@ TriangleMesh rounded(TriangleMesh mesh) {
 }  // namespace
 
 std::vector<ShippedMesh> make_shipped_meshes() {
-    return {{"mannequin.obj", rounded(make_mannequin(0.02))},
-            {"poncho.obj", rounded(make_poncho())},
-            {"sphere.obj", rounded(make_sphere(0.25, 4))},
-            {"spikes.obj", rounded(make_spikes())}};
+    const SpikeBed needles{.width = 0.6, .count = 10, .height = 0.1, .base = 0.03, .thickness = 0.02};
+    return {{"funnel.obj", rounded(make_funnel())},         {"mannequin.obj", rounded(make_mannequin(0.02))},
+            {"needles.obj", rounded(make_spikes(needles))}, {"poncho.obj", rounded(make_poncho())},
+            {"sphere.obj", rounded(make_sphere(0.25, 4))},  {"spikes.obj", rounded(make_spikes())}};
 }
 
 }  // namespace percale::scenes

@@ -12,7 +12,7 @@ struct ShippedMesh {
     TriangleMesh mesh;
 };
 
-/// The meshes of data/meshes, made anew: mannequin, poncho, sphere, spikes; coordinates rounded to 1e-6 m.
+/// The meshes of data/meshes, made anew: funnel, mannequin, needles, poncho, sphere, spikes; coordinates rounded to 1e-6 m.
 std::vector<ShippedMesh> make_shipped_meshes();
 
 }  // namespace percale::scenes

@@ -82,6 +82,18 @@ void put_measures(ordered_json& json, const Measures& m) {
     if (m.matches) json["matches"] = *m.matches;
 }
 
+ordered_json step_certificate(const Measures& measures) {
+    if (!measures.steps) return nullptr;
+    const StepChecks& checks = *measures.steps;
+    const bool near = checks.worst_step >= 0;
+    return {{"states", checks.states},
+            {"intersections", checks.intersections},
+            {"deepest_penetration", checks.deepest_penetration},
+            {"smallest_distance", checks.smallest_distance},
+            {"worst_step", near ? ordered_json(checks.worst_step) : ordered_json(nullptr)},
+            {"worst_time_s", near ? ordered_json(checks.worst_time) : ordered_json(nullptr)}};
+}
+
 ordered_json expectation_list(std::span<const ExpectationResult> results) {
     ordered_json list = ordered_json::array();
     for (const ExpectationResult& result : results)
@@ -152,6 +164,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     json["skipped"] = skipped_list(result.skipped);
     put_contact_and_energy(json, result.totals);
     put_measures(json, result.measures);
+    json["step_certificate"] = step_certificate(result.measures);
     json["expectations"] = expectation_list(expectations);
     json["settings"] = ordered_json::parse(settings_text(built.scene));
     json["version"] = version;

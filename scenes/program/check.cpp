@@ -42,30 +42,30 @@ std::string rounded_text(double value) {
     return text;
 }
 
-void run_into(Outcome& outcome, const std::vector<Override>& overrides, const StopSignals& signals) {
-    Scene scene = load_scene(outcome.scene.file, overrides);
+void run_into(Outcome& outcome, const CommonOptions& options, const StopSignals& signals) {
+    Scene scene = load_scene(outcome.scene.file, scene_overrides(options));
     // Nothing else of this command reads them.
     if (!read_step_measures(scene.expectations)) scene.step.measure = StepMeasures::none;
     BuiltScene built = build_scene(scene);
     for (const StartMove& move : built.simulation.start_repair()) outcome.start_moves.push_back(start_move_text(move));
     RunHooks hooks;
     hooks.stop_asked = [&] { return signals.asked(); };
-    const RunResult result = run_scene(built, hooks);
+    const RunResult result = run_scene(built, hooks, {.certify_steps = options.certify_steps});
     outcome.scene.reason = result.reason;
     outcome.ending = std::string(status_word(result.status)) + ": " + std::to_string(result.totals.steps) + " steps, " +
                      rounded_text(result.totals.simulated_s) + " s";
     outcome.scene.wall_s = result.totals.wall_s;
-    outcome.scene.expectations = judge(built.scene.expectations, measure_values(result.measures));
+    outcome.scene.expectations = judge(expected_of(built.scene, options), measure_values(result.measures));
     outcome.state_hash = built.simulation.state_hash();
     outcome.exit_code = outcome.scene.failed() > 0 ? not_as_expected : all_well;
     if (result.status == RunStatus::stopped) outcome.exit_code = stopped_by_signal;
 }
 
-Outcome check_scene(const std::string& file, const std::vector<Override>& overrides, const StopSignals& signals) {
+Outcome check_scene(const std::string& file, const CommonOptions& options, const StopSignals& signals) {
     Outcome outcome;
     outcome.scene.file = file;
     try {
-        run_into(outcome, overrides, signals);
+        run_into(outcome, options, signals);
     } catch (const SceneError& error) {
         outcome.scene.error = error.what();
         outcome.exit_code = wrong_input;
@@ -95,11 +95,7 @@ void print_outcome(const CheckOptions& options, const Outcome& outcome) {
 class Checker {
 public:
     Checker(const CheckOptions& options, const StopSignals& signals)
-        : options_(options),
-          signals_(signals),
-          overrides_(scene_overrides(options.common)),
-          outcomes_(options.scenes.size()),
-          done_(options.scenes.size(), false) {}
+        : options_(options), signals_(signals), outcomes_(options.scenes.size()), done_(options.scenes.size(), false) {}
 
     std::vector<Outcome> check_all() {
         const std::size_t jobs = std::min(static_cast<std::size_t>(options_.jobs), options_.scenes.size());
@@ -113,7 +109,7 @@ public:
 private:
     void work() {
         for (std::size_t i = take(); i < outcomes_.size(); i = take()) {
-            Outcome outcome = check_scene(options_.scenes[i], overrides_, signals_);
+            Outcome outcome = check_scene(options_.scenes[i], options_.common, signals_);
             const std::lock_guard lock(mutex_);
             outcomes_[i] = std::move(outcome);
             done_[i] = true;
@@ -128,7 +124,6 @@ private:
 
     const CheckOptions& options_;
     const StopSignals& signals_;
-    const std::vector<Override> overrides_;
     std::vector<Outcome> outcomes_;
     std::vector<bool> done_;
     std::size_t next_ = 0, printed_ = 0;
@@ -137,6 +132,7 @@ private:
 
 void check_options(const CheckOptions& options) {
     check_common_options(options.common);
+    scene_overrides(options.common);  // a --set that is none is told once, not for each scene
     if (!options.common.frames.empty() && options.common.frames != "none")
         throw SceneError("--frames " + options.common.frames + ": check writes no frames; percale run does");
     if (!options.junit.empty()) const WholeFile probe(options.junit);  // found before the work, not after it

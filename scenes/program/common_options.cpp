@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "expectations.h"
 #include "lacking.h"
 #include "nearest_name.h"
 #include "percale/error.h"
@@ -24,6 +25,8 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
     command.add_option("--fps", options.fps, "Output frames per simulated second (default 30)")->type_name("F");
     command.add_option("--checkpoint", options.checkpoint, "Not in this version")->type_name("SECONDS");
     command.add_option("--resume", options.resume, "Not in this version")->type_name("FILE");
+    command.add_flag("--certify-steps", options.certify_steps,
+                     "Certify the state after every step, not only output frames; fails where one is not clear");
     command.add_flag("--replay-hash", options.replay_hash,
                      "A hash of the state for every step in steps.csv; check prints the last");
 }
@@ -44,6 +47,10 @@ void check_common_options(const CommonOptions& options) {
     if (!options.checkpoint.empty()) throw SceneError("--checkpoint: this build lacks checkpoints");
     if (!options.resume.empty()) throw SceneError("--resume: this build lacks checkpoints, so there is none to resume");
     check_frame_format(options.frames);
+}
+
+std::vector<scenes::Expectation> expected_of(const scenes::Scene& scene, const CommonOptions& options) {
+    return options.certify_steps ? scenes::with_every_step(scene.expectations) : scene.expectations;
 }
 
 std::vector<scenes::Override> scene_overrides(const CommonOptions& options) {

@@ -20,12 +20,16 @@ struct CommonOptions {
     bool quiet = false;
     bool replay_hash = false;
     bool no_skip = false;
+    bool certify_steps = false;
 };
 
 /// --set and --no-skip: what changes the scene.
 void add_scene_options(CLI::App& command, CommonOptions& options);
 /// These and all others.
 void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// What the scene expects, and with --certify-steps that every step is clear.
+std::vector<scenes::Expectation> expected_of(const scenes::Scene& scene, const CommonOptions& options);
 
 /// Throws SceneError for what this build lacks or what is out of range.
 void check_common_options(const CommonOptions& options);

@@ -112,9 +112,10 @@ int run(RunOptions options) {
         bar.show(simulation.time());
     };
     hooks.stop_asked = [&] { return signals.asked(); };
-    const RunResult result = run_scene(built, hooks);
+    const RunResult result = run_scene(built, hooks, {.certify_steps = options.common.certify_steps});
     bar.clear();
-    const std::vector<ExpectationResult> expectations = judge(built.scene.expectations, measure_values(result.measures));
+    const std::vector<ExpectationResult> expectations =
+        judge(expected_of(built.scene, options.common), measure_values(result.measures));
     folder.finish(built, result, expectations);
     if (!options.common.quiet) print_summary(options, built, result, expectations);
     return verdict(options, result, expectations);

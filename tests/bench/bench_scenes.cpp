@@ -19,8 +19,8 @@ Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, cons
     return simulation;
 }
 
-TriangleMesh bunny_scan() {
-    const std::filesystem::path file = real_mesh_folder() / "bunny00.off";
+TriangleMesh body_scan(const std::string& file_name) {
+    const std::filesystem::path file = real_mesh_folder() / file_name;
     if (!std::filesystem::exists(file)) return {};
     TriangleMesh mesh = scenes::import_mesh(file.string());
     Vec3 low = mesh.vertices[0], high = low;
@@ -31,5 +31,7 @@ TriangleMesh bunny_scan() {
     for (Vec3& x : mesh.vertices) x = (x - 0.5 * (low + high)) * (0.5 / (high - low).maxCoeff());
     return mesh;
 }
+
+TriangleMesh bunny_scan() { return body_scan("bunny00.off"); }
 
 }  // namespace percale::test

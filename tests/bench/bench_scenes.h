@@ -1,11 +1,16 @@
 #pragma once
 
+#include <string>
+
 #include "percale/simulation.h"
 
 namespace percale::test {
 
 /// A sheet of 1 m with n x n vertices, `height` m above the origin, to fall on `body`; without a body it hangs from two corners.
 Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, const StepSettings& settings = {});
+
+/// A body scan by its file's name, centred, its longest side half a metre; no triangles where it is absent.
+TriangleMesh body_scan(const std::string& file_name);
 
 /// The bunny scan half a metre high, centred; no triangles where it is absent.
 TriangleMesh bunny_scan();

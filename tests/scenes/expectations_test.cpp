@@ -92,3 +92,19 @@ TEST_CASE("strain and energy are what steps have to measure, the rest comes from
     }
     CHECK_FALSE(read_step_measures({}));
 }
+
+TEST_CASE("of a run whose every step is certified no pair and no depth is expected, after what the scene says") {
+    const std::vector<Expectation> expected = with_every_step({limit("{ below = 0.3 }")});
+    const auto verdicts = [&](double pairs, double depth) {
+        std::vector<bool> passed;
+        for (const ExpectationResult& result : judge(
+                 expected,
+                 {{"largest_strain", 0.1}, {"intersections_at_every_step", pairs}, {"deepest_penetration_at_every_step", depth}}))
+            passed.push_back(result.passed);
+        return passed;
+    };
+    CHECK(verdicts(0.0, 0.0) == std::vector<bool>{true, true, true});
+    CHECK(verdicts(1.0, 0.0) == std::vector<bool>{true, false, true});
+    CHECK(verdicts(0.0, 1e-9) == std::vector<bool>{true, true, false});
+    CHECK_FALSE(judge(expected, {}).at(1).passed);
+}

@@ -171,3 +171,30 @@ TEST_CASE("every measure that a scene may expect has a value, matches only with 
     measures.matches = 0.25;
     CHECK(measure_values(measures).at("matches") == 0.25);
 }
+
+TEST_CASE("checks of states add up, and the worst is the nearest, of equally near ones the one with most pairs") {
+    StepChecks checks;
+    add_state(checks, 0, 0.0, frame_check(0, 0.0, std::numeric_limits<double>::infinity()));
+    CHECK(checks.worst_step == -1);
+    add_state(checks, 1, 0.1, frame_check(0, 0.0, 0.2));
+    CHECK(checks.worst_step == 1);
+    add_state(checks, 2, 0.2, frame_check(1, 0.01, 0.0));
+    add_state(checks, 3, 0.3, frame_check(4, 0.005, 0.0));
+    add_state(checks, 4, 0.4, frame_check(0, 0.0, 0.1));
+    CHECK(checks.states == 5);
+    CHECK(checks.intersections == 5);
+    CHECK(checks.deepest_penetration == 0.01);
+    CHECK(checks.smallest_distance == 0.0);
+    CHECK(checks.worst_step == 3);
+    CHECK(checks.worst_time == 0.3);
+    CHECK(checks.worst.intersections == 4);
+}
+
+TEST_CASE("what every step is judged by has values only where every step was certified") {
+    Measures measures;
+    CHECK(measure_values(measures).count("intersections_at_every_step") == 0);
+    measures.steps.emplace();
+    add_state(*measures.steps, 3, 0.1, frame_check(2, 0.01, 0.0));
+    CHECK(measure_values(measures).at("intersections_at_every_step") == 2.0);
+    CHECK(measure_values(measures).at("deepest_penetration_at_every_step") == 0.01);
+}

@@ -1,5 +1,6 @@
 #include "run_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <vector>
@@ -248,4 +249,67 @@ TEST_CASE("statuses have the words of the report") {
     CHECK(std::string(status_word(RunStatus::finished)) == "finished");
     CHECK(std::string(status_word(RunStatus::failed)) == "failed");
     CHECK(std::string(status_word(RunStatus::stopped)) == "stopped");
+}
+
+TEST_CASE("asked to, a run certifies the start and the state after every step, whatever the frames") {
+    BuiltScene built = build_scene(scene_of(sheet_on_box(), {{"output.fps", "1"}}));
+    CHECK_FALSE(record(scene_of(falling_sheet())).result.measures.steps.has_value());
+    std::vector<double> distances;
+    RunHooks hooks;
+    hooks.step = [&](const StepReport&, const Simulation& simulation) {
+        TriangleMesh cloth = built.cloth_meshes[0], box = built.obstacle_meshes[0];
+        const auto positions = simulation.positions(built.cloths[0]);
+        cloth.vertices.assign(positions.begin(), positions.end());
+        box.vertices = transform(simulation.obstacle_pose(built.obstacles[0]), std::span<const Vec3>(box.vertices));
+        distances.push_back(certify(cloth, box, 0.02).smallest_distance);
+    };
+    const RunResult result = run_scene(built, hooks, {.certify_steps = true});
+    REQUIRE(result.measures.steps.has_value());
+    const StepChecks& checks = *result.measures.steps;
+    CHECK(checks.states == 13);
+    CHECK(checks.intersections == 0);
+    CHECK(checks.deepest_penetration == 0.0);
+    const auto nearest = std::min_element(distances.begin(), distances.end());
+    CHECK(checks.smallest_distance == *nearest);
+    CHECK(checks.worst_step == 1 + static_cast<int>(nearest - distances.begin()));
+    CHECK(checks.worst_time == Approx(checks.worst_step / 60.0));
+    CHECK(checks.smallest_distance < result.measures.worst.smallest_distance);
+}
+
+TEST_CASE("a step in which an obstacle turns far is made in equal parts that end where the step does") {
+    const std::string spin = "spin = { turns_per_s = 50, from = 0.1 }\n";
+    std::string text = sheet_on_box();
+    text.insert(text.find("[output]"), spin);
+    const Recorded recorded = record(scene_of(text, {{"obstacle.box.friction", "0"}}));
+    REQUIRE(recorded.result.status == RunStatus::finished);
+    // Six whole steps, then six of twenty parts.
+    REQUIRE(recorded.steps.size() == 126);
+    CHECK(recorded.result.totals.steps == 126);
+    CHECK(recorded.steps[5].dt == Approx(1.0 / 60.0));
+    CHECK(recorded.steps[6].dt == Approx(1.0 / 1200.0));
+    CHECK(recorded.steps.back().time == Approx(0.2).epsilon(1e-12));
+    REQUIRE(recorded.frames.size() == 7);
+    for (const Frame& frame : recorded.frames) CHECK(frame.time == Approx(frame.index / 30.0));
+    // Fifty turns a second are whole turns after 0.1 s.
+    CHECK((recorded.frames.back().obstacles[0].vertices[0] - recorded.frames[0].obstacles[0].vertices[0]).norm() < 1e-9);
+}
+
+TEST_CASE("a sheet on a plate that turns fifty times a second is dragged the way the plate turns") {
+    std::string text = sheet_on_box();
+    text.insert(text.find("[output]"), "spin = { turns_per_s = 50, from = 0.5 }\n");
+    BuiltScene built = build_scene(scene_of(text, {{"duration", "0.6"}, {"obstacle.box.friction", "0.5"}}));
+    REQUIRE(run_scene(built).status == RunStatus::finished);
+    const auto positions = built.simulation.positions(built.cloths[0]), velocities = built.simulation.velocities(built.cloths[0]);
+    const auto masses = built.simulation.masses(built.cloths[0]);
+    double momentum = 0.0, lever = 0.0, mass = 0.0, rise = 0.0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Vec3 &x = positions[i], &v = velocities[i];
+        momentum += masses[i] * (x.z() * v.x() - x.x() * v.z());
+        lever += masses[i] * std::hypot(x.x(), x.z());
+        mass += masses[i];
+        rise += masses[i] * v.y();
+    }
+    // It slides everywhere, so friction's impulse is mu times that of the normal forces: what the weight gave in 0.1 s and what
+    // the sheet, at rest before, still has of it.
+    CHECK(momentum == Approx(0.5 * lever * (0.1 * g + rise / mass)).epsilon(0.05));
 }

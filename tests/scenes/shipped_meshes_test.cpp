@@ -36,7 +36,7 @@ TEST_CASE("the mesh files in data are what the code makes today, and nothing els
 }
 
 TEST_CASE("the shipped files hold closed bodies and meshes fit for use, with six decimals") {
-    for (const std::string file : {"mannequin.obj", "poncho.obj", "sphere.obj", "spikes.obj"}) {
+    for (const std::string file : {"funnel.obj", "mannequin.obj", "needles.obj", "poncho.obj", "sphere.obj", "spikes.obj"}) {
         INFO(file);
         const TriangleMesh mesh = import_mesh(folder + file);
         CHECK_NOTHROW(check_mesh(mesh, file, true));

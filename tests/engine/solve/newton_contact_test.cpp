@@ -69,6 +69,21 @@ TEST_CASE("Cloth thrown at a plane never crosses it") {
     }
 }
 
+TEST_CASE("A plane of up to 100 m/s carries cloth along in undivided steps") {
+    for (const double speed : {1.0, 10.0, 100.0}) {
+        SolverScene scene = sheet_on_plane(0.0, 0.3, 0.9 * h);
+        scene.plan.obstacles_move = true;
+        const double way = speed * scene.settings.time_step;
+        for (int n = 0; n < 10; ++n) {
+            scene.detector->move_obstacle(0, {.translation = Vec3(0, n * way, 0)}, {.translation = Vec3(0, (n + 1) * way, 0)});
+            const NewtonReport report = scene.step_implicit();
+            CAPTURE(speed, n, report.newton_iterations, report.smallest_fraction);
+            REQUIRE((report.end == NewtonEnd::converged || (speed > 10.0 && report.end == NewtonEnd::iterations_used)));
+            for (int i = 0; i < 16; ++i) REQUIRE(scene.state.positions.y[i] > (n + 1) * way);
+        }
+    }
+}
+
 TEST_CASE("On an incline flatter than friction's angle cloth sticks but for a creep below a millimetre a second") {
     const double angle = 20.0 * std::numbers::pi / 180.0;
     for (const double mu : {1.05 * std::tan(angle), 0.6, 1.0}) {

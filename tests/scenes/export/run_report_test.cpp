@@ -186,6 +186,20 @@ TEST_CASE("steps in which all cloth slept are counted, and none where nothing is
     CHECK(run_scene(whole).totals.sleeping_steps == 0);
 }
 
+TEST_CASE("the certificate of every step is in the report where it was asked for") {
+    BuiltScene plain = built(sheet_on_box());
+    CHECK(report_of(plain, run_scene(plain)).at("step_certificate").is_null());
+    BuiltScene certified = built(sheet_on_box());
+    const RunResult result = run_scene(certified, {}, {.certify_steps = true});
+    const ordered_json certificate = report_of(certified, result).at("step_certificate");
+    CHECK(certificate.at("states") == 13);
+    CHECK(certificate.at("intersections") == 0);
+    CHECK(certificate.at("deepest_penetration") == 0.0);
+    CHECK(certificate.at("smallest_distance") == result.measures.steps->smallest_distance);
+    CHECK(certificate.at("worst_step") == result.measures.steps->worst_step);
+    CHECK(certificate.at("worst_time_s") == result.measures.steps->worst_time);
+}
+
 TEST_CASE("frames read back from a report are those that were listed") {
     const TestFolder folder;
     FrameRecord near, far;

@@ -110,3 +110,13 @@ TEST_CASE("what check cannot do is refused") {
     CHECK(run_program({"check", "a.toml", "--threads", "2"}, folder.path()).exit_code == 0);
     CHECK(run_program({"check", "a.toml", "--frames", "none"}, folder.path()).exit_code == 0);
 }
+
+TEST_CASE("with --certify-steps two more expectations are judged: no crossing and no depth after any step") {
+    const TestFolder folder;
+    folder.write("box.toml", sheet_on_box() + "[expect]\nintersections = 0\n");
+    const ProgramRun run = run_program({"check", "box.toml", "--certify-steps"}, folder.path());
+    CHECK(run.exit_code == 0);
+    CHECK(run.out.find("intersections_at_every_step 0, expected = 0: passed") != std::string::npos);
+    CHECK(run.out.find("deepest_penetration_at_every_step 0, expected = 0: passed") != std::string::npos);
+    CHECK(ends_with(run.out, "1 of 1 scenes finished, 3 of 3 expectations passed\n"));
+}

@@ -1,0 +1,292 @@
+#include "tests/support/random_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "percale/detectors.h"
+#include "percale/error.h"
+#include "scenes/mesh_import.h"
+#include "scenes/spikes.h"
+#include "scenes/timeline.h"
+#include "tests/support/bench_meshes.h"
+#include "tests/support/collision_shapes.h"
+#include "tests/support/real_meshes.h"
+
+namespace percale::test {
+namespace {
+
+using scenes::Keyframe;
+using scenes::ObstacleSpec;
+using scenes::Spin;
+
+struct NamedMesh {
+    std::string name;
+    TriangleMesh mesh;
+};
+
+/// Centred, its longest side 1 m.
+TriangleMesh unit_size(TriangleMesh mesh) {
+    Vec3 low = mesh.vertices[0], high = low;
+    for (const Vec3& x : mesh.vertices) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    for (Vec3& x : mesh.vertices) x = (x - 0.5 * (low + high)) / (high - low).maxCoeff();
+    return mesh;
+}
+
+/// Small body scans, those that are installed.
+const std::vector<NamedMesh>& scans() {
+    static const std::vector<NamedMesh> loaded = [] {
+        std::vector<NamedMesh> meshes;
+        for (const char* name : {"cactus.off", "hand.off", "knot1.off"}) {
+            const std::filesystem::path file = real_mesh_folder() / name;
+            if (std::filesystem::exists(file)) meshes.push_back({name, unit_size(scenes::import_mesh(file.string()))});
+        }
+        return meshes;
+    }();
+    return loaded;
+}
+
+TriangleMesh triangle(Random& random) {
+    TriangleMesh mesh{.vertices = {}, .triangles = {{0, 1, 2}}};
+    for (int k = 0; k < 3; ++k) mesh.vertices.push_back(random.point(0.25));
+    return mesh;
+}
+
+/// A wavy sheet, open at its border.
+TriangleMesh open_sheet(Random& random) {
+    TriangleMesh mesh = make_grid(0.5, 0.5, 6, 6);
+    for (Vec3& x : mesh.vertices) x.y() += random.number(-0.06, 0.06);
+    return mesh;
+}
+
+NamedMesh random_obstacle(Random& random) {
+    const double size = random.number(0.08, 0.3), other = random.number(0.08, 0.3);
+    switch (random.index(scans().empty() ? 11 : 12)) {
+        case 0:
+            return {"sphere", make_sphere(size, 2)};
+        case 1:
+            return {"box", make_box({size, other, 0.2})};
+        case 2:
+            return {"capsule", make_capsule(0.5 * size, other, 12)};
+        case 3:
+            return {"cylinder", make_cylinder(0.7 * size, other, 12)};
+        case 4:
+            return {"plane", make_plane(2.0 * size)};
+        case 5:
+            return {"spikes", scenes::make_spikes({.width = 0.4, .count = 4, .height = 0.12, .base = 0.04})};
+        case 6:
+            return {"needle", scenes::make_spikes({.width = 0.02, .count = 1, .height = 0.4, .base = 0.01, .thickness = 0.005})};
+        case 7:
+            return {"triangle", triangle(random)};
+        case 8:
+            return {"open sheet", open_sheet(random)};
+        case 9:
+            return {"star", spiky_ball(size, 1, 0.5, static_cast<unsigned>(random.index(1000)))};
+        case 10:
+            return {"blade", make_box({2.0 * size, 0.002, 0.05})};
+        default:
+            return scans()[static_cast<std::size_t>(random.index(static_cast<int>(scans().size())))];
+    }
+}
+
+/// Straight from where it is, at a speed in m/s, from t = 0 on.
+void translate(ObstacleSpec& spec, const Vec3& velocity) {
+    spec.motion = {Keyframe{.time = 0.0, .translation = spec.pose.translation, .rotation = {}},
+                   Keyframe{.time = 10.0, .translation = spec.pose.translation + 10.0 * velocity, .rotation = {}}};
+}
+
+/// Gives the obstacle a motion, rather towards the cloth at the origin, and says which.
+std::string set_random_motion(ObstacleSpec& spec, Random& random) {
+    const Vec3 aim = (0.3 * random.unit() - spec.pose.translation).normalized(), axis = random.unit();
+    const double speed = random.decades(0.1, 3.0), turns = random.decades(0.1, 5.0);
+    switch (random.index(6)) {
+        case 0:
+            return "still";
+        case 1:
+            translate(spec, speed * aim);
+            return "translating";
+        case 2:
+            spec.spin = Spin{axis, turns, 0.0};
+            return "spinning";
+        case 3:
+            translate(spec, speed * aim);
+            spec.spin = Spin{axis, turns, 0.0};
+            return "both";
+        case 4:
+            translate(spec, 20.0 * speed * aim);
+            return "fast";
+        default:
+            spec.spin = Spin{axis, 10.0 * turns, 0.0};
+            return "fast spin";
+    }
+}
+
+Fabric random_fabric(Random& random) {
+    Fabric fabric;
+    fabric.area_density = random.decades(0.02, 2.0);
+    fabric.thickness = random.decades(0.002, 0.01);
+    fabric.springs.structural = random.decades(10.0, 1e5);
+    fabric.springs.shear = random.number(0.0, 0.5) * fabric.springs.structural;
+    fabric.springs.bend = random.decades(1e-4, 1e-1) * fabric.springs.structural;
+    fabric.spring_damping = random.decades(0.01, 1.0);
+    return fabric;
+}
+
+NamedMesh random_cloth(Random& random) {
+    const int columns = 5 + random.index(9), rows = 5 + random.index(9);
+    const double width = random.number(0.2, 0.6), depth = random.number(0.2, 0.6);
+    if (random.index(3) > 0) return {"grid", make_grid(width, depth, columns, rows)};
+    return {"free mesh", irregular_sheet(width, 300)};
+}
+
+/// Pins nothing, a corner, or the vertices of one edge of the bounding box.
+std::string pin_some(scenes::BuiltScene& built, Random& random) {
+    const int kind = random.index(3);
+    if (kind == 0) return "free";
+    const std::vector<Vec3>& vertices = built.cloth_meshes[0].vertices;
+    built.simulation.pin(built.cloths[0], 0);
+    if (kind == 1) return "one pin";
+    // The rest mesh before its pose lies in a plane; vertices are told apart by their distance from the first edge's middle.
+    const Vec3 first = vertices[0];
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+        if ((vertices[i] - first).norm() < 0.1) built.simulation.pin(built.cloths[0], static_cast<int>(i));
+    }
+    return "a pinned corner";
+}
+
+std::unique_ptr<ContactDetector> make_detector(scenes::Detector detector) {
+    switch (detector) {
+        case scenes::Detector::bullet:
+            return make_bullet_detector();
+        case scenes::Detector::brute_force:
+            return make_brute_force_detector();
+        default:
+            return make_fcl_detector();
+    }
+}
+
+/// Everything of a scene but where the obstacle is.
+struct Draw {
+    NamedMesh cloth, obstacle;
+    Fabric fabric;
+    StepSettings settings;
+    scenes::Detector detector = scenes::Detector::fcl;
+    ObstacleSpec spec;
+};
+
+scenes::BuiltScene build(const Draw& draw) {
+    scenes::BuiltScene built{.scene = {},
+                             .simulation = Simulation(draw.settings, make_detector(draw.detector)),
+                             .cloths = {},
+                             .cloth_meshes = {draw.cloth.mesh},
+                             .obstacles = {},
+                             .obstacle_meshes = {draw.obstacle.mesh}};
+    built.scene.step = draw.settings;
+    built.scene.detector = draw.detector;
+    built.scene.fabrics["fabric"] = draw.fabric;
+    built.scene.cloths.resize(1);
+    built.scene.cloths[0].name = "cloth";
+    built.scene.cloths[0].fabric = "fabric";
+    built.scene.obstacles = {draw.spec};
+    built.cloths = {built.simulation.add_cloth(draw.cloth.mesh, draw.fabric)};
+    built.obstacles = {built.simulation.add_obstacle(draw.obstacle.mesh, scenes::obstacle_pose_at(draw.spec, 0.0),
+                                                     {.friction = draw.spec.friction, .name = draw.obstacle.name})};
+    built.simulation.prepare();
+    return built;
+}
+
+Draw draw_scene(Random& random, int index) {
+    Draw draw;
+    draw.cloth = random_cloth(random);
+    draw.obstacle = random_obstacle(random);
+    draw.fabric = random_fabric(random);
+    if (draw.cloth.name != "grid") draw.fabric.springs.shear = 0.0;
+    draw.settings.time_step = 1.0 / random.decades(30.0, 240.0);
+    const auto turn = static_cast<std::size_t>(index);
+    draw.detector = random_detectors[turn % random_detectors.size()];
+    draw.settings.contact_response = random_responses[turn / random_detectors.size() % random_responses.size()];
+    draw.settings.measure = StepMeasures::none;
+    draw.cloth.mesh = placed(draw.cloth.mesh, random.pose(0.0));
+    draw.spec.name = draw.obstacle.name;
+    draw.spec.friction = random.index(4) == 0 ? 0.0 : random.number(0.05, 1.0);
+    return draw;
+}
+
+/// The obstacle as near as it may start, at a random place around the cloth.
+scenes::BuiltScene build_clear(Draw& draw, std::string& motion, Random& random) {
+    for (double reach = 0.05;; reach += 0.02) {
+        const Vec3 way = random.unit();
+        draw.spec.pose = {.translation = reach * way, .rotation = random.rotation(), .scale = 1.0};
+        draw.spec.motion.clear();
+        draw.spec.spin.reset();
+        motion = set_random_motion(draw.spec, random);
+        try {
+            return build(draw);
+        } catch (const StartError&) {
+            if (reach > 10.0) throw;
+        }
+    }
+}
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+std::string describe(const Draw& draw, const RandomScene& scene, const std::string& pins) {
+    const std::string_view detector = scenes::word_of(draw.detector);
+    return scene.obstacle + " " + scene.motion + ", " + scene.cloth + " of " + std::to_string(draw.cloth.mesh.vertices.size()) +
+           " vertices, " + pins + ", " + number(draw.fabric.area_density) + " kg/m2, " + number(draw.fabric.springs.structural) +
+           " N/m, thickness " + number(1e3 * draw.fabric.thickness) + " mm, mu " + number(draw.spec.friction) + ", dt 1/" +
+           number(1.0 / draw.settings.time_step) + " s, " + std::string(detector);
+}
+
+bool all_finite(const Simulation& simulation, ClothId cloth) {
+    const auto finite = [](const Vec3& x) { return x.allFinite(); };
+    const auto positions = simulation.positions(cloth), velocities = simulation.velocities(cloth);
+    return std::all_of(positions.begin(), positions.end(), finite) && std::all_of(velocities.begin(), velocities.end(), finite);
+}
+
+}  // namespace
+
+RandomScene make_random_scene(unsigned seed, int index) {
+    Random random(seed + 7919u * static_cast<unsigned>(index));
+    Draw draw = draw_scene(random, index);
+    std::string motion;
+    RandomScene scene{.obstacle = draw.obstacle.name,
+                      .motion = {},
+                      .cloth = draw.cloth.name,
+                      .pinned = false,
+                      .description = {},
+                      .built = build_clear(draw, motion, random)};
+    scene.motion = motion;
+    const std::string pins = pin_some(scene.built, random);
+    scene.pinned = pins != "free";
+    const Vec3 towards = draw.spec.pose.translation.normalized();
+    const double speed = random.number(0.0, 3.0);
+    scene.built.simulation.set_velocities(scene.built.cloths[0],
+                                          std::vector<Vec3>(draw.cloth.mesh.vertices.size(), speed * towards));
+    scene.built.scene.duration = 0.25;
+    scene.built.scene.output.fps = 10.0;
+    scene.description = describe(draw, scene, pins);
+    return scene;
+}
+
+RandomOutcome run_random_scene(RandomScene& scene) {
+    RandomOutcome outcome;
+    scenes::RunHooks hooks;
+    hooks.step = [&](const StepReport& report, const Simulation& simulation) {
+        outcome.last = report.status;
+        outcome.not_finite += all_finite(simulation, scene.built.cloths[0]) ? 0 : 1;
+    };
+    outcome.result = scenes::run_scene(scene.built, hooks, {.certify_steps = true});
+    outcome.crossings = outcome.result.measures.steps->intersections;
+    outcome.deepest = outcome.result.measures.steps->deepest_penetration;
+    return outcome;
+}
+
+}  // namespace percale::test

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "percale/report.h"
+#include "scenes/run_scene.h"
+
+// Scenes drawn at random: cloth, obstacle, motion, time step, each from a seed, so that any one can be made again alone.
+namespace percale::test {
+
+inline constexpr std::array random_detectors = {scenes::Detector::fcl, scenes::Detector::bullet, scenes::Detector::brute_force};
+inline constexpr std::array random_responses = {ContactResponse::penalty};
+
+struct RandomScene {
+    std::string obstacle, motion, cloth;  // their kinds
+    bool pinned = false;
+    std::string description;              // one line with all that was drawn
+    scenes::BuiltScene built;
+};
+
+/// Scene number `index` of a seed. Detectors and responses take turns: they change nothing else of the scene. Body scans among
+/// the obstacles where they are installed. The cloth starts clear of the obstacle.
+RandomScene make_random_scene(unsigned seed, int index);
+
+struct RandomOutcome {
+    scenes::RunResult result;
+    StepStatus last = StepStatus::ok;  // of the last step
+    int not_finite = 0;                // states with a position or velocity that is no number
+    int crossings = 0;                 // intersecting pairs, over all steps
+    double deepest = 0.0;              // m, inside a watertight obstacle, over all steps
+
+    bool good() const { return crossings == 0 && deepest == 0.0 && not_finite == 0 && last != StepStatus::not_finite; }
+    /// The step says that the cloth could not follow; nothing has crossed.
+    bool blocked() const { return good() && result.status == scenes::RunStatus::failed; }
+};
+
+/// Runs it with the exact certificate of every step.
+RandomOutcome run_random_scene(RandomScene& scene);
+
+}  // namespace percale::test

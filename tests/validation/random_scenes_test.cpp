@@ -1,0 +1,34 @@
+#include "tests/support/random_scenes.h"
+
+#include <cstdio>
+
+#include "tests/support/catch.h"
+
+namespace percale::test {
+namespace {
+
+TEST_CASE("Nothing crosses in 200 random scenes, by the exact certificate after every step") {
+    int touched = 0, blocked = 0, blocked_free = 0;
+    long steps = 0;
+    for (int index = 0; index < 200; ++index) {
+        RandomScene scene = make_random_scene(1, index);
+        const RandomOutcome outcome = run_random_scene(scene);
+        CAPTURE(index, scene.description, outcome.result.reason);
+        CHECK(outcome.crossings == 0);
+        CHECK(outcome.deepest == 0.0);
+        CHECK(outcome.not_finite == 0);
+        CHECK(outcome.last != StepStatus::not_finite);
+        touched += outcome.result.totals.contacts_most > 0 ? 1 : 0;
+        blocked += outcome.blocked() ? 1 : 0;
+        blocked_free += outcome.blocked() && !scene.pinned ? 1 : 0;
+        steps += outcome.result.totals.steps;
+    }
+    std::printf("200 random scenes: %ld steps, %d with contact, %d blocked\n", steps, touched, blocked);
+    CHECK(touched > 100);
+    // Where an obstacle runs over a pin nothing can be done; cloth that nothing holds gets away.
+    CHECK(blocked_free == 0);
+    CHECK(blocked < 30);
+}
+
+}  // namespace
+}  // namespace percale::test
