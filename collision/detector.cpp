@@ -1,22 +1,29 @@
 #include "detector.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <optional>
 
 #include "candidate_lists.h"
+#include "pack_measure.h"
 #include "percale/certify.h"
 
 namespace percale {
 namespace {
 
+constexpr double most_floor = 0.2;  // of the thickness
+
 /// The distance a cut leaves of a distance d, m: a fifth of the thickness h for d above 0.4 h, half of d below, but never less
 /// than h/1000 unless d itself is there. Without a floor distances collapse to rounding, where directions are lost; a fixed floor
 /// would lock vertices.
 double floor_below(double d, double h) {
-    if (d > 0.4 * h) return 0.2 * h;
+    if (d > 2.0 * most_floor * h) return most_floor * h;
     return d > 1e-3 * h ? std::max(0.5 * d, 1e-3 * h) : 0.999 * d;
 }
+
+/// Pairs farther apart than this keep their floor if they come closer by no more than `way`.
+double within(double way, double h) { return way > most_floor * h ? way + most_floor * h : std::max(2.0 * way, way + 1e-3 * h); }
 
 StartFault start_fault(int obstacle, const Certificate& certificate) {
     StartFault fault{.obstacle = obstacle,
@@ -62,7 +69,9 @@ public:
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
         for (ClusterList& list : lists_->lists()) {
-            for (ContactPair& pair : list.pairs) pair.held = false;
+            if (!list.holds) continue;
+            for (ListedPack& pack : list.packs) pack.held = 0;
+            list.holds = false;
         }
         lists_->cover({.from = start, .to = predicted, .part = {0.0, 1.0}}, obstacles_);
     }
@@ -73,7 +82,8 @@ public:
         rows.clear();
         smallest_distance_ = std::numeric_limits<double>::infinity();
         for (ClusterList& list : lists_->lists()) {
-            if (list.least_reach - list.travel < list.thickness) evaluate_cluster(positions, fraction, list, rows);
+            const bool near = list.least_reach - list.travel < list.thickness;
+            if (near && (list.holds || list.least_row_reach <= list.travel)) evaluate_cluster(positions, fraction, list, rows);
         }
     }
 
@@ -85,13 +95,8 @@ public:
         for (const auto& obstacle : obstacles_) obstacle_way = std::max(obstacle_way, obstacle->longest_way());
         obstacle_way *= part.to - part.from;
         double safe = covered;
-        const std::span<const ClothCluster> clusters = lists_->clusters();
-        for (std::size_t i = 0; i < clusters.size(); ++i) {
-            ClusterList& list = lists_->lists()[i];
-            if (list.pairs.empty()) continue;
-            double way = 0.0;
-            for (const int vertex : clusters[i].all_vertices) way = std::max(way, (to[vertex] - from[vertex]).norm());
-            safe = cut_cluster(move, way + obstacle_way, list, safe);
+        for (ClusterList& list : lists_->lists()) {
+            if (!list.features.empty()) safe = cut_cluster(move, obstacle_way, list, safe);
         }
         return safe;
     }
@@ -100,20 +105,50 @@ public:
 
 private:
     void evaluate_cluster(std::span<const Vec3> positions, double fraction, ClusterList& list, ContactRows& rows) {
-        list.least_reach = std::numeric_limits<double>::infinity();
-        for (ContactPair& pair : list.pairs) {
-            const double thickness = thickness_[pair.cloth[0]];
-            if (pair.reach - list.travel < thickness) {
-                const PairContact contact = pair_contact(pair, positions, *obstacles_[pair.obstacle], fraction);
-                pair.reach = contact.distance + list.travel;
-                smallest_distance_ = std::min(smallest_distance_, contact.distance);
-                // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
-                // that the force is continuous where closest points pass from one feature to the next.
-                pair.held = pair.held || (contact.distance < thickness && contact.local_minimum);
-                if (pair.held && contact.distance < thickness) add_row(pair, contact, thickness, rows);
+        list.least_reach = list.least_row_reach = std::numeric_limits<double>::infinity();
+        for (const ListedFeature& feature : list.features) {
+            const double thickness = thickness_[feature.pair.cloth[0]];
+            for (int i = feature.first; i < feature.first + feature.count; ++i) {
+                ListedPack& listed = list.packs[i];
+                const bool may_have_rows = listed.held != 0 || listed.row_reach <= list.travel;
+                if (may_have_rows && listed.reach - list.travel < thickness) {
+                    evaluate_pack({positions, positions, {fraction, fraction}}, feature, list, listed, rows);
+                }
+                list.least_reach = std::min(list.least_reach, listed.reach);
+                list.least_row_reach = std::min(list.least_row_reach, listed.row_reach);
             }
-            list.least_reach = std::min(list.least_reach, pair.reach);
         }
+    }
+
+    PackAnswer measure_pack(const ClothMove& move, const ListedFeature& feature, double near, const ClusterList& list,
+                            ListedPack& listed) {
+        Obstacle& obstacle = *obstacles_[feature.pair.obstacle];
+        const PackAnswer answer =
+            measure(feature.pair, move.from, obstacle.packs().packs[listed.pack], obstacle.placed(listed.pack, move.part.from),
+                    {.near = near, .thickness = thickness_[feature.pair.cloth[0]]});
+        listed.reach = static_cast<double>(answer.least) + list.travel;
+        listed.row_reach = static_cast<double>(answer.least_row) + list.travel;
+        return answer;
+    }
+
+    void evaluate_pack(const ClothMove& here, const ListedFeature& feature, ClusterList& list, ListedPack& listed,
+                       ContactRows& rows) {
+        const double thickness = thickness_[feature.pair.cloth[0]];
+        const PackAnswer answer = measure_pack(here, feature, thickness, list, listed);
+        const Obstacle& obstacle = *obstacles_[feature.pair.obstacle];
+        const FeaturePack& pack = obstacle.packs().packs[listed.pack];
+        for (unsigned lanes = answer.row | (listed.held & answer.near); lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            const ContactPair pair = feature.with(pack, lane);
+            const PairContact contact = pair_contact(pair, here.from, obstacle, here.part.from);
+            smallest_distance_ = std::min(smallest_distance_, contact.distance);
+            if (contact.distance >= thickness) continue;
+            // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
+            // that the force is continuous where closest points pass from one feature to the next.
+            if (contact.local_minimum) listed.held = static_cast<unsigned char>(listed.held | 1U << lane);
+            if ((listed.held >> lane & 1U) != 0) add_row(pair, contact, thickness, rows);
+        }
+        list.holds = list.holds || listed.held != 0;
     }
 
     void add_row(const ContactPair& pair, const PairContact& contact, double thickness, ContactRows& rows) const {
@@ -129,20 +164,44 @@ private:
         rows.feature.push_back(pair.feature);
     }
 
-    /// `way`: how much any distance of the cluster can shrink during the whole move. Lowers `safe` where a pair needs it.
-    double cut_cluster(const ClothMove& move, double way, ClusterList& list, double safe) {
-        const auto far = [&](double distance, double thickness) {
-            return distance - floor_below(distance, thickness) > way * safe;
-        };
-        if (far(list.least_reach - list.travel, list.thickness)) return safe;
-        for (ContactPair& pair : list.pairs) {
-            const double thickness = thickness_[pair.cloth[0]];
-            if (far(pair.reach - list.travel, thickness)) continue;
-            const Obstacle& obstacle = *obstacles_[pair.obstacle];
-            const double distance = pair_distance(pair, move.from, obstacle, move.part.from);
-            pair.reach = distance + list.travel;
-            if (far(distance, thickness)) continue;
-            safe = safe_time(moving_pair(pair, move, obstacle), shape_of(pair.kind), floor_below(distance, thickness), safe);
+    /// Lowers `safe` where a pair of the cluster needs it. `obstacle_way`: how far obstacles go during the whole move.
+    double cut_cluster(const ClothMove& move, double obstacle_way, ClusterList& list, double safe) {
+        const std::span<const double> ways = lists_->ways();
+        for (const ListedFeature& feature : list.features) {
+            Box room;
+            double way = 0.0;
+            for (int k = 0; k < feature.pair.cloth_count(); ++k) {
+                const int vertex = feature.pair.cloth[k];
+                room.add(move.from[vertex]);
+                room.add(move.to[vertex]);
+                way = std::max(way, ways[vertex]);
+            }
+            const double thickness = thickness_[feature.pair.cloth[0]];
+            room.grow(most_floor * thickness);
+            for (int i = feature.first; i < feature.first + feature.count; ++i) {
+                ListedPack& listed = list.packs[i];
+                const double near = within((way + obstacle_way) * safe, thickness);
+                if (listed.reach - list.travel >= near) continue;
+                const FeaturePack& pack = obstacles_[feature.pair.obstacle]->packs().packs[listed.pack];
+                if (pack.box.overlaps(room)) safe = cut_pack(move, feature, near, list, listed, safe);
+            }
+        }
+        return safe;
+    }
+
+    double cut_pack(const ClothMove& move, const ListedFeature& feature, double near, const ClusterList& list, ListedPack& listed,
+                    double safe) {
+        const PackAnswer answer = measure_pack(move, feature, near, list, listed);
+        const Obstacle& obstacle = *obstacles_[feature.pair.obstacle];
+        for (unsigned lanes = answer.near; lanes != 0; lanes &= lanes - 1) {
+            const ContactPair pair = feature.with(obstacle.packs().packs[listed.pack], std::countr_zero(lanes));
+            const Vec3 apart = pair_apart(pair, move.from, obstacle, move.part.from);
+            const double distance = apart.norm(), floor = floor_below(distance, thickness_[pair.cloth[0]]);
+            const MovingFour four = moving_pair(pair, move, obstacle);
+            // Convex features that a plane parts at both ends of a straight move are parted by it throughout.
+            const double kept = floor + 0.1 * (distance - floor);
+            if (distance > 0.0 && gap_along(four, cloth_slots(pair.kind), apart / distance, safe) >= kept) continue;
+            safe = safe_time(four, shape_of(pair.kind), floor, safe);
         }
         return safe;
     }

@@ -26,6 +26,8 @@ Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, 
         for (const int vertex : t) box.add(surface_.vertices[vertex]);
     }
     world_boxes_ = boxes_;
+    packs_ = make_packs(surface_);
+    set_boxes(packs_, surface_, paths());
     tree_ = make_tree(surface_.vertices, surface_.triangles);
 }
 
@@ -54,6 +56,7 @@ void Obstacle::move(const Pose& start, const Pose& end) {
         longest_way_ = std::max(longest_way_, (end_[i] - start_[i]).norm());
     }
     set_world_boxes();
+    set_boxes(packs_, surface_, paths());
 }
 
 Box Obstacle::to_tree(const Box& box) const {
