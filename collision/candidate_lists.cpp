@@ -4,13 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "pack_measure.h"
+
 namespace percale {
 namespace {
 
 constexpr double skin_share = 0.4;    // of the thickness: room around a vertex before its lists are built anew
 constexpr double least_share = 1e-4;  // of a move: below it lists are built however many packs they hold
 constexpr double skin_of_way = 0.2;   // of the move the list is built for
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr float infinity = std::numeric_limits<float>::infinity();
 
 double skin(double thickness, double way) { return skin_share * thickness + skin_of_way * way; }
 
@@ -33,26 +35,27 @@ CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<co
     : triangles_(triangles.begin(), triangles.end()),
       thickness_(vertex_thickness.begin(), vertex_thickness.end()),
       clusters_(make_clusters(triangles, positions)),
+      vertex_start_(1, 0),
       lists_(clusters_.clusters.size()),
       seen_(positions.begin(), positions.end()),
       way_(positions.size(), 0.0),
+      cluster_way_(clusters_.clusters.size(), 0.0),
       moved_(positions.size(), 0.0),
       vertex_boxes_(positions.size()) {
     for (std::size_t i = 0; i < lists_.size(); ++i) {
-        for (const int vertex : clusters_.clusters[i].all_vertices) {
-            lists_[i].thickness = std::max(lists_[i].thickness, thickness_[vertex]);
-        }
+        const std::vector<int>& all = clusters_.clusters[i].all_vertices;
+        vertices_.insert(vertices_.end(), all.begin(), all.end());
+        vertex_start_.push_back(static_cast<int>(vertices_.size()));
+        for (const int vertex : all) lists_[i].thickness = std::max(lists_[i].thickness, thickness_[vertex]);
     }
 }
 
 bool CandidateLists::covers(std::size_t cluster, const ClothMove& move, int version) {
     ClusterList& list = lists_[cluster];
     if (list.version != version) return false;
-    const std::vector<int>& vertices = clusters_.clusters[cluster].all_vertices;
-    double way = 0.0;
-    for (const int vertex : vertices) way = std::max(way, way_[vertex]);
-    if (list.travel + way <= list.inside_until) return true;
-    double room = infinity, room_at_end = infinity;
+    const std::span<const int> vertices = vertices_of(cluster);
+    if (list.travel + cluster_way_[cluster] <= list.inside_until) return true;
+    double room = list.thickness, room_at_end = room;
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         room = std::min(room, depth(list.boxes[k], move.from[vertices[k]]));
         room_at_end = std::min(room_at_end, depth(list.boxes[k], move.to[vertices[k]]));
@@ -65,7 +68,7 @@ Box CandidateLists::set_boxes(std::size_t cluster, const ClothMove& move) {
     ClusterList& list = lists_[cluster];
     list.boxes.clear();
     Box whole;
-    for (const int vertex : clusters_.clusters[cluster].all_vertices) {
+    for (const int vertex : vertices_of(cluster)) {
         Box& box = list.boxes.emplace_back();
         box.add(move.from[vertex]);
         box.add(move.to[vertex]);
@@ -97,19 +100,25 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
     room.grow(list.thickness);
     const ObstaclePacks& packs = obstacle.packs();
     ListedFeature feature{.pair = pair, .first = static_cast<int>(list.packs.size()), .count = 0};
+    FeatureBounds bounds{.reach = infinity, .quiet_until = infinity};
     for (const int patch : near_patches_) {
         if (!packs.box[patch].overlaps(room)) continue;
         for (int number = packs.first[patch]; number < packs.first[patch + 1]; ++number) {
             const FeaturePack& pack = packs.packs[number];
             if (pack.kind != pair.kind || !pack.box.overlaps(room)) continue;
-            const double reach = list.travel + gap(pack.box, now);
-            list.packs.push_back({.reach = reach, .row_reach = reach - list.thickness, .pack = number, .held = 0});
-            list.least_reach = std::min(list.least_reach, reach);
+            const float reach = below(gap(pack.box, now)), row_reach = below(gap(pack.box, now) - list.thickness);
+            list.packs.push_back({.reach = reach, .row_reach = row_reach, .pack = static_cast<unsigned>(number), .held = 0});
+            bounds.reach = std::min(bounds.reach, reach);
+            bounds.quiet_until = std::min(bounds.quiet_until, row_reach);
         }
     }
     feature.count = static_cast<int>(list.packs.size()) - feature.first;
-    if (feature.count > 0) list.features.push_back(feature);
     listed_ += feature.count;
+    if (feature.count == 0) return;
+    list.features.push_back(feature);
+    list.bounds.push_back(bounds);
+    list.least_reach = std::min(list.least_reach, static_cast<double>(bounds.reach));
+    list.quiet_until = std::min(list.quiet_until, static_cast<double>(bounds.quiet_until));
 }
 
 void CandidateLists::add_features(std::size_t cluster, int obstacle_number, std::span<const int> near, const ClothMove& move,
@@ -136,18 +145,49 @@ void CandidateLists::add_features(std::size_t cluster, int obstacle_number, std:
                    .obstacle = obstacle_number},
                   move, obstacle, list);
     }
-    list.least_row_reach = list.least_reach - list.thickness;
 }
 
 void CandidateLists::set_ways(const ClothMove& move) {
-    const bool stays = move.from.data() == move.to.data();
-    for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = stays ? 0.0 : (move.to[i] - move.from[i]).norm();
+    std::fill(cluster_way_.begin(), cluster_way_.end(), 0.0);
+    if (move.from.data() == move.to.data()) {
+        std::fill(way_.begin(), way_.end(), 0.0);
+        return;
+    }
+    for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = (move.to[i] - move.from[i]).norm();
+    for (std::size_t i = 0; i < lists_.size(); ++i) {
+        for (const int vertex : vertices_of(i)) cluster_way_[i] = std::max(cluster_way_[i], way_[vertex]);
+    }
+}
+
+/// Whether all cloth stays away from all obstacles' boxes. One look at the distance allows for that much way, so that cloth far
+/// away costs one pass over its vertices.
+bool CandidateLists::is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version) {
+    const auto stays = [&] {
+        const auto count = 3 * static_cast<long>(anchor_.size());
+        const auto way = [&](std::span<const Vec3> x) {
+            return std::sqrt(3.0) * pack_kernels().largest_difference(x[0].data(), anchor_[0].data(), count);
+        };
+        return way(move.from) < room_ && (move.to.data() == move.from.data() || way(move.to) < room_);
+    };
+    if (way_.empty()) return true;
+    if (!empty_) return false;
+    if (room_version_ == version && room_ > 0.0 && stays()) return true;
+    if (move.to.data() == move.from.data()) return false;
+    Box cloth;
+    for (const Vec3& x : move.from) cloth.add(x);
+    room_ = 1e300;
+    for (const auto& obstacle : obstacles) room_ = std::min(room_, gap(cloth, obstacle->whole_box()));
+    room_ -= *std::max_element(thickness_.begin(), thickness_.end());
+    room_version_ = version;
+    anchor_.assign(move.from.begin(), move.from.end());
+    return room_ > 0.0 && stays();
 }
 
 double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
+    const int version = total_version(obstacles);
+    if (is_out_of_reach(move, obstacles, version)) return 1.0;
     advance(move.from, move.part.from, obstacles);
     set_ways(move);
-    const int version = total_version(obstacles);
     dirty_.clear();
     held_.clear();
     for (std::size_t i = 0; i < lists_.size(); ++i) {
@@ -168,6 +208,7 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) 
     }
     if (share < 1.0) set_ways(move);
     mark_held(obstacles);
+    empty_ = std::all_of(lists_.begin(), lists_.end(), [](const ClusterList& list) { return list.features.empty(); });
     return share;
 }
 
@@ -178,9 +219,11 @@ bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, 
     asked_.clear();
     for (const std::size_t i : dirty_) {
         lists_[i].features.clear();
+        lists_[i].bounds.clear();
         lists_[i].packs.clear();
         lists_[i].holds = false;
-        lists_[i].least_reach = lists_[i].least_row_reach = infinity;
+        lists_[i].travel = 0.0;
+        lists_[i].least_reach = lists_[i].quiet_until = infinity;
         asked_.push_back(set_boxes(i, move));
     }
     for (std::size_t number = 0; number < obstacles.size(); ++number) {
@@ -213,13 +256,16 @@ void CandidateLists::mark_held(const Obstacles& obstacles) {
     for (const auto& [cluster, held] : held_) {
         ClusterList& list = lists_[cluster];
         const int place = obstacles[held.obstacle]->packs().place_of[static_cast<int>(held.kind)][held.feature];
-        for (const ListedFeature& feature : list.features) {
+        for (std::size_t f = 0; f < list.features.size(); ++f) {
+            const ListedFeature& feature = list.features[f];
             const ContactPair& pair = feature.pair;
             if (pair.kind != held.kind || pair.cloth != held.cloth || pair.obstacle != held.obstacle) continue;
             for (int i = feature.first; i < feature.first + feature.count; ++i) {
-                if (list.packs[i].pack != place / pack_lanes) continue;
-                list.packs[i].held = static_cast<unsigned char>(list.packs[i].held | 1U << (place % pack_lanes));
+                if (static_cast<int>(list.packs[i].pack) != place / pack_lanes) continue;
+                list.packs[i].held |= 1U << (place % pack_lanes) & 0xffU;
                 list.holds = true;
+                list.features[f].others.quiet_until = list.bounds[f].quiet_until = -infinity;
+                list.quiet_until = -infinity;
             }
         }
     }
@@ -238,7 +284,7 @@ void CandidateLists::advance(std::span<const Vec3> positions, double fraction, c
     if (most == 0.0 && way == 0.0) return;
     for (std::size_t i = 0; i < lists_.size(); ++i) {
         double square = 0.0;
-        for (const int vertex : clusters_.clusters[i].all_vertices) square = std::max(square, moved_[vertex]);
+        for (const int vertex : vertices_of(i)) square = std::max(square, moved_[vertex]);
         lists_[i].travel += std::sqrt(square) + way;
     }
     std::copy(positions.begin(), positions.end(), seen_.begin());

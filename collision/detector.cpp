@@ -12,6 +12,7 @@
 namespace percale {
 namespace {
 
+constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double most_floor = 0.2;  // of the thickness
 
 /// The distance a cut leaves of a distance d, m: a fifth of the thickness h for d above 0.4 h, half of d below, but never less
@@ -24,6 +25,31 @@ double floor_below(double d, double h) {
 
 /// Pairs farther apart than this keep their floor if they come closer by no more than `way`.
 double within(double way, double h) { return way > most_floor * h ? way + most_floor * h : std::max(2.0 * way, way + 1e-3 * h); }
+
+constexpr int most_marked = 64;  // packs of a feature that have a bit each
+
+/// Asks memory for a vector that is about to be read.
+template <class T>
+void fetch(const T* first, std::size_t count) {
+    const char* from = reinterpret_cast<const char*>(first);
+    for (std::size_t byte = 0; byte < count * sizeof(T); byte += 64) __builtin_prefetch(from + byte);
+}
+
+void fetch(const ClusterList& list) {
+    fetch(list.bounds.data(), list.bounds.size());
+    fetch(list.features.data(), list.features.size());
+}
+
+/// How far a cloth feature is above a plane, m: a bound of its distance from all that is below.
+inline double height_above(const PackPlane& plane, const ContactPair& pair, std::span<const Vec3> cloth) {
+    double least = plane.normal.dot(cloth[pair.cloth[0]]);
+    for (int k = 1; k < pair.cloth_count(); ++k) least = std::min(least, plane.normal.dot(cloth[pair.cloth[k]]));
+    return least - plane.offset;
+}
+
+bool stays_above(const PackPlane& plane, const ContactPair& pair, const ClothMove& move, double height) {
+    return height_above(plane, pair, move.from) > height && height_above(plane, pair, move.to) > height;
+}
 
 StartFault start_fault(int obstacle, const Certificate& certificate) {
     StartFault fault{.obstacle = obstacle,
@@ -68,7 +94,7 @@ public:
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
-        for (ClusterList& list : lists_->lists()) {
+        for (ClusterList& list : lists_->empty() ? std::span<ClusterList>() : lists_->lists()) {
             if (!list.holds) continue;
             for (ListedPack& pack : list.packs) pack.held = 0;
             list.holds = false;
@@ -81,9 +107,14 @@ public:
         lists_->cover({.from = positions, .to = positions, .part = {fraction, fraction}}, obstacles_);
         rows.clear();
         smallest_distance_ = std::numeric_limits<double>::infinity();
+        near_clusters_.clear();
+        if (lists_->empty()) return;
         for (ClusterList& list : lists_->lists()) {
-            const bool near = list.least_reach - list.travel < list.thickness;
-            if (near && (list.holds || list.least_row_reach <= list.travel)) evaluate_cluster(positions, fraction, list, rows);
+            if (list.quiet_until <= list.travel) near_clusters_.push_back(&list);
+        }
+        for (std::size_t i = 0; i < near_clusters_.size(); ++i) {
+            if (i + 2 < near_clusters_.size()) fetch(*near_clusters_[i + 2]);
+            evaluate_cluster(positions, fraction, *near_clusters_[i], rows);
         }
     }
 
@@ -91,13 +122,12 @@ public:
         if (!lists_) lists_.emplace(triangles_, thickness_, from);
         const ClothMove move{.from = from, .to = to, .part = part};
         const double covered = lists_->cover(move, obstacles_);
+        if (lists_->empty()) return covered;
         double obstacle_way = 0.0;
         for (const auto& obstacle : obstacles_) obstacle_way = std::max(obstacle_way, obstacle->longest_way());
         obstacle_way *= part.to - part.from;
         double safe = covered;
-        for (ClusterList& list : lists_->lists()) {
-            if (!list.features.empty()) safe = cut_cluster(move, obstacle_way, list, safe);
-        }
+        for (std::size_t i = 0; i < lists_->lists().size(); ++i) safe = cut_cluster(move, obstacle_way, i, safe);
         return safe;
     }
 
@@ -105,29 +135,109 @@ public:
 
 private:
     void evaluate_cluster(std::span<const Vec3> positions, double fraction, ClusterList& list, ContactRows& rows) {
-        list.least_reach = list.least_row_reach = std::numeric_limits<double>::infinity();
-        for (const ListedFeature& feature : list.features) {
-            const double thickness = thickness_[feature.pair.cloth[0]];
-            for (int i = feature.first; i < feature.first + feature.count; ++i) {
-                ListedPack& listed = list.packs[i];
-                const bool may_have_rows = listed.held != 0 || listed.row_reach <= list.travel;
-                if (may_have_rows && listed.reach - list.travel < thickness) {
-                    evaluate_pack({positions, positions, {fraction, fraction}}, feature, list, listed, rows);
-                }
-                list.least_reach = std::min(list.least_reach, listed.reach);
-                list.least_row_reach = std::min(list.least_row_reach, listed.row_reach);
+        select_packs(positions, list);
+        for (const auto& [feature, pack] : selected_) {
+            evaluate_pack({positions, positions, {fraction, fraction}}, list.features[feature], list, list.packs[pack], rows);
+        }
+        for (const int f : active_) list.bounds[f] = least_bounds(list.features[f], list);
+        list.least_reach = list.quiet_until = infinity;
+        for (const FeatureBounds& bounds : list.bounds) {
+            list.least_reach = std::min(list.least_reach, static_cast<double>(bounds.reach));
+            list.quiet_until = std::min(list.quiet_until, static_cast<double>(bounds.quiet_until));
+        }
+    }
+
+    float float_thickness(const ListedFeature& feature) const { return static_cast<float>(thickness_[feature.pair.cloth[0]]); }
+
+    FeatureBounds least_bounds(const ListedFeature& feature, const ClusterList& list) const {
+        FeatureBounds least = feature.others;
+        const float thickness = float_thickness(feature);
+        for_busy(feature, [&](int i) {
+            least.reach = std::min(least.reach, list.packs[i].reach);
+            least.quiet_until = std::min(least.quiet_until, list.packs[i].quiet_until(thickness));
+        });
+        return least;
+    }
+
+    /// Finds the packs of a cluster that have to be measured, and asks memory for them.
+    void select_packs(std::span<const Vec3> positions, ClusterList& list) {
+        active_.clear();
+        selected_.clear();
+        for (std::size_t f = 0; f < list.features.size(); ++f) {
+            if (static_cast<double>(list.bounds[f].quiet_until) > list.travel) continue;
+            active_.push_back(static_cast<int>(f));
+            const ListedFeature& feature = list.features[f];
+            fetch(list.packs.data() + feature.first, static_cast<std::size_t>(feature.count));
+        }
+        candidates_.clear();
+        for (const int f : active_) {
+            ListedFeature& feature = list.features[f];
+            if (static_cast<double>(feature.others.quiet_until) <= list.travel) find_busy(positions, feature, list);
+            const PackPlane* planes = obstacles_[feature.pair.obstacle]->packs().planes.data();
+            for_busy(feature, [&](int i) {
+                if (static_cast<double>(list.packs[i].quiet_until(float_thickness(feature))) > list.travel) return;
+                __builtin_prefetch(planes + list.packs[i].pack);
+                candidates_.emplace_back(f, i);
+            });
+        }
+        for (const auto& [f, i] : candidates_) select_pack(positions, f, i, list);
+    }
+
+    /// Most packs whose bounds are used up are told to be far by their planes.
+    bool raise_bounds(std::span<const Vec3> positions, const ListedFeature& feature, double travel, ListedPack& listed) const {
+        const double thickness = thickness_[feature.pair.cloth[0]];
+        const PackPlane& plane = obstacles_[feature.pair.obstacle]->packs().planes[listed.pack];
+        const double height = height_above(plane, feature.pair, positions);
+        if (height < thickness) return false;
+        listed.reach = std::max(listed.reach, below(height + travel));
+        listed.row_reach = std::max(listed.row_reach, below(height - thickness + travel));
+        return true;
+    }
+
+    void select_pack(std::span<const Vec3> positions, int f, int i, ClusterList& list) {
+        const ListedFeature& feature = list.features[f];
+        ListedPack& listed = list.packs[i];
+        if (raise_bounds(positions, feature, list.travel, listed)) return;
+        const ObstaclePacks& packs = obstacles_[feature.pair.obstacle]->packs();
+        packs.placed[listed.pack].prefetch(feature.pair.kind);
+        __builtin_prefetch(&packs.packs[listed.pack].feature);
+        selected_.emplace_back(f, i);
+    }
+
+    /// Marks the packs that a tenth of the thickness more of travel would wake.
+    void find_busy(std::span<const Vec3> positions, ListedFeature& feature, ClusterList& list) const {
+        const float thickness = float_thickness(feature);
+        const double soon = list.travel + 0.1 * static_cast<double>(thickness);
+        feature.busy = 0;
+        feature.others = {.reach = infinity, .quiet_until = infinity};
+        const PackPlane* planes = obstacles_[feature.pair.obstacle]->packs().planes.data();
+        for (int i = 0; i < feature.count; ++i) __builtin_prefetch(planes + list.packs[feature.first + i].pack);
+        for (int i = 0; i < std::min(feature.count, most_marked); ++i) {
+            ListedPack& listed = list.packs[feature.first + i];
+            if (static_cast<double>(listed.quiet_until(thickness)) < soon) raise_bounds(positions, feature, list.travel, listed);
+            if (static_cast<double>(listed.quiet_until(thickness)) < soon) {
+                feature.busy |= 1UL << i;
+            } else {
+                feature.others.reach = std::min(feature.others.reach, listed.reach);
+                feature.others.quiet_until = std::min(feature.others.quiet_until, listed.quiet_until(thickness));
             }
         }
     }
 
+    /// Calls with the index of every pack that is marked or has no mark.
+    template <class Action>
+    static void for_busy(const ListedFeature& feature, const Action& action) {
+        for (unsigned long busy = feature.busy; busy != 0; busy &= busy - 1) action(feature.first + std::countr_zero(busy));
+        for (int i = most_marked; i < feature.count; ++i) action(feature.first + i);
+    }
+
     PackAnswer measure_pack(const ClothMove& move, const ListedFeature& feature, double near, const ClusterList& list,
                             ListedPack& listed) {
-        Obstacle& obstacle = *obstacles_[feature.pair.obstacle];
+        const PlacedPack& placed = obstacles_[feature.pair.obstacle]->placed(static_cast<int>(listed.pack), move.part.from);
         const PackAnswer answer =
-            measure(feature.pair, move.from, obstacle.packs().packs[listed.pack], obstacle.placed(listed.pack, move.part.from),
-                    {.near = near, .thickness = thickness_[feature.pair.cloth[0]]});
-        listed.reach = static_cast<double>(answer.least) + list.travel;
-        listed.row_reach = static_cast<double>(answer.least_row) + list.travel;
+            measure(feature.pair, move.from, placed, {.near = near, .thickness = thickness_[feature.pair.cloth[0]]});
+        listed.reach = std::max(listed.reach, below(static_cast<double>(answer.least) + list.travel));
+        listed.row_reach = std::max(listed.row_reach, below(static_cast<double>(answer.least_row) + list.travel));
         return answer;
     }
 
@@ -145,7 +255,7 @@ private:
             if (contact.distance >= thickness) continue;
             // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
             // that the force is continuous where closest points pass from one feature to the next.
-            if (contact.local_minimum) listed.held = static_cast<unsigned char>(listed.held | 1U << lane);
+            if (contact.local_minimum) listed.held |= 1U << lane & 0xffU;
             if ((listed.held >> lane & 1U) != 0) add_row(pair, contact, thickness, rows);
         }
         list.holds = list.holds || listed.held != 0;
@@ -165,27 +275,46 @@ private:
     }
 
     /// Lowers `safe` where a pair of the cluster needs it. `obstacle_way`: how far obstacles go during the whole move.
-    double cut_cluster(const ClothMove& move, double obstacle_way, ClusterList& list, double safe) {
-        const std::span<const double> ways = lists_->ways();
-        for (const ListedFeature& feature : list.features) {
-            Box room;
+    double cut_cluster(const ClothMove& move, double obstacle_way, std::size_t cluster, double safe) {
+        ClusterList& list = lists_->lists()[cluster];
+        const auto farther = [&](double reach, double way, double thickness) {
+            return reach - list.travel >= within((way + obstacle_way) * safe, thickness);
+        };
+        if (farther(list.least_reach, lists_->cluster_way(cluster), list.thickness)) return safe;
+        list.least_reach = infinity;
+        for (std::size_t f = 0; f < list.features.size(); ++f) {
+            const ListedFeature& feature = list.features[f];
             double way = 0.0;
-            for (int k = 0; k < feature.pair.cloth_count(); ++k) {
-                const int vertex = feature.pair.cloth[k];
-                room.add(move.from[vertex]);
-                room.add(move.to[vertex]);
-                way = std::max(way, ways[vertex]);
+            for (int k = 0; k < feature.pair.cloth_count(); ++k) way = std::max(way, lists_->ways()[feature.pair.cloth[k]]);
+            if (!farther(static_cast<double>(list.bounds[f].reach), way, thickness_[feature.pair.cloth[0]])) {
+                safe = cut_feature(move, way + obstacle_way, f, list, safe);
             }
-            const double thickness = thickness_[feature.pair.cloth[0]];
-            room.grow(most_floor * thickness);
-            for (int i = feature.first; i < feature.first + feature.count; ++i) {
-                ListedPack& listed = list.packs[i];
-                const double near = within((way + obstacle_way) * safe, thickness);
-                if (listed.reach - list.travel >= near) continue;
-                const FeaturePack& pack = obstacles_[feature.pair.obstacle]->packs().packs[listed.pack];
-                if (pack.box.overlaps(room)) safe = cut_pack(move, feature, near, list, listed, safe);
-            }
+            list.least_reach = std::min(list.least_reach, static_cast<double>(list.bounds[f].reach));
         }
+        return safe;
+    }
+
+    double cut_feature(const ClothMove& move, double way, std::size_t f, ClusterList& list, double safe) {
+        const ListedFeature& feature = list.features[f];
+        const double thickness = thickness_[feature.pair.cloth[0]];
+        Box room;
+        for (int k = 0; k < feature.pair.cloth_count(); ++k) {
+            room.add(move.from[feature.pair.cloth[k]]);
+            room.add(move.to[feature.pair.cloth[k]]);
+        }
+        room.grow(most_floor * thickness);
+        const ObstaclePacks& packs = obstacles_[feature.pair.obstacle]->packs();
+        float least = infinity;
+        for (int i = feature.first; i < feature.first + feature.count; ++i) {
+            ListedPack& listed = list.packs[i];
+            const double near = within(way * safe, thickness);
+            const bool may_cross = static_cast<double>(listed.reach) - list.travel < near &&
+                                   !stays_above(packs.planes[listed.pack], feature.pair, move, most_floor * thickness) &&
+                                   packs.packs[listed.pack].box.overlaps(room);
+            if (may_cross) safe = cut_pack(move, feature, near, list, listed, safe);
+            least = std::min(least, listed.reach);
+        }
+        list.bounds[f].reach = least;
         return safe;
     }
 
@@ -211,6 +340,9 @@ private:
     std::vector<double> thickness_;
     Obstacles obstacles_;
     std::optional<CandidateLists> lists_;
+    std::vector<ClusterList*> near_clusters_;
+    std::vector<int> active_;                                 // features of a cluster whose bounds are used up
+    std::vector<std::pair<int, int>> candidates_, selected_;  // features and packs of a cluster to be measured
     double smallest_distance_ = std::numeric_limits<double>::infinity();
 };
 

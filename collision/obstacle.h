@@ -33,6 +33,8 @@ public:
     const Box& box(int triangle) const { return world_boxes_[triangle]; }
 
     const ObstaclePacks& packs() const { return packs_; }
+    /// Box of everything during the whole step, m, world.
+    const Box& whole_box() const { return whole_box_; }
     /// A pack at a fraction of the step; placed when first asked for.
     const PlacedPack& placed(int pack, double fraction) { return place(packs_, pack, surface_, paths(), fraction); }
 
@@ -44,6 +46,7 @@ public:
 private:
     Box to_tree(const Box& box) const;
     void set_world_boxes();
+    void set_pack_boxes();
     VertexPaths paths() const { return {start_, moves_ ? end_ : start_}; }
 
     TriangleMesh mesh_;
@@ -52,6 +55,7 @@ private:
     std::vector<Vec3> start_, end_;  // m, world
     std::vector<Box> world_boxes_;   // of the triangles during the step
     ObstaclePacks packs_;
+    Box whole_box_;
     std::vector<Box> boxes_;  // of the triangles where the tree was built
     std::unique_ptr<ObstacleTree> tree_;
     Pose built_, start_pose_, end_pose_;

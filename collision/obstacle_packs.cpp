@@ -10,6 +10,7 @@ namespace percale {
 namespace {
 
 constexpr std::size_t triangles_per_patch = 16;
+constexpr float rounded_up = 1.000001F;  // more than a number loses on its way to single precision
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class PackMaker {
@@ -119,12 +120,6 @@ Cone cone_at(const ObstacleSurface& surface, int vertex, const VertexPaths& path
     return cone.cosine > widest ? cone : Cone{};
 }
 
-double longest_over_height(const std::array<Vec3, 3>& x) {
-    const Vec3 u = x[1] - x[0], v = x[2] - x[0], w = x[2] - x[1];
-    const double area = u.cross(v).norm();
-    return area > 1e-15 ? std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()})) / area : infinity;
-}
-
 void place_points(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, int lane,
                   PlacedPack& placed) {
     const std::span<const int> vertices = vertices_of(surface, pack.kind, pack.feature[lane]);
@@ -132,10 +127,12 @@ void place_points(const FeaturePack& pack, const ObstacleSurface& surface, const
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         x[k] = paths.at(vertices[k], placed.fraction) - placed.centre;
         set_row(placed.lanes, 3 * static_cast<int>(k), lane, x[k]);
-        placed.radius = std::max(placed.radius, x[k].cwiseAbs().maxCoeff());
+        placed.radius = std::max(placed.radius, rounded_up * static_cast<float>(x[k].cwiseAbs().maxCoeff()));
     }
-    if (pack.kind == PairKind::vertex_face) placed.sharpness = std::max(placed.sharpness, longest_over_height(x));
-    if (pack.kind == PairKind::edge_edge) placed.least_edge = std::min(placed.least_edge, (x[1] - x[0]).norm());
+    if (pack.kind == PairKind::vertex_face)
+        placed.sharpness = std::max(placed.sharpness, static_cast<float>(longest_over_area(x[0], x[1], x[2])));
+    if (pack.kind == PairKind::edge_edge)
+        placed.least_edge = std::min(placed.least_edge, static_cast<float>((x[1] - x[0]).norm()));
 }
 
 void place_directions(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, int lane,
@@ -151,7 +148,24 @@ void place_directions(const FeaturePack& pack, const ObstacleSurface& surface, c
     }
 }
 
+/// A mean normal of the triangles of each patch, at the start of the step.
+std::vector<Vec3> patch_normals(const ObstaclePacks& packs, const ObstacleSurface& surface, const VertexPaths& paths) {
+    std::vector<Vec3> normals(packs.patch_count(), Vec3::Zero());
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+        const auto& [a, b, c] = surface.triangles[i];
+        normals[packs.patch_of[i]] += (paths.start[b] - paths.start[a]).cross(paths.start[c] - paths.start[a]);
+    }
+    for (Vec3& normal : normals) normal = normal.norm() > 0.0 ? Vec3(normal.normalized()) : Vec3(Vec3::UnitY());
+    return normals;
+}
+
 }  // namespace
+
+double longest_over_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 u = b - a, v = c - a, w = c - b;
+    const double area = u.cross(v).norm();
+    return area > 1e-15 ? std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()})) / area : infinity;
+}
 
 ObstaclePacks make_packs(const ObstacleSurface& surface) {
     ObstaclePacks packs;
@@ -166,6 +180,7 @@ ObstaclePacks make_packs(const ObstacleSurface& surface) {
     }
     packs.box.resize(packs.first.size());
     packs.first.push_back(static_cast<int>(packs.packs.size()));
+    packs.planes.resize(packs.packs.size());
     packs.placed.resize(packs.packs.size());
     return packs;
 }
@@ -178,10 +193,23 @@ void set_boxes(ObstaclePacks& packs, const ObstacleSurface& surface, const Verte
         }
     };
     for (Box& box : packs.box) box = {};
+    const std::vector<Vec3> normals = patch_normals(packs, surface, paths);
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) add(packs.box[packs.patch_of[i]], surface.triangles[i]);
-    for (FeaturePack& pack : packs.packs) {
-        pack.box = {};
-        for (int lane = 0; lane < pack.count; ++lane) add(pack.box, vertices_of(surface, pack.kind, pack.feature[lane]));
+    for (std::size_t patch = 0; patch < packs.patch_count(); ++patch) {
+        for (int number = packs.first[patch]; number < packs.first[patch + 1]; ++number) {
+            FeaturePack& pack = packs.packs[number];
+            PackPlane& plane = packs.planes[number];
+            pack.box = {};
+            plane = {.normal = normals[patch], .offset = -infinity};
+            for (int lane = 0; lane < pack.count; ++lane) {
+                const std::span<const int> vertices = vertices_of(surface, pack.kind, pack.feature[lane]);
+                add(pack.box, vertices);
+                for (const int vertex : vertices) {
+                    const double start = plane.normal.dot(paths.start[vertex]), end = plane.normal.dot(paths.end[vertex]);
+                    plane.offset = std::max({plane.offset, start, end});
+                }
+            }
+        }
     }
     for (PlacedPack& placed : packs.placed) placed.fraction = -1.0;
 }
@@ -196,7 +224,11 @@ const PlacedPack& place(ObstaclePacks& packs, int number, const ObstacleSurface&
     for (const int feature : pack.feature) {
         for (const int vertex : vertices_of(surface, pack.kind, feature)) box.add(paths.at(vertex, fraction));
     }
-    placed = {.lanes = {}, .centre = 0.5 * (box.low + box.high), .least_edge = infinity, .fraction = fraction};
+    placed = {.fraction = fraction,
+              .centre = 0.5 * (box.low + box.high),
+              .least_edge = std::numeric_limits<float>::infinity(),
+              .all = static_cast<unsigned char>((1U << pack.count) - 1U),
+              .lanes = {}};
     for (int lane = 0; lane < pack_lanes; ++lane) {
         place_points(pack, surface, paths, lane, placed);
         if (pack.kind == PairKind::face_vertex) placed.lanes.at[6][lane] = -1.0F;

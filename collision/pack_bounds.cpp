@@ -165,7 +165,29 @@ void face_vertex(const PackLanes& lanes, const PackQuery& query, PackAnswer& res
     answer(distance - slack, all(-1e30F), apart.inner & in_cone, query, result);
 }
 
-constexpr PackKernels kernels{.vertex_face = vertex_face, .edge_edge = edge_edge, .face_vertex = face_vertex};
+using Doubles = double __attribute__((vector_size(32)));
+
+double largest_difference(const double* a, const double* b, long count) {
+    Doubles most{};
+    long i = 0;
+    for (; i + 4 <= count; i += 4) {
+        Doubles x, y;
+        __builtin_memcpy(&x, a + i, sizeof(x));
+        __builtin_memcpy(&y, b + i, sizeof(y));
+        const Doubles difference = x - y, size = difference > -difference ? difference : -difference;
+        most = size > most ? size : most;
+    }
+    double result = 0.0;
+    for (int lane = 0; lane < 4; ++lane) result = most[lane] > result ? most[lane] : result;
+    for (; i < count; ++i) {
+        const double size = __builtin_fabs(a[i] - b[i]);
+        result = size > result ? size : result;
+    }
+    return result;
+}
+
+constexpr PackKernels kernels{
+    .vertex_face = vertex_face, .edge_edge = edge_edge, .face_vertex = face_vertex, .largest_difference = largest_difference};
 
 }  // namespace
 

@@ -31,10 +31,12 @@ struct PackAnswer {
     unsigned char row;   // those of them that can be a contact as things are
 };
 
-/// One function for each kind of pair. All instruction sets give the same bits.
+/// One function for each kind of pair, and one that tells how far cloth has gone. All instruction sets give the same bits.
 struct PackKernels {
     using Function = void (*)(const PackLanes&, const PackQuery&, PackAnswer&);
     Function vertex_face, edge_edge, face_vertex;
+    /// Largest |a - b| of `count` numbers.
+    double (*largest_difference)(const double* a, const double* b, long count);
 };
 
 /// The table of a set, null where the processor lacks it.

@@ -19,24 +19,18 @@ const PackKernels& chosen_kernels() {
     return wide ? *wide : *baseline_pack_kernels();
 }
 
-double longest_over_height(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 u = b - a, v = c - a, w = c - b;
-    const double longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()}), area = u.cross(v).norm();
-    return area > 1e-15 ? std::sqrt(longest) / area : std::numeric_limits<double>::infinity();
-}
-
 /// Whether single precision can say anything.
-bool set_shape(const ContactPair& pair, std::span<const Vec3> cloth, const PlacedPack& placed, PackQuery& query) {
+bool set_shape(const ContactPair& pair, std::span<const Vec3> cloth, const PlacedPack& placed, double size, PackQuery& query) {
     if (pair.kind == PairKind::edge_edge) {
         query.length = static_cast<float>((cloth[pair.cloth[1]] - cloth[pair.cloth[0]]).norm());
-        query.least_edge = static_cast<float>(placed.least_edge);
+        query.least_edge = placed.least_edge;
         return std::min(query.length, query.least_edge) > query.size / static_cast<float>(most_sharpness);
     }
-    double sharpness = placed.sharpness;
+    double sharpness = static_cast<double>(placed.sharpness);
     if (pair.kind == PairKind::face_vertex) {
-        sharpness = longest_over_height(cloth[pair.cloth[0]], cloth[pair.cloth[1]], cloth[pair.cloth[2]]);
+        sharpness = longest_over_area(cloth[pair.cloth[0]], cloth[pair.cloth[1]], cloth[pair.cloth[2]]);
     }
-    sharpness = std::max(1.0, sharpness * query.size);
+    sharpness = std::max(1.0, sharpness * size);
     query.sharpness = static_cast<float>(sharpness);
     return sharpness < most_sharpness;
 }
@@ -48,11 +42,10 @@ const PackKernels& pack_kernels() {
     return kernels;
 }
 
-PackAnswer measure(const ContactPair& pair, std::span<const Vec3> cloth, const FeaturePack& pack, const PlacedPack& placed,
-                   const PackLimits& limits) {
+PackAnswer measure(const ContactPair& pair, std::span<const Vec3> cloth, const PlacedPack& placed, const PackLimits& limits) {
     const PackKernels& kernels = pack_kernels();
     PackQuery query;
-    double size = placed.radius;
+    double size = static_cast<double>(placed.radius);
     for (int k = 0; k < pair.cloth_count(); ++k) {
         const Vec3 x = cloth[pair.cloth[k]] - placed.centre;
         for (int axis = 0; axis < 3; ++axis) query.at[3 * k + axis] = static_cast<float>(x[axis]);
@@ -61,9 +54,9 @@ PackAnswer measure(const ContactPair& pair, std::span<const Vec3> cloth, const F
     query.size = rounded_up * static_cast<float>(size);
     query.near = rounded_up * static_cast<float>(limits.near);
     query.thickness = rounded_up * static_cast<float>(limits.thickness);
-    query.all = static_cast<unsigned char>((1U << pack.count) - 1U);
+    query.all = placed.all;
     PackAnswer answer{.least = -1e30F, .least_row = -1e30F, .near = query.all, .row = query.all};
-    if (!set_shape(pair, cloth, placed, query)) return answer;
+    if (!set_shape(pair, cloth, placed, size, query)) return answer;
     const PackKernels::Function kernel = pair.kind == PairKind::vertex_face ? kernels.vertex_face
                                          : pair.kind == PairKind::edge_edge ? kernels.edge_edge
                                                                             : kernels.face_vertex;

@@ -16,7 +16,6 @@ struct PackLimits {
 };
 
 /// Bounds for the cloth feature of `pair` and all features of a pack that is placed where the obstacle is.
-PackAnswer measure(const ContactPair& pair, std::span<const Vec3> cloth, const FeaturePack& pack, const PlacedPack& placed,
-                   const PackLimits& limits);
+PackAnswer measure(const ContactPair& pair, std::span<const Vec3> cloth, const PlacedPack& placed, const PackLimits& limits);
 
 }  // namespace percale
