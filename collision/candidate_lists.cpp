@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "pack_measure.h"
+
 namespace percale {
 namespace {
 
 constexpr double skin_share = 0.4;    // of the thickness: room around a vertex before its lists are built anew
-constexpr double least_share = 1e-4;  // of a move: below it lists are built however many pairs they hold
+constexpr double least_share = 1e-4;  // of a move: below it lists are built however many packs they hold
 constexpr double skin_of_way = 0.2;   // of the move the list is built for
+constexpr float infinity = std::numeric_limits<float>::infinity();
 
 double skin(double thickness, double way) { return skin_share * thickness + skin_of_way * way; }
 
@@ -19,34 +22,11 @@ int total_version(const Obstacles& obstacles) {
     return sum;
 }
 
-bool same_features(const ContactPair& a, const ContactPair& b) {
-    return a.kind == b.kind && a.cloth == b.cloth && a.obstacle == b.obstacle && a.feature == b.feature;
-}
+/// How far two boxes are apart, m.
+double gap(const Box& a, const Box& b) { return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm(); }
 
-/// Adds those pairs of one cloth feature with the features of nearby triangles that are near enough.
-class PairCollector {
-public:
-    PairCollector(const ClothMove& move, int obstacle_number, const Obstacle& obstacle, ClusterList& list)
-        : move_(move), number_(obstacle_number), obstacle_(obstacle), list_(list) {}
-    long considered() const { return considered_; }
-
-    /// `room`: how far the feature can get from where it is.
-    void consider(ContactPair pair, double room, double thickness) {
-        ++considered_;
-        pair.obstacle = number_;
-        const double distance = pair_distance(pair, move_.from, obstacle_, move_.part.from);
-        if (distance >= thickness + room + obstacle_.longest_way()) return;
-        pair.reach = distance + list_.travel;
-        list_.pairs.push_back(pair);
-    }
-
-private:
-    const ClothMove& move_;
-    int number_;
-    const Obstacle& obstacle_;
-    ClusterList& list_;
-    long considered_ = 0;
-};
+/// How far a point inside a box is from its sides; negative outside.
+double depth(const Box& box, const Vec3& x) { return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff()); }
 
 }  // namespace
 
@@ -55,115 +35,165 @@ CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<co
     : triangles_(triangles.begin(), triangles.end()),
       thickness_(vertex_thickness.begin(), vertex_thickness.end()),
       clusters_(make_clusters(triangles, positions)),
+      vertex_start_(1, 0),
       lists_(clusters_.clusters.size()),
       seen_(positions.begin(), positions.end()),
-      room_(positions.size(), 0.0),
+      way_(positions.size(), 0.0),
+      cluster_way_(clusters_.clusters.size(), 0.0),
+      moved_(positions.size(), 0.0),
       vertex_boxes_(positions.size()) {
     for (std::size_t i = 0; i < lists_.size(); ++i) {
-        for (const int vertex : clusters_.clusters[i].all_vertices) {
-            lists_[i].thickness = std::max(lists_[i].thickness, thickness_[vertex]);
-        }
+        const std::vector<int>& all = clusters_.clusters[i].all_vertices;
+        vertices_.insert(vertices_.end(), all.begin(), all.end());
+        vertex_start_.push_back(static_cast<int>(vertices_.size()));
+        for (const int vertex : all) lists_[i].thickness = std::max(lists_[i].thickness, thickness_[vertex]);
     }
 }
 
-bool CandidateLists::covers(std::size_t cluster, const ClothMove& move, int version) const {
-    const ClusterList& list = lists_[cluster];
+bool CandidateLists::covers(std::size_t cluster, const ClothMove& move, int version) {
+    ClusterList& list = lists_[cluster];
     if (list.version != version) return false;
-    const std::vector<int>& vertices = clusters_.clusters[cluster].all_vertices;
+    const std::span<const int> vertices = vertices_of(cluster);
+    if (list.travel + cluster_way_[cluster] <= list.inside_until) return true;
+    double room = list.thickness, room_at_end = room;
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-        if (!list.boxes[k].contains(move.from[vertices[k]]) || !list.boxes[k].contains(move.to[vertices[k]])) return false;
+        room = std::min(room, depth(list.boxes[k], move.from[vertices[k]]));
+        room_at_end = std::min(room_at_end, depth(list.boxes[k], move.to[vertices[k]]));
     }
-    return true;
+    list.inside_until = list.travel + room;
+    return std::min(room, room_at_end) >= 0.0;
 }
 
 Box CandidateLists::set_boxes(std::size_t cluster, const ClothMove& move) {
     ClusterList& list = lists_[cluster];
     list.boxes.clear();
-    Box all;
-    for (const int vertex : clusters_.clusters[cluster].all_vertices) {
-        const double way = (move.to[vertex] - move.from[vertex]).norm();
+    Box whole;
+    for (const int vertex : vertices_of(cluster)) {
         Box& box = list.boxes.emplace_back();
         box.add(move.from[vertex]);
         box.add(move.to[vertex]);
-        box.grow(skin(list.thickness, way));
-        all.add(box);
+        box.grow(skin(list.thickness, way_[vertex]));
+        whole.add(box);
     }
-    all.grow(list.thickness);
-    return all;
+    whole.grow(list.thickness);
+    list.inside_until = -1.0;
+    return whole;
 }
 
-/// Scatters a cluster's boxes and rooms to its vertices, for pairing.
-void CandidateLists::set_rooms(std::size_t cluster, const ClothMove& move) {
-    const std::vector<int>& vertices = clusters_.clusters[cluster].all_vertices;
-    for (std::size_t k = 0; k < vertices.size(); ++k) {
-        const int vertex = vertices[k];
-        const double way = (move.to[vertex] - move.from[vertex]).norm();
-        vertex_boxes_[vertex] = lists_[cluster].boxes[k];
-        room_[vertex] = way + std::sqrt(3.0) * skin(lists_[cluster].thickness, way);
-    }
-}
-
-/// Those of the triangles `near` whose boxes come within the thickness of a feature's.
-std::span<const int> CandidateLists::close_to(std::span<const int> vertices, std::span<const int> near, double thickness,
-                                              const Obstacle& obstacle) {
-    Box box;
-    for (const int vertex : vertices) box.add(vertex_boxes_[vertex]);
-    box.grow(thickness);
-    close_.clear();
+/// The patches of triangles near a box.
+void CandidateLists::set_near_patches(const Box& asked, std::span<const int> near, const Obstacle& obstacle) {
+    near_patches_.clear();
     for (const int triangle : near) {
-        if (obstacle.box(triangle).overlaps(box)) close_.push_back(triangle);
+        if (obstacle.box(triangle).overlaps(asked)) near_patches_.push_back(obstacle.packs().patch_of[triangle]);
     }
-    return close_;
+    std::sort(near_patches_.begin(), near_patches_.end());
+    near_patches_.erase(std::unique(near_patches_.begin(), near_patches_.end()), near_patches_.end());
 }
 
-void CandidateLists::add_pairs(std::size_t cluster, int obstacle_number, std::span<const int> near, const ClothMove& move,
-                               const Obstacle& obstacle) {
-    const ObstacleSurface& surface = obstacle.surface();
-    const ClothCluster& features = clusters_.clusters[cluster];
-    PairCollector collector(move, obstacle_number, obstacle, lists_[cluster]);
-    const double thickness = lists_[cluster].thickness;
-    for (const int vertex : features.vertices) {
-        for (const int triangle : close_to({&vertex, 1}, near, thickness, obstacle)) {
-            collector.consider({.kind = PairKind::vertex_face, .cloth = {vertex, -1, -1}, .feature = triangle}, room_[vertex],
-                               thickness);
+/// Lists a cloth feature with those packs of its kind in near patches that can come within the thickness.
+void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list) {
+    Box room, now;
+    for (int k = 0; k < pair.cloth_count(); ++k) {
+        room.add(vertex_boxes_[pair.cloth[k]]);
+        now.add(move.from[pair.cloth[k]]);
+    }
+    room.grow(list.thickness);
+    const ObstaclePacks& packs = obstacle.packs();
+    ListedFeature feature{.pair = pair, .first = static_cast<int>(list.packs.size()), .count = 0};
+    FeatureBounds bounds{.reach = infinity, .quiet_until = infinity};
+    for (const int patch : near_patches_) {
+        if (!packs.box[patch].overlaps(room)) continue;
+        for (int number = packs.first[patch]; number < packs.first[patch + 1]; ++number) {
+            const FeaturePack& pack = packs.packs[number];
+            if (pack.kind != pair.kind || !pack.box.overlaps(room)) continue;
+            const float reach = below(gap(pack.box, now)), row_reach = below(gap(pack.box, now) - list.thickness);
+            list.packs.push_back({.reach = reach, .row_reach = row_reach, .pack = static_cast<unsigned>(number), .held = 0});
+            bounds.reach = std::min(bounds.reach, reach);
+            bounds.quiet_until = std::min(bounds.quiet_until, row_reach);
         }
     }
-    for (const std::array<int, 2>& ends : features.edges) {
-        const double room = std::max(room_[ends[0]], room_[ends[1]]);
-        for (const int triangle : close_to(ends, near, thickness, obstacle)) {
-            for (const int edge : surface.triangle_edges[triangle]) {
-                if (surface.edges[edge].owner != triangle || !surface.edges[edge].can_touch) continue;
-                collector.consider({.kind = PairKind::edge_edge, .cloth = {ends[0], ends[1], -1}, .feature = edge}, room,
-                                   thickness);
-            }
-        }
+    feature.count = static_cast<int>(list.packs.size()) - feature.first;
+    listed_ += feature.count;
+    if (feature.count == 0) return;
+    list.features.push_back(feature);
+    list.bounds.push_back(bounds);
+    list.least_reach = std::min(list.least_reach, static_cast<double>(bounds.reach));
+    list.quiet_until = std::min(list.quiet_until, static_cast<double>(bounds.quiet_until));
+}
+
+void CandidateLists::add_features(std::size_t cluster, int obstacle_number, std::span<const int> near, const ClothMove& move,
+                                  const Obstacle& obstacle) {
+    ClusterList& list = lists_[cluster];
+    const ClothCluster& features = clusters_.clusters[cluster];
+    Box asked;
+    for (std::size_t k = 0; k < features.all_vertices.size(); ++k) {
+        vertex_boxes_[features.all_vertices[k]] = list.boxes[k];
+        asked.add(list.boxes[k]);
+    }
+    asked.grow(list.thickness);
+    set_near_patches(asked, near, obstacle);
+    for (const int vertex : features.vertices) {
+        add_packs({.kind = PairKind::vertex_face, .cloth = {vertex, -1, -1}, .obstacle = obstacle_number}, move, obstacle, list);
+    }
+    for (const auto& [a, b] : features.edges) {
+        add_packs({.kind = PairKind::edge_edge, .cloth = {a, b, -1}, .obstacle = obstacle_number}, move, obstacle, list);
     }
     for (const int face : features.triangles) {
-        const Triangle& t = triangles_[face];
-        const double room = std::max({room_[t[0]], room_[t[1]], room_[t[2]]});
-        for (const int triangle : close_to(t, near, thickness, obstacle)) {
-            for (const int vertex : surface.triangles[triangle]) {
-                if (surface.vertex_owner[vertex] != triangle || !surface.vertex_can_touch[vertex]) continue;
-                collector.consider(
-                    {.kind = PairKind::face_vertex, .cloth = t, .edge_bits = clusters_.edge_owner_bits[face], .feature = vertex},
-                    room, thickness);
-            }
-        }
+        add_packs({.kind = PairKind::face_vertex,
+                   .cloth = triangles_[face],
+                   .edge_bits = clusters_.edge_owner_bits[face],
+                   .obstacle = obstacle_number},
+                  move, obstacle, list);
     }
-    considered_ += collector.considered();
+}
+
+void CandidateLists::set_ways(const ClothMove& move) {
+    std::fill(cluster_way_.begin(), cluster_way_.end(), 0.0);
+    if (move.from.data() == move.to.data()) {
+        std::fill(way_.begin(), way_.end(), 0.0);
+        return;
+    }
+    for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = (move.to[i] - move.from[i]).norm();
+    for (std::size_t i = 0; i < lists_.size(); ++i) {
+        for (const int vertex : vertices_of(i)) cluster_way_[i] = std::max(cluster_way_[i], way_[vertex]);
+    }
+}
+
+/// Whether all cloth stays away from all obstacles' boxes. One look at the distance allows for that much way, so that cloth far
+/// away costs one pass over its vertices.
+bool CandidateLists::is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version) {
+    const auto stays = [&] {
+        const auto count = 3 * static_cast<long>(anchor_.size());
+        const auto way = [&](std::span<const Vec3> x) {
+            return std::sqrt(3.0) * pack_kernels().largest_difference(x[0].data(), anchor_[0].data(), count);
+        };
+        return way(move.from) < room_ && (move.to.data() == move.from.data() || way(move.to) < room_);
+    };
+    if (way_.empty()) return true;
+    if (!empty_) return false;
+    if (room_version_ == version && room_ > 0.0 && stays()) return true;
+    if (move.to.data() == move.from.data()) return false;
+    Box cloth;
+    for (const Vec3& x : move.from) cloth.add(x);
+    room_ = 1e300;
+    for (const auto& obstacle : obstacles) room_ = std::min(room_, gap(cloth, obstacle->whole_box()));
+    room_ -= *std::max_element(thickness_.begin(), thickness_.end());
+    room_version_ = version;
+    anchor_.assign(move.from.begin(), move.from.end());
+    return room_ > 0.0 && stays();
 }
 
 double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
-    advance(move.from, move.part.from, obstacles);
     const int version = total_version(obstacles);
+    if (is_out_of_reach(move, obstacles, version)) return 1.0;
+    advance(move.from, move.part.from, obstacles);
+    set_ways(move);
     dirty_.clear();
     held_.clear();
     for (std::size_t i = 0; i < lists_.size(); ++i) {
         if (covers(i, move, version)) continue;
         dirty_.push_back(i);
-        for (const ContactPair& pair : lists_[i].pairs) {
-            if (pair.held) held_.emplace_back(i, pair);
-        }
+        keep_held(i, obstacles);
         lists_[i].version = version;
     }
     if (dirty_.empty()) return 1.0;
@@ -174,18 +204,26 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) 
         shortened_.resize(move.from.size());
         for (std::size_t i = 0; i < shortened_.size(); ++i) shortened_[i] = move.from[i] + share * (move.to[i] - move.from[i]);
         covered.to = shortened_;
+        set_ways(covered);
     }
-    mark_held();
+    if (share < 1.0) set_ways(move);
+    mark_held(obstacles);
+    empty_ = std::all_of(lists_.begin(), lists_.end(), [](const ClusterList& list) { return list.features.empty(); });
     return share;
 }
 
-/// Builds the dirty lists anew; false (and lists of no use) if that takes too many pairs, unless `whatever_it_takes`.
+/// Builds the dirty lists anew; false (and lists of no use) if they would hold too many packs, unless `whatever_it_takes`.
 bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes) {
-    const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 4000000L + 300L * static_cast<long>(room_.size());
-    considered_ = 0;
+    const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 500000L + 40L * static_cast<long>(way_.size());
+    listed_ = 0;
     asked_.clear();
     for (const std::size_t i : dirty_) {
-        lists_[i].pairs.clear();
+        lists_[i].features.clear();
+        lists_[i].bounds.clear();
+        lists_[i].packs.clear();
+        lists_[i].holds = false;
+        lists_[i].travel = 0.0;
+        lists_[i].least_reach = lists_[i].quiet_until = infinity;
         asked_.push_back(set_boxes(i, move));
     }
     for (std::size_t number = 0; number < obstacles.size(); ++number) {
@@ -193,42 +231,63 @@ bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, 
         for (std::size_t k = 0; k < dirty_.size(); ++k) {
             const auto near = std::span<const int>(found_.ids).subspan(found_.start[k], found_.start[k + 1] - found_.start[k]);
             if (near.empty()) continue;
-            set_rooms(dirty_[k], move);
-            add_pairs(dirty_[k], static_cast<int>(number), near, move, *obstacles[number]);
-            if (considered_ > most) return false;
+            add_features(dirty_[k], static_cast<int>(number), near, move, *obstacles[number]);
+            if (listed_ > most) return false;
         }
-    }
-    for (const std::size_t i : dirty_) {
-        lists_[i].least_reach = std::numeric_limits<double>::infinity();
-        for (const ContactPair& pair : lists_[i].pairs) lists_[i].least_reach = std::min(lists_[i].least_reach, pair.reach);
     }
     return true;
 }
 
-/// What was a contact in a list stays one in the list that replaces it.
-void CandidateLists::mark_held() {
-    for (const auto& [cluster, held] : held_) {
-        for (ContactPair& pair : lists_[cluster].pairs) pair.held = pair.held || same_features(pair, held);
+void CandidateLists::keep_held(std::size_t cluster, const Obstacles& obstacles) {
+    const ClusterList& list = lists_[cluster];
+    if (!list.holds) return;
+    for (const ListedFeature& feature : list.features) {
+        for (int i = feature.first; i < feature.first + feature.count; ++i) {
+            const FeaturePack& pack = obstacles[feature.pair.obstacle]->packs().packs[list.packs[i].pack];
+            for (int lane = 0; lane < pack.count; ++lane) {
+                if ((list.packs[i].held >> lane & 1U) != 0) held_.emplace_back(cluster, feature.with(pack, lane));
+            }
+        }
     }
 }
 
-double CandidateLists::shrink_of(std::size_t cluster, std::span<const Vec3> positions) const {
-    double square = 0.0;
-    for (const int vertex : clusters_.clusters[cluster].all_vertices) {
-        square = std::max(square, (positions[vertex] - seen_[vertex]).squaredNorm());
+/// What was a contact in a list stays one in the list that replaces it.
+void CandidateLists::mark_held(const Obstacles& obstacles) {
+    for (const auto& [cluster, held] : held_) {
+        ClusterList& list = lists_[cluster];
+        const int place = obstacles[held.obstacle]->packs().place_of[static_cast<int>(held.kind)][held.feature];
+        for (std::size_t f = 0; f < list.features.size(); ++f) {
+            const ListedFeature& feature = list.features[f];
+            const ContactPair& pair = feature.pair;
+            if (pair.kind != held.kind || pair.cloth != held.cloth || pair.obstacle != held.obstacle) continue;
+            for (int i = feature.first; i < feature.first + feature.count; ++i) {
+                if (static_cast<int>(list.packs[i].pack) != place / pack_lanes) continue;
+                list.packs[i].held |= 1U << (place % pack_lanes) & 0xffU;
+                list.holds = true;
+                list.features[f].others.quiet_until = list.bounds[f].quiet_until = -infinity;
+                list.quiet_until = -infinity;
+            }
+        }
     }
-    return std::sqrt(square);
 }
 
 void CandidateLists::advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles) {
     double way = 0.0;
     for (const auto& obstacle : obstacles) way = std::max(way, obstacle->longest_way());
     way *= std::abs(fraction - seen_fraction_);
+    double most = 0.0;
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+        moved_[i] = (positions[i] - seen_[i]).squaredNorm();
+        most = std::max(most, moved_[i]);
+    }
+    seen_fraction_ = fraction;
+    if (most == 0.0 && way == 0.0) return;
     for (std::size_t i = 0; i < lists_.size(); ++i) {
-        if (!lists_[i].pairs.empty()) lists_[i].travel += shrink_of(i, positions) + way;
+        double square = 0.0;
+        for (const int vertex : vertices_of(i)) square = std::max(square, moved_[vertex]);
+        lists_[i].travel += std::sqrt(square) + way;
     }
     std::copy(positions.begin(), positions.end(), seen_.begin());
-    seen_fraction_ = fraction;
 }
 
 }  // namespace percale

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <span>
 #include <utility>
@@ -13,17 +14,59 @@ namespace percale {
 
 using Obstacles = std::vector<std::unique_ptr<Obstacle>>;
 
-/// The pairs of one cluster that can come closer than the thickness while its vertices stay in their boxes.
-struct ClusterList {
-    std::vector<Box> boxes;          // one for each of the cluster's vertices (ClothCluster::all_vertices)
-    std::vector<ContactPair> pairs;  // by kind, cloth feature, obstacle, obstacle triangle
-    double thickness = 0.0;          // m, largest of its vertices
-    double travel = 0.0;             // m, bound of how much any distance has shrunk since the cluster's first list
-    double least_reach = 0.0;        // least ContactPair::reach
-    int version = -1;                // of the obstacles' motion it was built for
+/// The next number below in single precision, or one near it.
+inline float below(double x) { return static_cast<float>(x - 1e-6 * std::abs(x)); }
+
+/// A pack of obstacle features that can come near a cloth feature, with lower bounds that the list's travel uses up.
+struct ListedPack {
+    float reach = 0.0F;      // least distance + travel when last measured: reach - travel bounds all distances from below
+    float row_reach = 0.0F;  // while travel is below this, nothing new of the pack can be a contact
+    unsigned pack : 24;      // number
+    unsigned held : 8;       // lanes that have been contacts since the last refresh: they stay contacts while they are near
+
+    /// Travel below which the pack need not be looked at for contacts.
+    float quiet_until(float thickness) const {
+        const float near = reach - thickness * (1.0F + 1e-6F);
+        return held != 0 || row_reach < near ? near : row_reach;
+    }
 };
 
-/// Verlet lists: candidate pairs of all cloth, rebuilt only where the cloth left its boxes or an obstacle moves.
+/// The least bounds of a feature's packs, apart from it: they are all that is read as long as nothing comes near.
+struct FeatureBounds {
+    float reach = 0.0F;
+    float quiet_until = 0.0F;
+};
+
+/// A cloth feature with the packs near it.
+struct ListedFeature {
+    ContactPair pair;  // of the cloth feature and the obstacle, without an obstacle feature
+    int first = 0, count = 0;
+    unsigned long busy = 0;                                      // which of the first 64 packs are not quiet or will soon not be
+    FeatureBounds others{.reach = -1.0F, .quiet_until = -1.0F};  // bounds of the rest of them
+
+    ContactPair with(const FeaturePack& pack, int lane) const {
+        ContactPair full = pair;
+        full.feature = pack.feature[lane];
+        return full;
+    }
+};
+
+/// All packs of obstacle features that can come closer to a cluster than the thickness while its vertices stay in their boxes.
+struct ClusterList {
+    std::vector<Box> boxes;               // one for each of the cluster's vertices (ClothCluster::all_vertices)
+    std::vector<ListedFeature> features;  // by obstacle, kind, cloth feature
+    std::vector<FeatureBounds> bounds;    // of the features
+    std::vector<ListedPack> packs;        // of the features, one after the other
+    double thickness = 0.0;               // m, largest of its vertices
+    double travel = 0.0;                  // m, bound of how much any distance has shrunk since the list was made
+    double least_reach = 0.0;             // least FeatureBounds::reach
+    double quiet_until = 0.0;             // least FeatureBounds::quiet_until
+    double inside_until = -1.0;           // m, travel up to which all vertices are surely in their boxes
+    bool holds = false;                   // some lane is held
+    int version = -1;                     // of the obstacles' motion it was built for
+};
+
+/// Verlet lists: candidates of all cloth, rebuilt only where the cloth left its boxes or an obstacle moves.
 class CandidateLists {
 public:
     CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
@@ -36,36 +79,51 @@ public:
     /// Tells the lists that cloth and obstacles are here now: shortens the bounds by what they moved.
     void advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles);
 
+    /// Nothing is near any cluster.
+    bool empty() const { return empty_; }
     std::span<const ClothCluster> clusters() const { return clusters_.clusters; }
     std::span<ClusterList> lists() { return lists_; }
+    /// m, how far each vertex goes in the move that was covered last, and the farthest of a cluster.
+    std::span<const double> ways() const { return way_; }
+    double cluster_way(std::size_t cluster) const { return cluster_way_[cluster]; }
 
 private:
-    bool covers(std::size_t cluster, const ClothMove& move, int version) const;
+    std::span<const int> vertices_of(std::size_t cluster) const {
+        return std::span(vertices_).subspan(vertex_start_[cluster], vertex_start_[cluster + 1] - vertex_start_[cluster]);
+    }
+    bool covers(std::size_t cluster, const ClothMove& move, int version);
     Box set_boxes(std::size_t cluster, const ClothMove& move);
-    void add_pairs(std::size_t cluster, int obstacle_number, std::span<const int> near, const ClothMove& move,
-                   const Obstacle& obstacle);
-    void set_rooms(std::size_t cluster, const ClothMove& move);
-    std::span<const int> close_to(std::span<const int> vertices, std::span<const int> near, double thickness,
-                                  const Obstacle& obstacle);
+    void add_features(std::size_t cluster, int obstacle_number, std::span<const int> near, const ClothMove& move,
+                      const Obstacle& obstacle);
+    void add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list);
+    void set_near_patches(const Box& asked, std::span<const int> near, const Obstacle& obstacle);
     bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes);
-    void mark_held();
-    double shrink_of(std::size_t cluster, std::span<const Vec3> positions) const;
+    void keep_held(std::size_t cluster, const Obstacles& obstacles);
+    void mark_held(const Obstacles& obstacles);
+    bool is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version);
+    void set_ways(const ClothMove& move);
 
     std::vector<Triangle> triangles_;
     std::vector<double> thickness_;
     ClothClusters clusters_;
+    std::vector<int> vertex_start_, vertices_;  // all vertices of each cluster, one after the other
     std::vector<ClusterList> lists_;
-    std::vector<Vec3> seen_;         // positions at the last advance
-    std::vector<double> room_;       // m, how far a vertex can get from `from` inside its box; valid while a cluster is built
-    std::vector<Box> vertex_boxes_;  // likewise
-    std::vector<int> close_;         // triangles near the feature being paired
+    std::vector<Vec3> seen_;                 // positions at the last advance
+    std::vector<double> way_, cluster_way_;  // m
+    std::vector<double> moved_;              // m^2, since the last advance
+    std::vector<Box> vertex_boxes_;          // valid while a cluster is built
+    std::vector<int> near_patches_;          // likewise, ascending
     std::vector<std::size_t> dirty_;
     std::vector<Box> asked_;
     std::vector<std::pair<std::size_t, ContactPair>> held_;  // of the lists being replaced, with their clusters
     TriangleLists found_;
     std::vector<Vec3> shortened_;  // the end of the part of a long move that is covered
     double seen_fraction_ = 0.0;
-    long considered_ = 0;  // pairs, while lists are built
+    std::vector<Vec3> anchor_;  // positions from which nothing is in reach before some vertex has gone `room_`
+    double room_ = 0.0;         // m
+    int room_version_ = -1;     // of the obstacles' motion
+    bool empty_ = true;
+    long listed_ = 0;  // packs, while lists are built
 };
 
 }  // namespace percale

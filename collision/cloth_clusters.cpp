@@ -1,38 +1,15 @@
 #include "cloth_clusters.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <numeric>
 #include <set>
 #include <utility>
+
+#include "morton_order.h"
 
 namespace percale {
 namespace {
 
 constexpr std::size_t triangles_per_cluster = 8;
-
-/// Spreads the lowest 20 bits to every third one.
-std::uint64_t spread(std::uint64_t x) {
-    std::uint64_t result = 0;
-    for (int bit = 0; bit < 20; ++bit) result |= (x >> bit & 1U) << (3 * bit);
-    return result;
-}
-
-std::vector<std::uint64_t> morton_codes(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
-    Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-    for (const Vec3& x : positions) {
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-    }
-    const double extent = std::max((high - low).maxCoeff(), 1e-300);
-    std::vector<std::uint64_t> codes;
-    for (const auto& [a, b, c] : triangles) {
-        const Vec3 centre = ((positions[a] + positions[b] + positions[c]) / 3.0 - low) / extent * 1048575.0;
-        codes.push_back(spread(static_cast<std::uint64_t>(centre.x())) | spread(static_cast<std::uint64_t>(centre.y())) << 1 |
-                        spread(static_cast<std::uint64_t>(centre.z())) << 2);
-    }
-    return codes;
-}
 
 /// Gives features to the first cluster that asks for them.
 class Ownership {
@@ -66,10 +43,7 @@ private:
 }  // namespace
 
 ClothClusters make_clusters(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
-    const std::vector<std::uint64_t> codes = morton_codes(triangles, positions);
-    std::vector<int> order(triangles.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return codes[a] < codes[b]; });
+    const std::vector<int> order = morton_order(triangles, positions);
     ClothClusters result;
     Ownership ownership(positions.size(), triangles.size());
     for (std::size_t from = 0; from < order.size(); from += triangles_per_cluster) {

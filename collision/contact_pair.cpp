@@ -1,7 +1,5 @@
 #include "contact_pair.h"
 
-#include <cmath>
-
 #include "triangle_distance.h"
 
 namespace percale {
@@ -94,15 +92,23 @@ PairContact face_vertex_contact(const ContactPair& pair, std::span<const Vec3> c
 
 }  // namespace
 
-double pair_distance(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {
+Vec3 pair_apart(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {
     switch (pair.kind) {
         case PairKind::vertex_face:
-            return std::sqrt(vertex_on_face(pair, cloth, obstacle, fraction).distance_squared);
-        case PairKind::edge_edge:
-            return std::sqrt(edges(pair, cloth, obstacle, fraction).distance_squared);
+            return cloth[pair.cloth[0]] - vertex_on_face(pair, cloth, obstacle, fraction).point;
+        case PairKind::edge_edge: {
+            const EdgeEdge closest = edges(pair, cloth, obstacle, fraction);
+            const auto [a, b] = ends(obstacle, pair.feature, fraction);
+            const Vec3 &p = cloth[pair.cloth[0]], &q = cloth[pair.cloth[1]];
+            return (p - a) + closest.s * (q - p) - closest.t * (b - a);
+        }
         default:
-            return std::sqrt(vertex_on_cloth(pair, cloth, obstacle, fraction).distance_squared);
+            return vertex_on_cloth(pair, cloth, obstacle, fraction).point - obstacle.at(pair.feature, fraction);
     }
+}
+
+double pair_distance(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {
+    return pair_apart(pair, cloth, obstacle, fraction).norm();
 }
 
 PairContact pair_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {

@@ -8,17 +8,13 @@
 
 namespace percale {
 
-enum class PairKind : unsigned char { vertex_face, edge_edge, face_vertex };  // cloth feature first
-
 /// A cloth feature and an obstacle feature that may come near each other.
 struct ContactPair {
     PairKind kind = PairKind::vertex_face;
     std::array<int, 3> cloth{-1, -1, -1};  // vertices: 1, 2 or 3
     unsigned char edge_bits = 7;           // face_vertex: which edges of the cloth triangle it owns
     int obstacle = 0;
-    int feature = 0;     // obstacle triangle, edge or vertex
-    bool held = false;   // has been a contact since the last refresh: stays one while it is near
-    double reach = 0.0;  // distance + cluster travel when last measured: reach - travel bounds the distance from below
+    int feature = 0;  // obstacle triangle, edge or vertex
 
     int cloth_count() const { return static_cast<int>(kind) + 1; }
 };
@@ -37,6 +33,9 @@ struct PairContact {
 /// Distance only, m.
 double pair_distance(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction);
 
+/// From the obstacle's closest point to the cloth's, m: pair_distance is its length.
+Vec3 pair_apart(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction);
+
 /// Everything about the closest points. A contact belongs to exactly one pair: closest points inside a face or inside two edges
 /// belong to that pair, those on an edge or vertex of the obstacle to the feature's owner and only if the feature faces the
 /// cloth, those on a cloth edge to the triangle that owns it.
@@ -48,6 +47,12 @@ struct ClothMove {
     StepFraction part;
 };
 MovingFour moving_pair(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle);
+
+/// Which of its points are the cloth's, a bit each.
+inline unsigned cloth_slots(PairKind kind) {
+    if (kind == PairKind::vertex_face) return 0b0001;
+    return kind == PairKind::edge_edge ? 0b0011 : 0b1110;
+}
 
 inline PairShape shape_of(PairKind kind) {
     return kind == PairKind::edge_edge ? PairShape::edge_edge : PairShape::point_triangle;

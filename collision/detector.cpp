@@ -1,22 +1,55 @@
 #include "detector.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <optional>
 
 #include "candidate_lists.h"
+#include "pack_measure.h"
 #include "percale/certify.h"
 #include "untangle.h"
 
 namespace percale {
 namespace {
 
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr double most_floor = 0.2;  // of the thickness
+
 /// The distance a cut leaves of a distance d, m: a fifth of the thickness h for d above 0.4 h, half of d below, but never less
 /// than h/1000 unless d itself is there. Without a floor distances collapse to rounding, where directions are lost; a fixed floor
 /// would lock vertices.
 double floor_below(double d, double h) {
-    if (d > 0.4 * h) return 0.2 * h;
+    if (d > 2.0 * most_floor * h) return most_floor * h;
     return d > 1e-3 * h ? std::max(0.5 * d, 1e-3 * h) : 0.999 * d;
+}
+
+/// Pairs farther apart than this keep their floor if they come closer by no more than `way`.
+double within(double way, double h) { return way > most_floor * h ? way + most_floor * h : std::max(2.0 * way, way + 1e-3 * h); }
+
+constexpr int most_marked = 64;  // packs of a feature that have a bit each
+
+/// Asks memory for a vector that is about to be read.
+template <class T>
+void fetch(const T* first, std::size_t count) {
+    const char* from = reinterpret_cast<const char*>(first);
+    for (std::size_t byte = 0; byte < count * sizeof(T); byte += 64) __builtin_prefetch(from + byte);
+}
+
+void fetch(const ClusterList& list) {
+    fetch(list.bounds.data(), list.bounds.size());
+    fetch(list.features.data(), list.features.size());
+}
+
+/// How far a cloth feature is above a plane, m: a bound of its distance from all that is below.
+inline double height_above(const PackPlane& plane, const ContactPair& pair, std::span<const Vec3> cloth) {
+    double least = plane.normal.dot(cloth[pair.cloth[0]]);
+    for (int k = 1; k < pair.cloth_count(); ++k) least = std::min(least, plane.normal.dot(cloth[pair.cloth[k]]));
+    return least - plane.offset;
+}
+
+bool stays_above(const PackPlane& plane, const ContactPair& pair, const ClothMove& move, double height) {
+    return height_above(plane, pair, move.from) > height && height_above(plane, pair, move.to) > height;
 }
 
 StartFault start_fault(int obstacle, const Certificate& certificate) {
@@ -69,8 +102,10 @@ public:
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
-        for (ClusterList& list : lists_->lists()) {
-            for (ContactPair& pair : list.pairs) pair.held = false;
+        for (ClusterList& list : lists_->empty() ? std::span<ClusterList>() : lists_->lists()) {
+            if (!list.holds) continue;
+            for (ListedPack& pack : list.packs) pack.held = 0;
+            list.holds = false;
         }
         lists_->cover({.from = start, .to = predicted, .part = {0.0, 1.0}}, obstacles_);
     }
@@ -80,8 +115,14 @@ public:
         lists_->cover({.from = positions, .to = positions, .part = {fraction, fraction}}, obstacles_);
         rows.clear();
         smallest_distance_ = std::numeric_limits<double>::infinity();
+        near_clusters_.clear();
+        if (lists_->empty()) return;
         for (ClusterList& list : lists_->lists()) {
-            if (list.least_reach - list.travel < list.thickness) evaluate_cluster(positions, fraction, list, rows);
+            if (list.quiet_until <= list.travel) near_clusters_.push_back(&list);
+        }
+        for (std::size_t i = 0; i < near_clusters_.size(); ++i) {
+            if (i + 2 < near_clusters_.size()) fetch(*near_clusters_[i + 2]);
+            evaluate_cluster(positions, fraction, *near_clusters_[i], rows);
         }
     }
 
@@ -89,18 +130,12 @@ public:
         if (!lists_) lists_.emplace(triangles_, thickness_, from);
         const ClothMove move{.from = from, .to = to, .part = part};
         const double covered = lists_->cover(move, obstacles_);
+        if (lists_->empty()) return covered;
         double obstacle_way = 0.0;
         for (const auto& obstacle : obstacles_) obstacle_way = std::max(obstacle_way, obstacle->longest_way());
         obstacle_way *= part.to - part.from;
         double safe = covered;
-        const std::span<const ClothCluster> clusters = lists_->clusters();
-        for (std::size_t i = 0; i < clusters.size(); ++i) {
-            ClusterList& list = lists_->lists()[i];
-            if (list.pairs.empty()) continue;
-            double way = 0.0;
-            for (const int vertex : clusters[i].all_vertices) way = std::max(way, (to[vertex] - from[vertex]).norm());
-            safe = cut_cluster(move, way + obstacle_way, list, safe);
-        }
+        for (std::size_t i = 0; i < lists_->lists().size(); ++i) safe = cut_cluster(move, obstacle_way, i, safe);
         return safe;
     }
 
@@ -108,20 +143,130 @@ public:
 
 private:
     void evaluate_cluster(std::span<const Vec3> positions, double fraction, ClusterList& list, ContactRows& rows) {
-        list.least_reach = std::numeric_limits<double>::infinity();
-        for (ContactPair& pair : list.pairs) {
-            const double thickness = thickness_[pair.cloth[0]];
-            if (pair.reach - list.travel < thickness) {
-                const PairContact contact = pair_contact(pair, positions, *obstacles_[pair.obstacle], fraction);
-                pair.reach = contact.distance + list.travel;
-                smallest_distance_ = std::min(smallest_distance_, contact.distance);
-                // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
-                // that the force is continuous where closest points pass from one feature to the next.
-                pair.held = pair.held || (contact.distance < thickness && contact.local_minimum);
-                if (pair.held && contact.distance < thickness) add_row(pair, contact, thickness, rows);
-            }
-            list.least_reach = std::min(list.least_reach, pair.reach);
+        select_packs(positions, list);
+        for (const auto& [feature, pack] : selected_) {
+            evaluate_pack({positions, positions, {fraction, fraction}}, list.features[feature], list, list.packs[pack], rows);
         }
+        for (const int f : active_) list.bounds[f] = least_bounds(list.features[f], list);
+        list.least_reach = list.quiet_until = infinity;
+        for (const FeatureBounds& bounds : list.bounds) {
+            list.least_reach = std::min(list.least_reach, static_cast<double>(bounds.reach));
+            list.quiet_until = std::min(list.quiet_until, static_cast<double>(bounds.quiet_until));
+        }
+    }
+
+    float float_thickness(const ListedFeature& feature) const { return static_cast<float>(thickness_[feature.pair.cloth[0]]); }
+
+    FeatureBounds least_bounds(const ListedFeature& feature, const ClusterList& list) const {
+        FeatureBounds least = feature.others;
+        const float thickness = float_thickness(feature);
+        for_busy(feature, [&](int i) {
+            least.reach = std::min(least.reach, list.packs[i].reach);
+            least.quiet_until = std::min(least.quiet_until, list.packs[i].quiet_until(thickness));
+        });
+        return least;
+    }
+
+    /// Finds the packs of a cluster that have to be measured, and asks memory for them.
+    void select_packs(std::span<const Vec3> positions, ClusterList& list) {
+        active_.clear();
+        selected_.clear();
+        for (std::size_t f = 0; f < list.features.size(); ++f) {
+            if (static_cast<double>(list.bounds[f].quiet_until) > list.travel) continue;
+            active_.push_back(static_cast<int>(f));
+            const ListedFeature& feature = list.features[f];
+            fetch(list.packs.data() + feature.first, static_cast<std::size_t>(feature.count));
+        }
+        candidates_.clear();
+        for (const int f : active_) {
+            ListedFeature& feature = list.features[f];
+            if (static_cast<double>(feature.others.quiet_until) <= list.travel) find_busy(positions, feature, list);
+            const PackPlane* planes = obstacles_[feature.pair.obstacle]->packs().planes.data();
+            for_busy(feature, [&](int i) {
+                if (static_cast<double>(list.packs[i].quiet_until(float_thickness(feature))) > list.travel) return;
+                __builtin_prefetch(planes + list.packs[i].pack);
+                candidates_.emplace_back(f, i);
+            });
+        }
+        for (const auto& [f, i] : candidates_) select_pack(positions, f, i, list);
+    }
+
+    /// Most packs whose bounds are used up are told to be far by their planes.
+    bool raise_bounds(std::span<const Vec3> positions, const ListedFeature& feature, double travel, ListedPack& listed) const {
+        const double thickness = thickness_[feature.pair.cloth[0]];
+        const PackPlane& plane = obstacles_[feature.pair.obstacle]->packs().planes[listed.pack];
+        const double height = height_above(plane, feature.pair, positions);
+        if (height < thickness) return false;
+        listed.reach = std::max(listed.reach, below(height + travel));
+        listed.row_reach = std::max(listed.row_reach, below(height - thickness + travel));
+        return true;
+    }
+
+    void select_pack(std::span<const Vec3> positions, int f, int i, ClusterList& list) {
+        const ListedFeature& feature = list.features[f];
+        ListedPack& listed = list.packs[i];
+        if (raise_bounds(positions, feature, list.travel, listed)) return;
+        const ObstaclePacks& packs = obstacles_[feature.pair.obstacle]->packs();
+        packs.placed[listed.pack].prefetch(feature.pair.kind);
+        __builtin_prefetch(&packs.packs[listed.pack].feature);
+        selected_.emplace_back(f, i);
+    }
+
+    /// Marks the packs that a tenth of the thickness more of travel would wake.
+    void find_busy(std::span<const Vec3> positions, ListedFeature& feature, ClusterList& list) const {
+        const float thickness = float_thickness(feature);
+        const double soon = list.travel + 0.1 * static_cast<double>(thickness);
+        feature.busy = 0;
+        feature.others = {.reach = infinity, .quiet_until = infinity};
+        const PackPlane* planes = obstacles_[feature.pair.obstacle]->packs().planes.data();
+        for (int i = 0; i < feature.count; ++i) __builtin_prefetch(planes + list.packs[feature.first + i].pack);
+        for (int i = 0; i < std::min(feature.count, most_marked); ++i) {
+            ListedPack& listed = list.packs[feature.first + i];
+            if (static_cast<double>(listed.quiet_until(thickness)) < soon) raise_bounds(positions, feature, list.travel, listed);
+            if (static_cast<double>(listed.quiet_until(thickness)) < soon) {
+                feature.busy |= 1UL << i;
+            } else {
+                feature.others.reach = std::min(feature.others.reach, listed.reach);
+                feature.others.quiet_until = std::min(feature.others.quiet_until, listed.quiet_until(thickness));
+            }
+        }
+    }
+
+    /// Calls with the index of every pack that is marked or has no mark.
+    template <class Action>
+    static void for_busy(const ListedFeature& feature, const Action& action) {
+        for (unsigned long busy = feature.busy; busy != 0; busy &= busy - 1) action(feature.first + std::countr_zero(busy));
+        for (int i = most_marked; i < feature.count; ++i) action(feature.first + i);
+    }
+
+    PackAnswer measure_pack(const ClothMove& move, const ListedFeature& feature, double near, const ClusterList& list,
+                            ListedPack& listed) {
+        const PlacedPack& placed = obstacles_[feature.pair.obstacle]->placed(static_cast<int>(listed.pack), move.part.from);
+        const PackAnswer answer =
+            measure(feature.pair, move.from, placed, {.near = near, .thickness = thickness_[feature.pair.cloth[0]]});
+        listed.reach = std::max(listed.reach, below(static_cast<double>(answer.least) + list.travel));
+        listed.row_reach = std::max(listed.row_reach, below(static_cast<double>(answer.least_row) + list.travel));
+        return answer;
+    }
+
+    void evaluate_pack(const ClothMove& here, const ListedFeature& feature, ClusterList& list, ListedPack& listed,
+                       ContactRows& rows) {
+        const double thickness = thickness_[feature.pair.cloth[0]];
+        const PackAnswer answer = measure_pack(here, feature, thickness, list, listed);
+        const Obstacle& obstacle = *obstacles_[feature.pair.obstacle];
+        const FeaturePack& pack = obstacle.packs().packs[listed.pack];
+        for (unsigned lanes = answer.row | (listed.held & answer.near); lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            const ContactPair pair = feature.with(pack, lane);
+            const PairContact contact = pair_contact(pair, here.from, obstacle, here.part.from);
+            smallest_distance_ = std::min(smallest_distance_, contact.distance);
+            if (contact.distance >= thickness) continue;
+            // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
+            // that the force is continuous where closest points pass from one feature to the next.
+            if (contact.local_minimum) listed.held |= 1U << lane & 0xffU;
+            if ((listed.held >> lane & 1U) != 0) add_row(pair, contact, thickness, rows);
+        }
+        list.holds = list.holds || listed.held != 0;
     }
 
     void add_row(const ContactPair& pair, const PairContact& contact, double thickness, ContactRows& rows) const {
@@ -137,20 +282,63 @@ private:
         rows.feature.push_back(pair.feature);
     }
 
-    /// `way`: how much any distance of the cluster can shrink during the whole move. Lowers `safe` where a pair needs it.
-    double cut_cluster(const ClothMove& move, double way, ClusterList& list, double safe) {
-        const auto far = [&](double distance, double thickness) {
-            return distance - floor_below(distance, thickness) > way * safe;
+    /// Lowers `safe` where a pair of the cluster needs it. `obstacle_way`: how far obstacles go during the whole move.
+    double cut_cluster(const ClothMove& move, double obstacle_way, std::size_t cluster, double safe) {
+        ClusterList& list = lists_->lists()[cluster];
+        const auto farther = [&](double reach, double way, double thickness) {
+            return reach - list.travel >= within((way + obstacle_way) * safe, thickness);
         };
-        if (far(list.least_reach - list.travel, list.thickness)) return safe;
-        for (ContactPair& pair : list.pairs) {
-            const double thickness = thickness_[pair.cloth[0]];
-            if (far(pair.reach - list.travel, thickness)) continue;
-            const Obstacle& obstacle = *obstacles_[pair.obstacle];
-            const double distance = pair_distance(pair, move.from, obstacle, move.part.from);
-            pair.reach = distance + list.travel;
-            if (far(distance, thickness)) continue;
-            safe = safe_time(moving_pair(pair, move, obstacle), shape_of(pair.kind), floor_below(distance, thickness), safe);
+        if (farther(list.least_reach, lists_->cluster_way(cluster), list.thickness)) return safe;
+        list.least_reach = infinity;
+        for (std::size_t f = 0; f < list.features.size(); ++f) {
+            const ListedFeature& feature = list.features[f];
+            double way = 0.0;
+            for (int k = 0; k < feature.pair.cloth_count(); ++k) way = std::max(way, lists_->ways()[feature.pair.cloth[k]]);
+            if (!farther(static_cast<double>(list.bounds[f].reach), way, thickness_[feature.pair.cloth[0]])) {
+                safe = cut_feature(move, way + obstacle_way, f, list, safe);
+            }
+            list.least_reach = std::min(list.least_reach, static_cast<double>(list.bounds[f].reach));
+        }
+        return safe;
+    }
+
+    double cut_feature(const ClothMove& move, double way, std::size_t f, ClusterList& list, double safe) {
+        const ListedFeature& feature = list.features[f];
+        const double thickness = thickness_[feature.pair.cloth[0]];
+        Box room;
+        for (int k = 0; k < feature.pair.cloth_count(); ++k) {
+            room.add(move.from[feature.pair.cloth[k]]);
+            room.add(move.to[feature.pair.cloth[k]]);
+        }
+        room.grow(most_floor * thickness);
+        const ObstaclePacks& packs = obstacles_[feature.pair.obstacle]->packs();
+        float least = infinity;
+        for (int i = feature.first; i < feature.first + feature.count; ++i) {
+            ListedPack& listed = list.packs[i];
+            const double near = within(way * safe, thickness);
+            const bool may_cross = static_cast<double>(listed.reach) - list.travel < near &&
+                                   !stays_above(packs.planes[listed.pack], feature.pair, move, most_floor * thickness) &&
+                                   packs.packs[listed.pack].box.overlaps(room);
+            if (may_cross) safe = cut_pack(move, feature, near, list, listed, safe);
+            least = std::min(least, listed.reach);
+        }
+        list.bounds[f].reach = least;
+        return safe;
+    }
+
+    double cut_pack(const ClothMove& move, const ListedFeature& feature, double near, const ClusterList& list, ListedPack& listed,
+                    double safe) {
+        const PackAnswer answer = measure_pack(move, feature, near, list, listed);
+        const Obstacle& obstacle = *obstacles_[feature.pair.obstacle];
+        for (unsigned lanes = answer.near; lanes != 0; lanes &= lanes - 1) {
+            const ContactPair pair = feature.with(obstacle.packs().packs[listed.pack], std::countr_zero(lanes));
+            const Vec3 apart = pair_apart(pair, move.from, obstacle, move.part.from);
+            const double distance = apart.norm(), floor = floor_below(distance, thickness_[pair.cloth[0]]);
+            const MovingFour four = moving_pair(pair, move, obstacle);
+            // Convex features that a plane parts at both ends of a straight move are parted by it throughout.
+            const double kept = floor + 0.1 * (distance - floor);
+            if (distance > 0.0 && gap_along(four, cloth_slots(pair.kind), apart / distance, safe) >= kept) continue;
+            safe = safe_time(four, shape_of(pair.kind), floor, safe);
         }
         return safe;
     }
@@ -160,6 +348,9 @@ private:
     std::vector<double> thickness_;
     Obstacles obstacles_;
     std::optional<CandidateLists> lists_;
+    std::vector<ClusterList*> near_clusters_;
+    std::vector<int> active_;                                 // features of a cluster whose bounds are used up
+    std::vector<std::pair<int, int>> candidates_, selected_;  // features and packs of a cluster to be measured
     double smallest_distance_ = std::numeric_limits<double>::infinity();
 };
 

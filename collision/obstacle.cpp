@@ -26,6 +26,8 @@ Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, 
         for (const int vertex : t) box.add(surface_.vertices[vertex]);
     }
     world_boxes_ = boxes_;
+    packs_ = make_packs(surface_);
+    set_pack_boxes();
     tree_ = make_tree(surface_.vertices, surface_.triangles);
 }
 
@@ -37,6 +39,12 @@ void Obstacle::set_world_boxes() {
             world_boxes_[i].add(end_[vertex]);
         }
     }
+}
+
+void Obstacle::set_pack_boxes() {
+    set_boxes(packs_, surface_, paths());
+    whole_box_ = {};
+    for (const Box& box : packs_.box) whole_box_.add(box);
 }
 
 void Obstacle::move(const Pose& start, const Pose& end) {
@@ -54,6 +62,7 @@ void Obstacle::move(const Pose& start, const Pose& end) {
         longest_way_ = std::max(longest_way_, (end_[i] - start_[i]).norm());
     }
     set_world_boxes();
+    set_pack_boxes();
 }
 
 Box Obstacle::to_tree(const Box& box) const {

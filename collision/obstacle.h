@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "obstacle_packs.h"
 #include "obstacle_surface.h"
 #include "obstacle_tree.h"
 
@@ -31,6 +32,12 @@ public:
     /// Box of a triangle during the whole step, m, world.
     const Box& box(int triangle) const { return world_boxes_[triangle]; }
 
+    const ObstaclePacks& packs() const { return packs_; }
+    /// Box of everything during the whole step, m, world.
+    const Box& whole_box() const { return whole_box_; }
+    /// A pack at a fraction of the step; placed when first asked for.
+    const PlacedPack& placed(int pack, double fraction) { return place(packs_, pack, surface_, paths(), fraction); }
+
     /// Triangles that may come near each world box during the step, ascending and the same for every kind of tree.
     void find(std::span<const Box> boxes, TriangleLists& found) const;
     /// The mesh at the start of the step, as it was given (not cleaned).
@@ -39,13 +46,17 @@ public:
 private:
     Box to_tree(const Box& box) const;
     void set_world_boxes();
+    void set_pack_boxes();
+    VertexPaths paths() const { return {start_, moves_ ? end_ : start_}; }
 
     TriangleMesh mesh_;
     ObstacleSurface surface_;        // vertices where the tree was built
     std::vector<Vec3> local_;        // cleaned vertices before the pose
     std::vector<Vec3> start_, end_;  // m, world
     std::vector<Box> world_boxes_;   // of the triangles during the step
-    std::vector<Box> boxes_;         // of the triangles where the tree was built
+    ObstaclePacks packs_;
+    Box whole_box_;
+    std::vector<Box> boxes_;  // of the triangles where the tree was built
     std::unique_ptr<ObstacleTree> tree_;
     Pose built_, start_pose_, end_pose_;
     double friction_ = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "triangle_distance.h"
 
@@ -48,6 +49,16 @@ double safe_time(const MovingFour& four, PairShape shape, double floor, double l
         time = next;
     }
     return time;
+}
+
+double gap_along(const MovingFour& four, unsigned side, const Vec3& direction, double time) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (int i = 0; i < 4; ++i) {
+        const double height = direction.dot(four.from[i]) + time * direction.dot(four.to[i] - four.from[i]);
+        if ((side >> i & 1U) != 0) least = std::min(least, height);
+        if ((side >> i & 1U) == 0) most = std::max(most, height);
+    }
+    return least - most;
 }
 
 }  // namespace percale

@@ -19,4 +19,8 @@ enum class PairShape { point_triangle, edge_edge };  // point 0 against 1 2 3; 0
 /// advancement with thickness (Li, Kaufman and Jiang 2021): no roots, hence no missed coplanar or parallel hits.
 double safe_time(const MovingFour& four, PairShape shape, double floor, double latest);
 
+/// How far the points of one side (bits of `side`) are beyond all others along the unit vector `direction`, at a time. Points on
+/// straight lines: from a time to another it is never less than the lesser of the two, and the distance is never less than it.
+double gap_along(const MovingFour& four, unsigned side, const Vec3& direction, double time);
+
 }  // namespace percale

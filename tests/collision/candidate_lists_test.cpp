@@ -45,10 +45,10 @@ struct World {
     CandidateLists lists() const { return {cloth.triangles, thickness_of_vertex, cloth.vertices}; }
 };
 
-std::set<PairKey> keys(CandidateLists& lists) {
+std::set<PairKey> keys(CandidateLists& lists, const World& world) {
     std::set<PairKey> result;
     for (const ClusterList& list : lists.lists()) {
-        for (const ContactPair& pair : list.pairs) result.insert(key(pair));
+        for (const ListedPair& listed : listed_pairs(list, world.obstacles)) result.insert(key(listed.pair));
     }
     return result;
 }
@@ -109,9 +109,9 @@ long lists_built(CandidateLists& lists, const World& world, std::span<const Vec3
 double excess(const World& world, CandidateLists& lists, std::span<const Vec3> x, double fraction) {
     double most = -1e300;
     for (const ClusterList& list : lists.lists()) {
-        for (const ContactPair& pair : list.pairs) {
+        for (const auto& [pair, reach] : listed_pairs(list, world.obstacles)) {
             const double distance = pair_distance(pair, x, *world.obstacles[pair.obstacle], fraction);
-            most = std::max({most, pair.reach - list.travel - distance, list.least_reach - pair.reach});
+            most = std::max({most, reach - list.travel - distance, list.least_reach - reach});
         }
     }
     return most;
@@ -151,7 +151,7 @@ TEST_CASE("every pair that comes closer than the thickness while the cloth is in
         const std::vector<Vec3> to = stepped(world.cloth.vertices, round % 2 == 0 ? 0.02 : 0.3, random);
         const double start = random.number(0.0, 0.5);
         lists.cover({.from = world.cloth.vertices, .to = to, .part = {start, 1.0}}, world.obstacles);
-        const std::set<PairKey> listed = keys(lists);
+        const std::set<PairKey> listed = keys(lists, world);
         const std::vector<Box> boxes = allowed(lists, to.size());
         lacking += missing(world, world.cloth.vertices, start, listed, near);
         lacking += missing(world, to, 1.0, listed, near);
@@ -173,7 +173,7 @@ TEST_CASE("the lists stay complete when only the clusters that left their boxes 
         to[random.index(16)] += random.point(0.1);
         built += lists_built(lists, world, x, to);
         x = to;
-        lacking += missing(world, x, 1.0, keys(lists), near);
+        lacking += missing(world, x, 1.0, keys(lists, world), near);
     }
     CHECK(built < 40 * long(lists.lists().size()));
     CHECK(near > 100);
@@ -227,14 +227,14 @@ TEST_CASE("a pair is listed once, and obstacles out of reach are not listed at a
     CandidateLists lists = world.lists();
     lists.cover({.from = world.cloth.vertices, .to = world.cloth.vertices, .part = {0.0, 0.0}}, world.obstacles);
     std::size_t count = 0;
-    for (const ClusterList& list : lists.lists()) count += list.pairs.size();
+    for (const ClusterList& list : lists.lists()) count += listed_pairs(list, world.obstacles).size();
     CHECK(count > 0);
-    CHECK(keys(lists).size() == count);
+    CHECK(keys(lists, world).size() == count);
 
     std::vector<Vec3> away = world.cloth.vertices;
     for (Vec3& p : away) p.y() += 50.0;
     lists.cover({.from = away, .to = away, .part = {0.0, 0.0}}, world.obstacles);
-    CHECK(keys(lists).empty());
+    CHECK(keys(lists, world).empty());
 }
 
 TEST_CASE("a move too long for its lists to fit is covered in part, and the cut stays within that part") {
@@ -252,7 +252,7 @@ TEST_CASE("a move too long for its lists to fit is covered in part, and the cut 
     CHECK(share < 1.0);
     CHECK(share > 0.0);
     std::size_t pairs = 0;
-    for (const ClusterList& list : lists.lists()) pairs += list.pairs.size();
+    for (const ClusterList& list : lists.lists()) pairs += listed_pairs(list, obstacles).size();
     CHECK(pairs < 5000000);
 
     const auto detector = make_brute_force_detector();

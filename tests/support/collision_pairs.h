@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision/contact_pair.h"
+#include "collision/candidate_lists.h"
 #include "percale/mesh.h"
 
 namespace percale::test {
@@ -35,6 +35,26 @@ inline std::vector<ContactPair> all_pairs(const TriangleMesh& cloth, const Obsta
         for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
             if (touchable && !surface.edges[e].can_touch) continue;
             pairs.push_back({.kind = PairKind::edge_edge, .cloth = {a, b, -1}, .feature = e});
+        }
+    }
+    return pairs;
+}
+
+/// A pair in a list, with the bound of its pack.
+struct ListedPair {
+    ContactPair pair;
+    double reach = 0.0;
+};
+
+/// Every pair that a cluster's list holds.
+inline std::vector<ListedPair> listed_pairs(const ClusterList& list, const Obstacles& obstacles) {
+    std::vector<ListedPair> pairs;
+    for (const ListedFeature& feature : list.features) {
+        for (int i = feature.first; i < feature.first + feature.count; ++i) {
+            const FeaturePack& pack = obstacles[feature.pair.obstacle]->packs().packs[list.packs[i].pack];
+            for (int lane = 0; lane < pack.count; ++lane) {
+                pairs.push_back({.pair = feature.with(pack, lane), .reach = static_cast<double>(list.packs[i].reach)});
+            }
         }
     }
     return pairs;
