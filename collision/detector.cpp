@@ -10,6 +10,8 @@
 namespace percale {
 namespace {
 
+constexpr double kept_way = 0.1;  // of the thickness: a vertex that has moved no farther keeps its contacts from step to step
+
 /// The distance a cut leaves of a distance d, m: a fifth of the thickness h for d above 0.4 h, half of d below, but never less
 /// than h/1000 unless d itself is there. Without a floor distances collapse to rounding, where directions are lost; a fixed floor
 /// would lock vertices.
@@ -61,9 +63,7 @@ public:
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
-        for (ClusterList& list : lists_->lists()) {
-            for (ContactPair& pair : list.pairs) pair.held = false;
-        }
+        forget_contacts(start);
         lists_->cover({.from = start, .to = predicted, .part = {0.0, 1.0}}, obstacles_);
     }
 
@@ -99,6 +99,25 @@ public:
     double smallest_distance() const override { return smallest_distance_; }
 
 private:
+    /// Contacts of vertices that have moved since theirs were last forgotten, and all while an obstacle moves. Those of cloth that
+    /// rests stay, or contacts that join while a step is solved would be missing at the start of the next: the cloth would tremble
+    /// between the two.
+    void forget_contacts(std::span<const Vec3> positions) {
+        const bool all = kept_at_.size() != positions.size() ||
+                         std::any_of(obstacles_.begin(), obstacles_.end(), [](const auto& o) { return o->longest_way() > 0.0; });
+        kept_at_.resize(positions.size(), Vec3::Zero());
+        moved_.resize(positions.size());
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            moved_[i] = all || (positions[i] - kept_at_[i]).norm() > kept_way * thickness_[i];
+            if (moved_[i]) kept_at_[i] = positions[i];
+        }
+        for (ClusterList& list : lists_->lists()) {
+            for (ContactPair& pair : list.pairs) {
+                for (int k = 0; k < pair.cloth_count(); ++k) pair.held = pair.held && !moved_[pair.cloth[k]];
+            }
+        }
+    }
+
     void evaluate_cluster(std::span<const Vec3> positions, double fraction, ClusterList& list, ContactRows& rows) {
         list.least_reach = std::numeric_limits<double>::infinity();
         for (ContactPair& pair : list.pairs) {
@@ -152,6 +171,8 @@ private:
     std::vector<double> thickness_;
     Obstacles obstacles_;
     std::optional<CandidateLists> lists_;
+    std::vector<Vec3> kept_at_;        // m, where each vertex was when its contacts were last forgotten
+    std::vector<unsigned char> moved_; // whether they are to be forgotten now
     double smallest_distance_ = std::numeric_limits<double>::infinity();
 };
 

@@ -150,6 +150,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     ClothState state;
     for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(world.model.vertex_count());
     state.points = world.state.points;
+    state.grips = world.state.grips;
     state.points.insert(state.points.end(), rest.vertices.begin(), rest.vertices.end());
     copy_in(state.points, state.positions);
     for (std::size_t i = 0; i < world.state.points.size(); ++i) {
@@ -247,6 +248,9 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
         world.state.positions.set(range.first + i, positions[i]);
         world.script.pin_targets.set(range.first + i, positions[i]);
     }
+    std::erase_if(world.state.grips, [&](const Grip& grip) {
+        return grip.vertex >= range.first && grip.vertex < range.first + range.count;
+    });
     update_points(world.state);
     world.contact_energy = 0.0;  // known again after the next step
     world.changed = true;
@@ -322,6 +326,11 @@ std::uint64_t Simulation::state_hash() const {
             hash.add(state.positions.at(i)[axis]);
             hash.add(state.velocities.at(i)[axis]);
         }
+    }
+    for (const Grip& grip : state.grips) {
+        hash.add(grip.vertex);
+        hash.add(grip.obstacle);
+        for (int axis = 0; axis < 3; ++axis) hash.add(grip.stretch[axis]);
     }
     return hash.value();
 }
