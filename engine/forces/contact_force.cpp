@@ -56,7 +56,7 @@ void add_press(const ContactRows& rows, std::size_t row, double normal_force, To
 /// Whether friction at its limit cannot stop a vertex within the step, and where that then goes.
 Vec3 first_heading(const Touch& touch, const ContactStep& step) {
     Vec3 velocity = touch.slip / step.dt;
-    if (!step.previous) velocity += step.dt * tangential(step.gravity, touch.press.normalized());
+    if (!step.previous && !touch.old) velocity += step.dt * tangential(step.gravity, touch.press.normalized());
     const double speed = velocity.norm();
     if (speed * (*step.mass)[touch.vertex] <= step.dt * touch.press.norm() || speed * step.dt <= touch.reach) return Vec3::Zero();
     return velocity / speed;

@@ -9,11 +9,12 @@ namespace {
 
 std::pair<int, int> key(const Grip& grip) { return {grip.vertex, grip.obstacle}; }
 
-Vec3 stretch_at_start(const FrictionStart& start, int vertex, int obstacle) {
+/// Null if the vertex did not hold on to the obstacle.
+const Grip* grip_at_start(const FrictionStart& start, int vertex, int obstacle) {
     const std::pair<int, int> wanted{vertex, obstacle};
     const auto found = std::lower_bound(start.grips.begin(), start.grips.end(), wanted,
                                         [](const Grip& grip, const std::pair<int, int>& value) { return key(grip) < value; });
-    return found != start.grips.end() && key(*found) == wanted ? found->stretch : Vec3(Vec3::Zero());
+    return found != start.grips.end() && key(*found) == wanted ? &*found : nullptr;
 }
 
 /// The linear part of a pose.
@@ -59,7 +60,9 @@ Touch& Touches::get(int vertex, int obstacle) {
 }
 
 void set_slip(const FrictionStart& start, const Vec3& position, double fraction, Touch& touch) {
-    const Vec3 held = start.positions->at(touch.vertex) - stretch_at_start(start, touch.vertex, touch.obstacle);
+    const Grip* grip = grip_at_start(start, touch.vertex, touch.obstacle);
+    touch.old = grip != nullptr;
+    const Vec3 held = start.positions->at(touch.vertex) - (grip ? grip->stretch : Vec3(Vec3::Zero()));
     if (touch.obstacle < static_cast<int>(start.flows.size())) {
         const ObstacleFlow& flow = start.flows[touch.obstacle];
         touch.flow = flow.turn * held + flow.shift;

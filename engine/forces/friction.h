@@ -35,6 +35,7 @@ struct Touch {
     int next = -1;                // touch of the same vertex with another obstacle
     Vec3 press = Vec3::Zero();    // N, friction coefficient times normal force
     double reach = 0.0;           // m, slip up to which it sticks
+    bool old = false;             // it held on when the part began
     Vec3 flow = Vec3::Zero();     // m, how far the point held moves in the whole step
     Vec3 slip = Vec3::Zero();     // m, along the surface, from the point held
     Vec3 heading = Vec3::Zero();  // where it slides, or zero: it sticks
