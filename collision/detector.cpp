@@ -99,9 +99,9 @@ public:
     double smallest_distance() const override { return smallest_distance_; }
 
 private:
-    /// Contacts of vertices that have moved since theirs were last forgotten, and all while an obstacle moves. Those of cloth that
-    /// rests stay, or contacts that join while a step is solved would be missing at the start of the next: the cloth would tremble
-    /// between the two.
+    /// Contacts of vertices that have moved since theirs were last forgotten, and all while an obstacle moves. Those of cloth
+    /// that rests stay, or contacts that join while a step is solved would be missing at the start of the next: the cloth would
+    /// tremble between the two.
     void forget_contacts(std::span<const Vec3> positions) {
         const bool all = kept_at_.size() != positions.size() ||
                          std::any_of(obstacles_.begin(), obstacles_.end(), [](const auto& o) { return o->longest_way() > 0.0; });
@@ -171,8 +171,8 @@ private:
     std::vector<double> thickness_;
     Obstacles obstacles_;
     std::optional<CandidateLists> lists_;
-    std::vector<Vec3> kept_at_;        // m, where each vertex was when its contacts were last forgotten
-    std::vector<unsigned char> moved_; // whether they are to be forgotten now
+    std::vector<Vec3> kept_at_;         // m, where each vertex was when its contacts were last forgotten
+    std::vector<unsigned char> moved_;  // whether they are to be forgotten now
     double smallest_distance_ = std::numeric_limits<double>::infinity();
 };
 

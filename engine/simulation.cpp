@@ -248,9 +248,8 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
         world.state.positions.set(range.first + i, positions[i]);
         world.script.pin_targets.set(range.first + i, positions[i]);
     }
-    std::erase_if(world.state.grips, [&](const Grip& grip) {
-        return grip.vertex >= range.first && grip.vertex < range.first + range.count;
-    });
+    std::erase_if(world.state.grips,
+                  [&](const Grip& grip) { return grip.vertex >= range.first && grip.vertex < range.first + range.count; });
     update_points(world.state);
     world.contact_energy = 0.0;  // known again after the next step
     world.changed = true;

@@ -24,8 +24,6 @@ double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep
     return std::max(share_of_matrix * inertia / (step.dt * step.dt), 4.0 * mass * step.gravity.norm() / rows.thickness[row]);
 }
 
-Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - normal * normal.dot(v); }
-
 /// Adds factor (I - n n^T - t t^T) to a symmetric block; t may be zero.
 void add_tangent_block(std::array<double, 6>& k, double factor, const Vec3& n, const Vec3& t) {
     int entry = 0;
@@ -49,41 +47,33 @@ void add_press(const ContactRows& rows, std::size_t row, double normal_force, To
         if (rows.weight[row][k] <= 0.0) continue;
         Touch& touch = touches.get(rows.vertex[row][k], rows.obstacle[row]);
         touch.press += (touch.press.dot(press) < 0.0 ? -1.0 : 1.0) * rows.weight[row][k] * press;
-        touch.reach = grip_share * rows.thickness[row];
+        touch.reach = reach_share * rows.thickness[row];
     }
 }
 
-/// Whether friction at its limit cannot stop a vertex within the step, and where that then goes.
-Vec3 first_heading(const Touch& touch, const ContactStep& step) {
-    Vec3 velocity = touch.slip / step.dt;
-    if (!step.previous && !touch.old) velocity += step.dt * tangential(step.gravity, touch.press.normalized());
-    const double speed = velocity.norm();
-    if (speed * (*step.mass)[touch.vertex] <= step.dt * touch.press.norm() || speed * step.dt <= touch.reach) return Vec3::Zero();
-    return velocity / speed;
-}
-
+/// Where the matrix lets a vertex slide. An active set: what was held and slipped slides, what turned back is held. At the first
+/// sight of a touch it slides if it did so before or if friction at its limit cannot stop it within the step.
 Vec3 heading(const Touch& touch, const ContactStep& step) {
-    const Touch* before = step.previous ? step.previous->find(touch.vertex, touch.obstacle) : nullptr;
-    if (!before) return first_heading(touch, step);
     const double length = touch.slip.norm();
     if (length <= touch.reach) return Vec3::Zero();
-    const bool turned = touch.slip.dot(before->heading) < 0.0;
-    return turned ? Vec3(Vec3::Zero()) : Vec3(touch.slip / length);
+    const Vec3 along = touch.slip / length;
+    if (const Touch* before = step.previous ? step.previous->find(touch.vertex, touch.obstacle) : nullptr) {
+        return along.dot(before->heading) < 0.0 ? Vec3(Vec3::Zero()) : along;
+    }
+    const double stopping = step.dt * step.dt * touch.press.norm();
+    return touch.old || length * (*step.mass)[touch.vertex] > stopping ? along : Vec3(Vec3::Zero());
 }
 
-/// Force, matrix and what the linear model's force is beyond the force, of a touch whose press is known.
+/// Force and matrix of a touch whose press is known.
 void add_friction(const ContactStep& step, const Vectors& positions, Touch& touch, Vectors& forces, ContactTerms& terms) {
     set_slip(*step.friction, positions.at(touch.vertex), step.fraction, touch);
     touch.heading = heading(touch, step);
     const double limit = touch.press.norm();
-    const bool sticks = touch.heading.isZero(0.0);
-    const double stiffness = limit / (sticks ? touch.reach : std::max(touch.slip.norm(), touch.reach));
-    const Vec3 force = friction_force(touch);
-    const Vec3 model = sticks ? Vec3(-stiffness * touch.slip) : Vec3(-limit * touch.heading);
     ContactBlock block{.vertex = {touch.vertex, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
+    const double stiffness = limit / std::max(touch.slip.norm(), touch.reach);
     add_tangent_block(block.k, step.dt * step.dt * stiffness, touch.press / limit, touch.heading);
     terms.blocks.push_back(block);
-    if (model != force) terms.missing.push_back({touch.vertex, model - force});
+    const Vec3 force = friction_force(touch);
     forces.add(touch.vertex, force);
     terms.obstacle_power += force.dot(touch.flow) * step.obstacle_rate;
 }
@@ -102,7 +92,6 @@ ContactPotential contact_potential(double distance, double thickness, double sti
 void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
                  ContactTerms& terms) {
     terms.blocks.clear();
-    terms.missing.clear();
     terms.touches.clear(positions.padded_size());
     terms.energy = terms.largest_stiffness = terms.obstacle_power = 0.0;
     for (std::size_t row = 0; row < rows.size(); ++row) {

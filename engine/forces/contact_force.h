@@ -48,15 +48,8 @@ struct ContactBlock {
     std::array<double, 6> k;  // xx xy xz yy yz zz
 };
 
-/// Force of the linear model that the matrix belongs to, less the force there is.
-struct MissingForce {
-    int vertex;
-    Vec3 force;  // N
-};
-
 struct ContactTerms {
     std::vector<ContactBlock> blocks;  // of the rows, then one of friction for each touch
-    std::vector<MissingForce> missing;
     Touches touches;
     double energy = 0.0;             // J, without friction
     double largest_stiffness = 0.0;  // N/m
@@ -66,9 +59,8 @@ struct ContactTerms {
 /// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`.
 /// Stiffness of a row: half of n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks, but at least four
 /// times (static weight on the row)/thickness, so that slack cloth rests at no less than 3/4 of the thickness. Friction with
-/// obstacles acts on vertices (friction.h). Whether the linear model takes a vertex for sticking or sliding is an active set: one
-/// that was taken for sticking and gave more than the reach slides, one that turned back sticks; at the first sight of it the
-/// impulse decides that would stop it within the step.
+/// obstacles acts on vertices (friction.h), each pressed by its share of all rows with the same obstacle; in the matrix a sliding
+/// one is free along its slip.
 void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
                  ContactTerms& terms);
 

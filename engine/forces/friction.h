@@ -10,7 +10,7 @@
 namespace percale {
 
 /// How far a sticking contact gives before it slides, as a share of the thickness.
-constexpr double grip_share = 0.01;
+constexpr double reach_share = 0.01;
 
 /// Motion of an obstacle over a whole step: its point that is at p when the part begins moves by turn p + shift, m.
 struct ObstacleFlow {
@@ -29,7 +29,7 @@ struct FrictionStart {
     std::span<const ObstacleFlow> flows;  // of each obstacle; those not listed stay
 };
 
-/// A vertex pressed to an obstacle by all their rows together.
+/// A vertex pressed to an obstacle, by all their rows together.
 struct Touch {
     int vertex = -1, obstacle = -1;
     int next = -1;                // touch of the same vertex with another obstacle
@@ -38,7 +38,7 @@ struct Touch {
     bool old = false;             // it held on when the part began
     Vec3 flow = Vec3::Zero();     // m, how far the point held moves in the whole step
     Vec3 slip = Vec3::Zero();     // m, along the surface, from the point held
-    Vec3 heading = Vec3::Zero();  // where it slides, or zero: it sticks
+    Vec3 heading = Vec3::Zero();  // unit, where the matrix lets it slide; zero: nowhere
 };
 
 /// The touches of one evaluation.

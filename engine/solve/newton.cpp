@@ -47,10 +47,8 @@ private:
         space_.solver.start_part();
         for (auto* vectors : {&space_.direction, &space_.right_side}) vectors->resize(model_.vertex_count());
         space_.start_grips = state.grips;
-        space_.friction = {.positions = &space_.start_positions,
-                           .fraction = part_.span.from,
-                           .grips = space_.start_grips,
-                           .flows = part_.flows};
+        space_.friction = {
+            .positions = &space_.start_positions, .fraction = part_.span.from, .grips = space_.start_grips, .flows = part_.flows};
         set_step_springs(*part_.compute, {model_.adjacency, state.positions, part_.plan->damping, part_.dt}, space_.springs);
     }
 
@@ -187,15 +185,6 @@ private:
             solve_direction(iteration, norm, last_norm);
             last_norm = norm;
             ++report_.newton_iterations;
-            if (getenv("DBG")) {
-                int slide = 0, stick = 0, miss = space_.current.forces.contact.missing.size();
-                for (auto& t : space_.current.forces.contact.touches.all) (t.heading.isZero(0.0) ? stick : slide)++;
-                double worst = 0; int at = -1; for (int i = 0; i < model_.vertex_count(); ++i) if (space_.direction.at(i).norm() > worst) worst = space_.direction.at(i).norm(), at = i;
-                const Touch* t = nullptr; for (auto& u : space_.current.forces.contact.touches.all) if (u.vertex == at) t = &u;
-                printf("   it %d norm %.3e slope %.3e rows %zu stick %d slide %d missing %d worst %.2e at %d", iteration, norm, dot(*part_.compute, space_.current.residual, space_.direction), space_.current.forces.rows.size(), stick, slide, miss, worst*part_.dt, at);
-                if (t) printf(" touch limit %.2e slip %.2e (%.1f) stick %d", t->press.norm(), t->slip.norm(), t->slip.norm()/t->reach, (int)t->heading.isZero(0.0));
-                printf("\n");
-            }
             if (step_along() && most > 1) continue;
             set_relative_residual(residual_norm(), first_norm);
             return end_here(most == 1);
@@ -232,7 +221,6 @@ private:
             space_.solver.fill(point.forces.spring_terms, point.forces.contact.blocks);
             space_.right_side.resize(model_.vertex_count());
             add_scaled(space_.right_side, -1.0, point.residual);
-            add_missing_forces();
         }
         StageTimer timer(stages_.solve);
         const SolveTarget target = solve_target(iteration, norm, last_norm);
@@ -240,14 +228,6 @@ private:
         report_.linear_iterations += solved.iterations;
         direction_is_good_ = solved.converged;
         if (space_.current.forces.rows.size() == 0) correct_translation();
-    }
-
-    /// The matrix belongs to a model of friction whose forces may differ from those there are.
-    void add_missing_forces() {
-        if (!part_.plan->contacts) return;
-        for (const MissingForce& missing : space_.current.forces.contact.missing) {
-            space_.right_side.add(missing.vertex, (*part_.free)[missing.vertex] * part_.dt * missing.force);
-        }
     }
 
     void set_prescribed_direction() {

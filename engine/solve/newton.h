@@ -32,7 +32,7 @@ struct ImplicitPart {
     double dt = 0.0;                              // s, length of this part
     double full_step = 0.0;                       // s, of the whole step, over which obstacles move
     StepFraction span;                            // of the whole step
-    std::span<const ObstacleFlow> flows;          // of each obstacle that moves; none: they stay
+    std::span<const ObstacleFlow> flows = {};     // of each obstacle that moves; none: they stay
     NewtonOptions options;
 };
 
