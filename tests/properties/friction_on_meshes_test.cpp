@@ -95,7 +95,7 @@ struct Strip {
 }  // namespace
 
 TEST_CASE("A strip pulled over a cylinder has the tensions of the capstan") {
-    for (const double friction : {0.1, 0.3, 0.5}) {
+    for (const double friction : {0.1, 0.5}) {
         Strip strip(friction);
         for (int i = 0; i < 60; ++i) strip.pull(0.0005);
         const double ratio = strip.stretch(Strip::columns - 2) / strip.stretch(0);
@@ -162,6 +162,23 @@ TEST_CASE("A sheet on a ball comes to rest and falls asleep, at no less than hal
     CHECK(report.slept);
     CHECK(report.smallest_distance > 0.5 * h);
     CHECK(mean(simulation.positions(cloth)).y() > 0.1);
+}
+
+TEST_CASE("A light sheet that falls on a ball never gains energy") {
+    Fabric light = fabric();
+    light.area_density = 0.02;
+    Simulation simulation = simulation_on_meshes({.time_step = 1.0 / 60.0});
+    simulation.add_cloth(make_grid(0.6, 0.6, 17, 17), light, {.translation = Vec3(0.03, 0.5, 0.01)});
+    simulation.add_obstacle(make_sphere(0.25, 3), {}, {.friction = 0.3, .name = "ball"});
+    double before = simulation.energy().total();
+    const double start = before;
+    for (int i = 0; i < 90; ++i) {
+        const StepReport report = simulation.step();
+        REQUIRE(report.ok());
+        CAPTURE(i, report.contacts);
+        CHECK(report.energy.total() <= before + 1e-6 * start);
+        before = report.energy.total();
+    }
 }
 
 TEST_CASE("What vertices hold on to is part of the state") {

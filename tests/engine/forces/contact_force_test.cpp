@@ -25,7 +25,7 @@ struct Touch {
     ContactRows rows;
     ContactStep step;
     Vectors start_positions, positions, forces;
-    FrictionStart friction;
+    FrictionStart start;
     ContactTerms terms;
 
     explicit Touch(int vertices, double mass_each = 0.01) : mass(vertices, mass_each) {
@@ -60,8 +60,8 @@ struct Touch {
     void evaluate() {
         step.mass = &mass;
         step.diagonal = &diagonal;
-        friction.positions = &start_positions;
-        step.friction = &friction;
+        start.positions = &start_positions;
+        step.friction = &start;
         forces.resize(static_cast<int>(mass.size()));
         add_contact(rows, step, positions, forces, terms);
     }
@@ -209,7 +209,7 @@ TEST_CASE("Friction opposes the slip over the step and stays below mu N") {
         const Vec3 n = random.unit();
         touch.add_point(n, random.number(0.1, 0.99) * h, mu);
         const std::vector<ObstacleFlow> flows = {{.turn = Eigen::Matrix3d::Zero(), .shift = random.point(0.01)}};
-        touch.friction.flows = flows;
+        touch.start.flows = flows;
         touch.step.fraction = 1.0;
         const Vec3 way = random.unit() * random.decades(1e-7, 1e-1);
         touch.positions.set(0, way);
@@ -278,7 +278,7 @@ TEST_CASE("At first sight a vertex is held if friction can stop it within the st
     }
     // What held on before and is beyond the reach has been sliding.
     const std::vector<Grip> grips = {{0, 0, Vec3(reach_share * h, 0.0, 0.0)}};
-    touch.friction.grips = grips;
+    touch.start.grips = grips;
     touch.positions.set(0, Vec3(0.5 * stopped, 0.0, 0.0));
     CHECK(friction_of(touch).block(0, 0) < 1e-20);
 }
@@ -318,7 +318,7 @@ TEST_CASE("The power of an obstacle is its force times its velocity, friction in
     CHECK(touch.terms.obstacle_power == Approx(push * 0.002 * 60.0).epsilon(1e-12));
     touch.rows.friction[0] = 0.5;
     const std::vector<ObstacleFlow> flows = {{.turn = Eigen::Matrix3d::Zero(), .shift = Vec3(0.1, 0.002, 0.0)}};
-    touch.friction.flows = flows;
+    touch.start.flows = flows;
     touch.step.fraction = 1.0;
     touch.evaluate();
     CHECK(touch.forces.at(0).x() == Approx(0.5 * push).epsilon(1e-12));

@@ -107,12 +107,11 @@ TEST_CASE("Touches are one a vertex and obstacle and are found again until they 
 
 TEST_CASE("Grips keep what sticks, drag along what slides, and are sorted") {
     Touches touches;
-    touches.clear(9);
-    touches.get(8, 0) = touch_of(Vec3(0, 1, 0), 1e-4, Vec3(0.5e-4, 0, 0));
-    touches.get(3, 1) = touch_of(Vec3(0, 1, 0), 1e-4, Vec3(0, 0, -0.3));
-    touches.get(3, 0) = touch_of(Vec3(0, 1, 0), 1e-4, Vec3(0, 0, 1e-4));
-    const std::vector<std::pair<int, int>> keys = {{8, 0}, {3, 1}, {3, 0}};
-    for (int k = 0; k < 3; ++k) std::tie(touches.all[k].vertex, touches.all[k].obstacle) = keys[k];
+    touches.all = {touch_of(Vec3(0, 1, 0), 1e-4, Vec3(0.5e-4, 0, 0)), touch_of(Vec3(0, 1, 0), 1e-4, Vec3(0, 0, -0.3)),
+                   touch_of(Vec3(0, 1, 0), 1e-4, Vec3(0, 0, 1e-4))};
+    touches.all[0].vertex = 8;
+    touches.all[1].vertex = touches.all[2].vertex = 3;
+    touches.all[1].obstacle = 1;
     std::vector<Grip> grips = {{77, 7, Vec3(1, 1, 1)}};
     set_grips(touches, grips);
     REQUIRE(grips.size() == 3);
