@@ -15,6 +15,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double most_floor = 0.2;  // of the thickness
+constexpr double kept_way = 0.1;    // of the thickness: a vertex that has moved no farther keeps its contacts from step to step
 
 /// The distance a cut leaves of a distance d, m: a fifth of the thickness h for d above 0.4 h, half of d below, but never less
 /// than h/1000 unless d itself is there. Without a floor distances collapse to rounding, where directions are lost; a fixed floor
@@ -102,11 +103,7 @@ public:
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
-        for (ClusterList& list : lists_->empty() ? std::span<ClusterList>() : lists_->lists()) {
-            if (!list.holds) continue;
-            for (ListedPack& pack : list.packs) pack.held = 0;
-            list.holds = false;
-        }
+        if (!lists_->empty()) forget_contacts(start);
         lists_->cover({.from = start, .to = predicted, .part = {0.0, 1.0}}, obstacles_);
     }
 
@@ -142,6 +139,34 @@ public:
     double smallest_distance() const override { return smallest_distance_; }
 
 private:
+    /// Contacts of vertices that have moved since theirs were last forgotten, and all while an obstacle moves. Those of cloth
+    /// that rests stay, or contacts that join while a step is solved would be missing at the start of the next: the cloth would
+    /// tremble between the two.
+    void forget_contacts(std::span<const Vec3> positions) {
+        const bool all = kept_at_.size() != positions.size() ||
+                         std::any_of(obstacles_.begin(), obstacles_.end(), [](const auto& o) { return o->longest_way() > 0.0; });
+        kept_at_.resize(positions.size(), Vec3::Zero());
+        moved_.resize(positions.size());
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            moved_[i] = all || (positions[i] - kept_at_[i]).norm() > kept_way * thickness_[i];
+            if (moved_[i]) kept_at_[i] = positions[i];
+        }
+        for (ClusterList& list : lists_->lists()) {
+            if (!list.holds) continue;
+            list.holds = false;
+            for (const ListedFeature& feature : list.features) forget_contacts(feature, list);
+        }
+    }
+
+    void forget_contacts(const ListedFeature& feature, ClusterList& list) const {
+        bool moved = false;
+        for (int k = 0; k < feature.pair.cloth_count(); ++k) moved = moved || moved_[feature.pair.cloth[k]];
+        for (int i = feature.first; i < feature.first + feature.count; ++i) {
+            if (moved) list.packs[i].held = 0;
+            list.holds = list.holds || list.packs[i].held != 0;
+        }
+    }
+
     void evaluate_cluster(std::span<const Vec3> positions, double fraction, ClusterList& list, ContactRows& rows) {
         select_packs(positions, list);
         for (const auto& [feature, pack] : selected_) {
@@ -351,6 +376,8 @@ private:
     std::vector<ClusterList*> near_clusters_;
     std::vector<int> active_;                                 // features of a cluster whose bounds are used up
     std::vector<std::pair<int, int>> candidates_, selected_;  // features and packs of a cluster to be measured
+    std::vector<Vec3> kept_at_;                               // m, where each vertex was when its contacts were last forgotten
+    std::vector<unsigned char> moved_;                        // whether they are to be forgotten now
     double smallest_distance_ = std::numeric_limits<double>::infinity();
 };
 

@@ -226,6 +226,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     state.points = world.state.points;
     state.points.insert(state.points.end(), world.model.rest.end() - static_cast<long>(rest.vertices.size()),
                         world.model.rest.end());
+    state.grips = world.state.grips;
     copy_in(state.points, state.positions);
     for (std::size_t i = 0; i < world.state.points.size(); ++i) {
         state.velocities.set(static_cast<int>(i), world.state.velocities.at(static_cast<int>(i)));
@@ -324,6 +325,8 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
         world.state.positions.set(range.index_of(i), positions[i]);
         world.script.pin_targets.set(range.index_of(i), positions[i]);
     }
+    std::erase_if(world.state.grips,
+                  [&](const Grip& grip) { return grip.vertex >= range.first && grip.vertex < range.first + range.count; });
     update_points(world.state);
     implementation_->update_views();
     world.contact_energy = 0.0;  // known again after the next step
@@ -408,6 +411,11 @@ std::uint64_t Simulation::state_hash() const {
             hash.add(state.positions.at(i)[axis]);
             hash.add(state.velocities.at(i)[axis]);
         }
+    }
+    for (const Grip& grip : state.grips) {
+        hash.add(grip.vertex);
+        hash.add(grip.obstacle);
+        for (int axis = 0; axis < 3; ++axis) hash.add(grip.stretch[axis]);
     }
     return hash.value();
 }

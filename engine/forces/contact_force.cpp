@@ -6,7 +6,6 @@
 namespace percale {
 namespace {
 
-constexpr double stick_speed = 1e-3;  // m/s, below it friction is a damper
 constexpr double share_of_matrix =
     0.5;  // of the step matrix that the contact stiffness takes: softer sinks, stiffer takes Newton longer
 
@@ -25,14 +24,6 @@ double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep
     return std::max(share_of_matrix * inertia / (step.dt * step.dt), 4.0 * mass * step.gravity.norm() / rows.thickness[row]);
 }
 
-Vec3 row_velocity(const ContactRows& rows, std::size_t row, const Vectors& velocities) {
-    Vec3 velocity = Vec3::Zero();
-    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) velocity += rows.weight[row][k] * velocities.at(rows.vertex[row][k]);
-    return velocity;
-}
-
-Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - normal * normal.dot(v); }
-
 /// Adds factor (I - n n^T - t t^T) to a symmetric block; t may be zero.
 void add_tangent_block(std::array<double, 6>& k, double factor, const Vec3& n, const Vec3& t) {
     int entry = 0;
@@ -48,32 +39,43 @@ void add_normal_block(std::array<double, 6>& k, double factor, const Vec3& n) {
     }
 }
 
-/// Friction force of a row pressed by `normal_force`, and its matrix added to `block`.
-Vec3 friction(const ContactRows& rows, std::size_t row, double normal_force, const Vec3& velocity, const ContactStep& step,
-              ContactBlock& block) {
-    const Vec3& n = rows.direction[row];
-    const double limit = rows.friction[row] * normal_force;
-    if (limit == 0.0) return Vec3::Zero();
-    const Vec3 obstacle_velocity = step.obstacle_rate * rows.obstacle_displacement[row];
-    Vec3 slip = tangential(velocity - obstacle_velocity, n);
-    double mass = 0.0, weight_squares = 0.0;
-    for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
-        mass += block.weight[k] * (*step.mass)[block.vertex[k]];
-        weight_squares += block.weight[k] * block.weight[k];
+/// Gives the vertices of a row their share of what presses them to the obstacle. Normals that point apart, of the two sides of a
+/// gap, press both.
+void add_press(const ContactRows& rows, std::size_t row, double normal_force, Touches& touches) {
+    const Vec3 press = rows.friction[row] * normal_force * rows.direction[row];
+    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
+        if (rows.weight[row][k] <= 0.0) continue;
+        Touch& touch = touches.get(rows.vertex[row][k], rows.obstacle[row]);
+        touch.press += (touch.press.dot(press) < 0.0 ? -1.0 : 1.0) * rows.weight[row][k] * press;
+        touch.reach = reach_share * rows.thickness[row];
     }
-    const Vec3 heading = step.first_evaluation ? Vec3(slip + step.dt * tangential(step.gravity, n)) : slip;
-    const double speed = heading.norm();
-    // Sliding: friction at its limit cannot stop the point within the step.
-    const bool slides = speed > stick_speed && speed * mass / weight_squares > step.dt * limit;
-    if (slides) {
-        add_tangent_block(block.k, step.dt * limit / speed, n, heading / speed);
-        return -limit / speed * heading;
+}
+
+/// Where the matrix lets a vertex slide. An active set: what was held and slipped slides, what turned back is held. At the first
+/// sight of a touch it slides if it did so before or if friction at its limit cannot stop it within the step.
+Vec3 heading(const Touch& touch, const ContactStep& step) {
+    const double length = touch.slip.norm();
+    if (length <= touch.reach) return Vec3::Zero();
+    const Vec3 along = touch.slip / length;
+    if (const Touch* before = step.previous ? step.previous->find(touch.vertex, touch.obstacle) : nullptr) {
+        return along.dot(before->heading) < 0.0 ? Vec3(Vec3::Zero()) : along;
     }
-    const double slip_speed = slip.norm();
-    const double y = slip_speed / stick_speed;
-    const double damping = step.first_evaluation || y < 1.0 ? limit * (2.0 - std::min(y, 1.0)) / stick_speed : limit / slip_speed;
-    add_tangent_block(block.k, step.dt * damping, n, Vec3::Zero());
-    return -damping * slip;
+    const double stopping = step.dt * step.dt * touch.press.norm();
+    return touch.old || length * (*step.mass)[touch.vertex] > stopping ? along : Vec3(Vec3::Zero());
+}
+
+/// Force and matrix of a touch whose press is known.
+void add_friction(const ContactStep& step, const Vectors& positions, Touch& touch, Vectors& forces, ContactTerms& terms) {
+    set_slip(*step.friction, positions.at(touch.vertex), step.fraction, touch);
+    touch.heading = heading(touch, step);
+    const double limit = touch.press.norm();
+    ContactBlock block{.vertex = {touch.vertex, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
+    const double stiffness = limit / std::max(touch.slip.norm(), touch.reach);
+    add_tangent_block(block.k, step.dt * step.dt * stiffness, touch.press / limit, touch.heading);
+    terms.blocks.push_back(block);
+    const Vec3 force = friction_force(touch);
+    forces.add(touch.vertex, force);
+    terms.obstacle_power += force.dot(touch.flow) * step.obstacle_rate;
 }
 
 }  // namespace
@@ -87,23 +89,26 @@ ContactPotential contact_potential(double distance, double thickness, double sti
     return {0.5 * scale + scale * std::log(half / distance), scale / distance, scale / (distance * distance)};
 }
 
-void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& velocities, Vectors& forces,
+void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
                  ContactTerms& terms) {
     terms.blocks.clear();
+    terms.touches.clear(positions.padded_size());
     terms.energy = terms.largest_stiffness = terms.obstacle_power = 0.0;
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const double stiffness = row_stiffness(rows, row, step);
         const ContactPotential potential = contact_potential(rows.distance[row], rows.thickness[row], stiffness);
         ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}};
         add_normal_block(block.k, step.dt * step.dt * potential.curvature, rows.direction[row]);
-        const Vec3 velocity = row_velocity(rows, row, velocities);
-        const Vec3 force = potential.slope * rows.direction[row] + friction(rows, row, potential.slope, velocity, step, block);
+        const Vec3 force = potential.slope * rows.direction[row];
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) forces.add(block.vertex[k], block.weight[k] * force);
         terms.blocks.push_back(block);
         terms.energy += potential.energy;
         terms.largest_stiffness = std::max(terms.largest_stiffness, stiffness);
         terms.obstacle_power += force.dot(rows.obstacle_displacement[row]) * step.obstacle_rate;
+        const bool rubs = step.friction && rows.friction[row] * potential.slope > 0.0 && rows.obstacle[row] >= 0;
+        if (rubs) add_press(rows, row, potential.slope, terms.touches);
     }
+    for (Touch& touch : terms.touches.all) add_friction(step, positions, touch, forces, terms);
 }
 
 }  // namespace percale

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "friction.h"
 #include "model/vectors.h"
 #include "percale/contact.h"
 
@@ -32,10 +33,12 @@ struct DiagonalBlocks {
 struct ContactStep {
     double dt = 0.0;                            // s, of the part of the step being solved
     double obstacle_rate = 0.0;                 // 1/s, obstacle velocity / obstacle_displacement
+    double fraction = 0.0;                      // of the whole step, where obstacles are
     Vec3 gravity = Vec3::Zero();                // m/s^2
     const std::vector<double>* mass = nullptr;  // kg, of each vertex
     const DiagonalBlocks* diagonal = nullptr;   // of the elastic step matrix when the step began; frozen
-    bool first_evaluation = false;              // stick or slide is then decided by where gravity will push
+    const FrictionStart* friction = nullptr;    // null: without friction
+    const Touches* previous = nullptr;          // of the point that the search came from; null at the first evaluation
 };
 
 /// One row's part of the step matrix: weight w_k w_l K between its vertices, K symmetric, kg.
@@ -46,18 +49,19 @@ struct ContactBlock {
 };
 
 struct ContactTerms {
-    std::vector<ContactBlock> blocks;
-    double energy = 0.0;             // J
+    std::vector<ContactBlock> blocks;  // of the rows, then one of friction for each touch
+    Touches touches;
+    double energy = 0.0;             // J, without friction
     double largest_stiffness = 0.0;  // N/m
     double obstacle_power = 0.0;     // W, of the obstacles on the cloth
 };
 
 /// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`.
 /// Stiffness of a row: half of n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks, but at least four
-/// times (static weight on the row)/thickness, so that slack cloth rests at no less than 3/4 of the thickness. Friction acts
-/// against the tangential velocity relative to the obstacle, mu N at most; below 1e-3 m/s it grows linearly. A sliding row is a
-/// constant force whose matrix leaves the sliding direction free; a sticking one a stiff damper.
-void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& velocities, Vectors& forces,
+/// times (static weight on the row)/thickness, so that slack cloth rests at no less than 3/4 of the thickness. Friction with
+/// obstacles acts on vertices (friction.h), each pressed by its share of all rows with the same obstacle; in the matrix a sliding
+/// one is free along its slip.
+void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
                  ContactTerms& terms);
 
 }  // namespace percale

@@ -14,7 +14,7 @@ void evaluate_forces(const ForceInput& input, Forces& forces) {
 }
 
 void add_contact_forces(const ForceInput& input, const ContactStep& contact_step, Forces& forces) {
-    add_contact(forces.rows, contact_step, *input.velocities, forces.total, forces.contact);
+    add_contact(forces.rows, contact_step, *input.positions, forces.total, forces.contact);
     forces.potential += forces.contact.energy;
 }
 

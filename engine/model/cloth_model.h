@@ -48,11 +48,18 @@ void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fab
 void order_last_cloth(ClothModel& model);
 void finish_model(ClothModel& model);
 
+/// What a vertex holds on to by friction: the point of the obstacle that lies `stretch` behind it.
+struct Grip {
+    int vertex = -1, obstacle = -1;
+    Vec3 stretch = Vec3::Zero();  // m, world, along the surface
+};
+
 /// What may change in a step.
 struct ClothState {
     Vectors positions;         // m
     Vectors velocities;        // m/s
     std::vector<Vec3> points;  // positions again, one after the other, for detectors and callers
+    std::vector<Grip> grips;   // sorted by vertex and obstacle
 };
 
 /// Copies positions to points.

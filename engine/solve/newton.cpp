@@ -46,6 +46,9 @@ private:
         space_.solver.matrix.free = *part_.free;
         space_.solver.start_part();
         for (auto* vectors : {&space_.direction, &space_.right_side}) vectors->resize(model_.vertex_count());
+        space_.start_grips = state.grips;
+        space_.friction = {
+            .positions = &space_.start_positions, .fraction = part_.span.from, .grips = space_.start_grips, .flows = part_.flows};
         set_step_springs(*part_.compute, {model_.adjacency, state.positions, part_.plan->damping, part_.dt}, space_.springs);
     }
 
@@ -126,21 +129,23 @@ private:
         StageTimer timer(stages_.force);
         const ForceInput input = force_input(point);
         evaluate_forces(input, point.forces);
-        if (part_.plan->contacts) add_contacts(input, point.forces);
+        if (part_.plan->contacts) add_contacts(input, point);
         set_residual(point);
     }
 
-    void add_contacts(const ForceInput& input, Forces& forces) {
+    void add_contacts(const ForceInput& input, NewtonPoint& point) {
         const bool first = space_.frozen_diagonal.padded == 0;
-        if (first) fill_diagonal(space_.solver.matrix, forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
+        if (first) fill_diagonal(space_.solver.matrix, point.forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
         const ContactStep step{.dt = part_.dt,
                                .obstacle_rate = 1.0 / part_.full_step,
+                               .fraction = point.fraction,
                                .gravity = part_.settings->gravity,
                                .mass = &model_.mass,
                                .diagonal = &space_.frozen_diagonal,
-                               .first_evaluation = first};
-        add_contact_forces(input, step, forces);
-        report_.largest_stiffness = std::max(report_.largest_stiffness, forces.contact.largest_stiffness);
+                               .friction = &space_.friction,
+                               .previous = first ? nullptr : &space_.current.forces.contact.touches};
+        add_contact_forces(input, step, point.forces);
+        report_.largest_stiffness = std::max(report_.largest_stiffness, point.forces.contact.largest_stiffness);
     }
 
     /// r = M (v - v_n) - dt f and the incremental potential whose gradient by v it is.
@@ -395,6 +400,7 @@ private:
             if ((*part_.free)[i] > 0.0 || !arrived()) continue;
             state.positions.set(i, part_.targets->at(i));
         }
+        if (part_.plan->contacts) set_grips(space_.current.forces.contact.touches, state.grips);
         update_points(state);
     }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "forces/total_force.h"
@@ -31,6 +32,7 @@ struct ImplicitPart {
     double dt = 0.0;                              // s, length of this part
     double full_step = 0.0;                       // s, of the whole step, over which obstacles move
     StepFraction span;                            // of the whole step
+    std::span<const ObstacleFlow> flows = {};     // of each obstacle that moves; none: they stay
     NewtonOptions options;
 };
 
@@ -69,6 +71,8 @@ struct NewtonSpace {
     AlignedVector<float> frozen_inverse;
     NewtonPoint current, trial;
     Vectors start_positions, start_velocities;
+    std::vector<Grip> start_grips;
+    FrictionStart friction;
     Vectors direction, right_side;
 };
 

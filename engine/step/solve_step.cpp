@@ -83,9 +83,18 @@ void add_figures(const NewtonReport& part, StepReport& report) {
     report.contact_stiffness = std::max(report.contact_stiffness, part.largest_stiffness);
 }
 
+void set_flows(World& world, double fraction) {
+    world.flows.clear();
+    if (!world.plan.obstacles_move) return;
+    for (const ObstacleState& obstacle : world.script.obstacles) {
+        world.flows.push_back(obstacle_flow(obstacle.start, obstacle.end, fraction));
+    }
+}
+
 NewtonReport solve_part(World& world, StepFraction span) {
     const double dt = world.settings.time_step * (span.to - span.from);
     set_part_targets(world, span.to);
+    set_flows(world, span.from);
     const ImplicitPart part{.compute = &world.compute,
                             .model = &world.model,
                             .settings = &world.settings,
@@ -96,6 +105,7 @@ NewtonReport solve_part(World& world, StepFraction span) {
                             .dt = dt,
                             .full_step = world.settings.time_step,
                             .span = span,
+                            .flows = world.flows,
                             .options = {}};
     const NewtonReport part_report = solve_implicit(part, world.newton, world.state, world.report.stages);
     add_figures(part_report, world.report);
@@ -170,6 +180,7 @@ bool solve_span(World& world, StepFraction span, int depth) {
         ++world.report.halvings;
         world.state.positions = world.newton.start_positions;
         world.state.velocities = world.newton.start_velocities;
+        world.state.grips = world.newton.start_grips;
         update_points(world.state);
         const double middle = 0.5 * (span.from + span.to);
         return solve_span(world, {span.from, middle}, depth + 1) && solve_span(world, {middle, span.to}, depth + 1);

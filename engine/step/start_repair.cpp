@@ -39,6 +39,7 @@ public:
         world_.time = time_;
         world_.time_error = time_error_;
         world_.state.velocities = velocities_;
+        world_.state.grips.clear();
         world_.script.pin_targets = targets_;
         for (std::size_t k = 0; k < obstacles_.size(); ++k) world_.script.obstacles[k].end = obstacles_[k].end;
         world_.report = {};

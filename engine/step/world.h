@@ -57,6 +57,7 @@ struct World {
     ExplicitSpace explicit_space;
     ClothState before;  // the state at the start of the running step
     Vectors part_targets;
+    std::vector<ObstacleFlow> flows;
     double contact_energy = 0.0;  // J, of the current state
     UserViews views;
     StepReport report;

@@ -24,14 +24,14 @@ struct Touch {
     DiagonalBlocks diagonal;
     ContactRows rows;
     ContactStep step;
-    Vectors velocities, forces;
+    Vectors start_positions, positions, forces;
+    FrictionStart start;
     ContactTerms terms;
 
     explicit Touch(int vertices, double mass_each = 0.01) : mass(vertices, mass_each) {
         diagonal.resize(vertices);
         for (const int entry : {0, 3, 5}) set_diagonal(entry, std::vector<double>(vertices, mass_each));
-        velocities.resize(vertices);
-        forces.resize(vertices);
+        for (auto* vectors : {&start_positions, &positions, &forces}) vectors->resize(vertices);
         step = {.dt = 1.0 / 60.0, .obstacle_rate = 60.0, .gravity = Vec3(0, -9.81, 0)};
     }
 
@@ -60,8 +60,10 @@ struct Touch {
     void evaluate() {
         step.mass = &mass;
         step.diagonal = &diagonal;
+        start.positions = &start_positions;
+        step.friction = &start;
         forces.resize(static_cast<int>(mass.size()));
-        add_contact(rows, step, velocities, forces, terms);
+        add_contact(rows, step, positions, forces, terms);
     }
 };
 
@@ -69,15 +71,15 @@ struct Touch {
 struct Friction {
     double normal_force;
     Vec3 force;
-    Eigen::Matrix3d block;  // of friction alone, kg
+    Eigen::Matrix3d block;  // kg
 };
 
 Friction friction_of(Touch& touch) {
     touch.evaluate();
     const Vec3 n = touch.rows.direction[0];
     const ContactPotential potential = contact_potential(touch.rows.distance[0], h, touch.terms.largest_stiffness);
-    const Eigen::Matrix3d normal_block = touch.step.dt * touch.step.dt * potential.curvature * n * n.transpose();
-    return {potential.slope, touch.forces.at(0) - potential.slope * n, full(touch.terms.blocks[0].k) - normal_block};
+    REQUIRE(touch.terms.blocks.size() == 2);
+    return {potential.slope, touch.forces.at(0) - potential.slope * n, full(touch.terms.blocks[1].k)};
 }
 
 double smallest_eigenvalue(const Eigen::Matrix3d& m) {
@@ -181,7 +183,7 @@ TEST_CASE("Contact adds to the forces that are there and forgets the last call's
     touch.add_point(Vec3(0, 1, 0), 0.6 * h);
     touch.evaluate();
     const double once = touch.forces.at(0).y(), energy = touch.terms.energy;
-    add_contact(touch.rows, touch.step, touch.velocities, touch.forces, touch.terms);
+    add_contact(touch.rows, touch.step, touch.positions, touch.forces, touch.terms);
     CHECK(touch.forces.at(0).y() == 2.0 * once);
     CHECK(touch.terms.energy == energy);
     CHECK(touch.terms.blocks.size() == 1);
@@ -190,82 +192,137 @@ TEST_CASE("Contact adds to the forces that are there and forgets the last call's
 TEST_CASE("Without friction a row pushes along its direction only") {
     Random random(6);
     Touch touch(1);
-    touch.add_point(random.unit(), 0.6 * h);
-    touch.velocities.set(0, Vec3(0.3, 0.1, -2.0));
-    const Friction friction = friction_of(touch);
-    CHECK(friction.force.norm() < 1e-14 * friction.normal_force);
-    CHECK(friction.block.norm() < 1e-14 * full(touch.terms.blocks[0].k).norm());
+    const Vec3 n = random.unit();
+    touch.add_point(n, 0.6 * h);
+    touch.positions.set(0, Vec3(0.3, 0.1, -2.0));
+    touch.evaluate();
+    CHECK(touch.terms.touches.all.empty());
+    CHECK(touch.terms.blocks.size() == 1);
+    CHECK((touch.forces.at(0) - n * n.dot(touch.forces.at(0))).norm() < 1e-14 * touch.forces.at(0).norm());
 }
 
-TEST_CASE("Friction opposes the slip and stays below mu N") {
+TEST_CASE("Friction opposes the slip over the step and stays below mu N") {
     Random random(7);
     for (int trial = 0; trial < 500; ++trial) {
         Touch touch(1, random.decades(1e-4, 1e-1));
         const double mu = random.number(0.05, 2.0);
-        touch.add_point(random.unit(), random.number(0.1, 0.99) * h, mu);
-        const Vec3 n = touch.rows.direction[0];
-        touch.rows.obstacle_displacement[0] = random.point(0.01);
-        touch.velocities.set(0, random.unit() * random.decades(1e-5, 1e1));
-        const Vec3 relative = touch.velocities.at(0) - touch.step.obstacle_rate * touch.rows.obstacle_displacement[0];
-        const Vec3 slip = relative - n * n.dot(relative);
+        const Vec3 n = random.unit();
+        touch.add_point(n, random.number(0.1, 0.99) * h, mu);
+        const std::vector<ObstacleFlow> flows = {{.turn = Eigen::Matrix3d::Zero(), .shift = random.point(0.01)}};
+        touch.start.flows = flows;
+        touch.step.fraction = 1.0;
+        const Vec3 way = random.unit() * random.decades(1e-7, 1e-1);
+        touch.positions.set(0, way);
+        const Vec3 relative = way - flows[0].shift, slip = relative - n * n.dot(relative);
         const Friction friction = friction_of(touch);
         CAPTURE(trial, slip.norm());
         CHECK(friction.force.norm() <= mu * friction.normal_force * (1.0 + 1e-10));
         CHECK(std::abs(friction.force.dot(n)) <= 1e-10 * friction.normal_force);
         CHECK(friction.force.dot(slip) <= -(1.0 - 1e-6) * friction.force.norm() * slip.norm());
-        CHECK(smallest_eigenvalue(friction.block) >= -1e-10 * full(touch.terms.blocks[0].k).norm());
-        if (slip.norm() > 1e-3) CHECK(friction.force.norm() == Approx(mu * friction.normal_force).epsilon(1e-8));
+        CHECK(smallest_eigenvalue(friction.block) >= -1e-10 * friction.block.norm());
+        if (slip.norm() > reach_share * h) CHECK(friction.force.norm() == Approx(mu * friction.normal_force).epsilon(1e-8));
     }
 }
 
-TEST_CASE("Below the stick speed friction grows smoothly from zero to its limit") {
+TEST_CASE("Within the reach friction is a spring whose matrix is its stiffness") {
     Touch touch(1);
     touch.add_point(Vec3(0, 1, 0), 0.7 * h, 0.4);
-    for (const double share : {0.0, 0.01, 0.5, 0.999, 1.0}) {
-        touch.velocities.set(0, Vec3(share * 1e-3, 0.0, 0.0));
+    for (const double share : {0.0, 0.01, 0.5, 0.999}) {
+        touch.positions.set(0, Vec3(share * reach_share * h, 0.3, 0.0));
         const Friction friction = friction_of(touch);
-        CHECK(friction.force.x() == Approx(-0.4 * friction.normal_force * share * (2.0 - share)).epsilon(1e-9).margin(1e-15));
+        const double limit = 0.4 * friction.normal_force;
+        CHECK(friction.force.x() == Approx(-limit * share).epsilon(1e-9).margin(1e-15));
+        const double entry = touch.step.dt * touch.step.dt * limit / (reach_share * h);
+        CHECK((friction.block - Eigen::Vector3d(entry, 0.0, entry).asDiagonal().toDenseMatrix()).norm() < 1e-12 * entry);
     }
 }
 
-TEST_CASE("A sliding row leaves the sliding direction free in the matrix") {
+TEST_CASE("A sliding vertex leaves its direction free in the matrix") {
     Touch touch(1, 0.01);
-    touch.add_point(Vec3(0, 1, 0), 0.9 * h, 0.3);
-    touch.velocities.set(0, Vec3(3.0, -0.2, 4.0));
+    touch.add_point(Vec3(0, 1, 0), 0.999 * h, 0.3);
+    touch.positions.set(0, Vec3(0.03, -0.002, 0.04));
     const Friction friction = friction_of(touch);
     const Vec3 slip = Vec3(0.6, 0.0, 0.8), across = Vec3(0.8, 0.0, -0.6);
     const double size = friction.block.norm();
     CHECK((friction.block * slip).norm() < 1e-10 * size);
     CHECK((friction.block * Vec3(0, 1, 0)).norm() < 1e-10 * size);
     const double limit = 0.3 * friction.normal_force;
-    CHECK((friction.block * across - touch.step.dt * limit / 5.0 * across).norm() < 1e-10 * size);
+    CHECK((friction.block * across - touch.step.dt * touch.step.dt * limit / 0.05 * across).norm() < 1e-10 * size);
 }
 
-TEST_CASE("The first evaluation decides stick or slide by where gravity will push") {
+TEST_CASE("The matrix holds a vertex that turns back, and lets it slide when it slips on") {
+    Touch touch(1);
+    touch.add_point(Vec3(0, 1, 0), 0.999 * h, 0.3);
+    const auto free_direction = [&](double slip) {
+        touch.positions.set(0, Vec3(slip, 0.0, 0.0));
+        return friction_of(touch).block(0, 0) < 1e-20;
+    };
+    REQUIRE(free_direction(0.02));
+    Touches before = touch.terms.touches;
+    touch.step.previous = &before;
+    CHECK(free_direction(0.01));
+    CHECK_FALSE(free_direction(-0.01));
+    before = touch.terms.touches;
+    CHECK(free_direction(-0.01));
+}
+
+TEST_CASE("At first sight a vertex is held if friction can stop it within the step") {
     Touch touch(1, 0.01);
-    const double angle = 0.5;
-    const Vec3 n(0.0, 1.0, 0.0);
-    touch.step.gravity = 9.81 * Vec3(std::sin(angle), -std::cos(angle), 0.0);
-    touch.step.first_evaluation = true;
-    touch.add_point(n, h * (1.0 - 0.25 * std::cos(angle)), 1.0);
-    touch.step.dt = 1.0;  // the stiffness is then that of the static weight: normal force m g cos(angle)
-    const Friction sticking = friction_of(touch);
-    CHECK(sticking.normal_force == Approx(0.01 * 9.81 * std::cos(angle)).epsilon(1e-9));
-    CHECK(sticking.force.norm() == 0.0);  // at rest and held: a damper
-    CHECK(sticking.block(0, 0) == Approx(2.0 * sticking.normal_force / 1e-3).epsilon(1e-9));
-
-    touch.rows.friction[0] = 0.5 * std::tan(angle);
-    const Friction sliding = friction_of(touch);
-    CHECK(sliding.force.x() == Approx(-touch.rows.friction[0] * sliding.normal_force).epsilon(1e-9));
-    CHECK(std::abs(sliding.block(0, 0)) < 1e-10 * std::abs(sliding.block(2, 2)));
+    touch.add_point(Vec3(0, 1, 0), 0.9 * h, 0.3);
+    touch.positions.set(0, Vec3(1e-6, 0.0, 0.0));
+    const double stopped = touch.step.dt * touch.step.dt * 0.3 * friction_of(touch).normal_force / 0.01;
+    REQUIRE(stopped > 2.0 * reach_share * h);
+    for (const double share : {0.9, 1.1}) {
+        touch.positions.set(0, Vec3(share * stopped, 0.0, 0.0));
+        CHECK((friction_of(touch).block(0, 0) > 0.0) == (share < 1.0));
+    }
+    // What held on before and is beyond the reach has been sliding.
+    const std::vector<Grip> grips = {{0, 0, Vec3(reach_share * h, 0.0, 0.0)}};
+    touch.start.grips = grips;
+    touch.positions.set(0, Vec3(0.5 * stopped, 0.0, 0.0));
+    CHECK(friction_of(touch).block(0, 0) < 1e-20);
 }
 
-TEST_CASE("The power of an obstacle is its force times its velocity") {
+TEST_CASE("Rows of one obstacle press a vertex together, those of two apart") {
+    Touch touch(2);
+    touch.add_row({0, 1, -1, -1}, {0.25, 0.75, 0, 0}, Vec3(0, 1, 0), 0.8 * h);
+    touch.add_row({0, -1, -1, -1}, {1, 0, 0, 0}, Vec3(1, 0, 0), 0.9 * h);
+    touch.rows.friction = {0.5, 0.5};
+    touch.evaluate();
+    const double first = contact_potential(0.8 * h, h, touch.terms.largest_stiffness).slope;
+    const double second = contact_potential(0.9 * h, h, touch.terms.largest_stiffness).slope;
+    REQUIRE(touch.terms.touches.all.size() == 2);
+    CHECK((touch.terms.touches.find(0, 0)->press - 0.5 * Vec3(second, 0.25 * first, 0.0)).norm() < 1e-12 * first);
+    CHECK((touch.terms.touches.find(1, 0)->press - 0.5 * Vec3(0.0, 0.75 * first, 0.0)).norm() < 1e-12 * first);
+    touch.rows.obstacle = {0, 1};
+    touch.evaluate();
+    REQUIRE(touch.terms.touches.all.size() == 3);
+    CHECK((touch.terms.touches.find(0, 1)->press - 0.5 * Vec3(second, 0.0, 0.0)).norm() < 1e-12 * first);
+}
+
+TEST_CASE("Both sides of a gap press a vertex") {
+    Touch touch(1);
+    touch.add_point(Vec3(0, 1, 0), 0.7 * h, 0.5);
+    touch.add_point(Vec3(0, -1, 0), 0.7 * h, 0.5);
+    touch.evaluate();
+    const double force = contact_potential(0.7 * h, h, touch.terms.largest_stiffness).slope;
+    CHECK(touch.terms.touches.find(0, 0)->press.norm() == Approx(force).epsilon(1e-12));
+}
+
+TEST_CASE("The power of an obstacle is its force times its velocity, friction included") {
     Touch touch(1);
     touch.add_point(Vec3(0, 1, 0), 0.6 * h);
     touch.rows.obstacle_displacement[0] = Vec3(0.1, 0.002, 0.0);
     touch.evaluate();
-    CHECK(touch.terms.obstacle_power == Approx(touch.forces.at(0).y() * 0.002 * 60.0).epsilon(1e-12));
+    const double push = touch.forces.at(0).y();
+    CHECK(touch.terms.obstacle_power == Approx(push * 0.002 * 60.0).epsilon(1e-12));
+    touch.rows.friction[0] = 0.5;
+    const std::vector<ObstacleFlow> flows = {{.turn = Eigen::Matrix3d::Zero(), .shift = Vec3(0.1, 0.002, 0.0)}};
+    touch.start.flows = flows;
+    touch.step.fraction = 1.0;
+    touch.evaluate();
+    CHECK(touch.forces.at(0).x() == Approx(0.5 * push).epsilon(1e-12));
+    CHECK(touch.terms.obstacle_power == Approx((push * 0.002 + 0.5 * push * 0.1) * 60.0).epsilon(1e-12));
 }
 
 }  // namespace percale::test

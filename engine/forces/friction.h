@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "model/cloth_model.h"
+#include "percale/contact.h"
+
+namespace percale {
+
+/// How far a sticking contact gives before it slides, as a share of the thickness.
+constexpr double reach_share = 0.01;
+
+/// Motion of an obstacle over a whole step: its point that is at p when the part begins moves by turn p + shift, m.
+struct ObstacleFlow {
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+    Vec3 shift = Vec3::Zero();
+};
+
+/// Of an obstacle whose vertices go straight from `start` to `end`, for a part of the step that begins at `fraction`.
+ObstacleFlow obstacle_flow(const Pose& start, const Pose& end, double fraction);
+
+/// What all evaluations of one part of a step know of friction.
+struct FrictionStart {
+    const Vectors* positions = nullptr;   // m, when the part begins
+    double fraction = 0.0;                // of the whole step, then
+    std::span<const Grip> grips;          // then; sorted by vertex and obstacle
+    std::span<const ObstacleFlow> flows;  // of each obstacle; those not listed stay
+};
+
+/// A vertex pressed to an obstacle, by all their rows together.
+struct Touch {
+    int vertex = -1, obstacle = -1;
+    int next = -1;                // touch of the same vertex with another obstacle
+    Vec3 press = Vec3::Zero();    // N, friction coefficient times normal force
+    double reach = 0.0;           // m, slip up to which it sticks
+    bool old = false;             // it held on when the part began
+    Vec3 flow = Vec3::Zero();     // m, how far the point held moves in the whole step
+    Vec3 slip = Vec3::Zero();     // m, along the surface, from the point held
+    Vec3 heading = Vec3::Zero();  // unit, where the matrix lets it slide; zero: nowhere
+};
+
+/// The touches of one evaluation.
+struct Touches {
+    std::vector<Touch> all;
+    std::vector<int> first;  // of each vertex, or -1
+
+    void clear(std::size_t vertices);
+    Touch& get(int vertex, int obstacle);
+    const Touch* find(int vertex, int obstacle) const;
+};
+
+/// Sets flow and slip of a touch whose press is known, for the vertex being at `position` at `fraction` of the step.
+void set_slip(const FrictionStart& start, const Vec3& position, double fraction, Touch& touch);
+
+/// Coulomb's law with a spring that sticks: -press/reach slip up to the reach, press against the slip beyond.
+Vec3 friction_force(const Touch& touch);
+
+/// The grips that touches leave behind: of a sliding one the point held is dragged along.
+void set_grips(const Touches& touches, std::vector<Grip>& grips);
+
+}  // namespace percale
