@@ -5,18 +5,12 @@
 #include <optional>
 
 #include "candidate_lists.h"
+#include "cut_floor.h"
 #include "percale/certify.h"
+#include "self_contact_detection.h"
 
 namespace percale {
 namespace {
-
-/// The distance a cut leaves of a distance d, m: a fifth of the thickness h for d above 0.4 h, half of d below, but never less
-/// than h/1000 unless d itself is there. Without a floor distances collapse to rounding, where directions are lost; a fixed floor
-/// would lock vertices.
-double floor_below(double d, double h) {
-    if (d > 0.4 * h) return 0.2 * h;
-    return d > 1e-3 * h ? std::max(0.5 * d, 1e-3 * h) : 0.999 * d;
-}
 
 StartFault start_fault(int obstacle, const Certificate& certificate) {
     StartFault fault{.obstacle = obstacle,
@@ -38,7 +32,10 @@ public:
         triangles_.assign(triangles.begin(), triangles.end());
         thickness_.assign(vertex_thickness.begin(), vertex_thickness.end());
         lists_.reset();
+        between_cloths_.reset();
     }
+
+    void set_self_contact(const SelfContact& cloth) override { between_cloths_.emplace(triangles_, thickness_, cloth); }
 
     int add_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) override {
         obstacles_.push_back(std::make_unique<Obstacle>(mesh, pose, friction, make_tree_));
@@ -56,7 +53,7 @@ public:
             if (certificate.clean() && certificate.smallest_distance > 0.0) continue;
             return start_fault(static_cast<int>(i), certificate);
         }
-        return {};
+        return between_cloths_ ? between_cloths_->check_start(positions) : StartFault{};
     }
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
@@ -65,6 +62,7 @@ public:
             for (ContactPair& pair : list.pairs) pair.held = false;
         }
         lists_->cover({.from = start, .to = predicted, .part = {0.0, 1.0}}, obstacles_);
+        if (between_cloths_) between_cloths_->refresh(start, predicted);
     }
 
     void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) override {
@@ -75,6 +73,7 @@ public:
         for (ClusterList& list : lists_->lists()) {
             if (list.least_reach - list.travel < list.thickness) evaluate_cluster(positions, fraction, list, rows);
         }
+        if (between_cloths_) smallest_distance_ = std::min(smallest_distance_, between_cloths_->add_rows(positions, rows));
     }
 
     double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) override {
@@ -93,7 +92,7 @@ public:
             for (const int vertex : clusters[i].all_vertices) way = std::max(way, (to[vertex] - from[vertex]).norm());
             safe = cut_cluster(move, way + obstacle_way, list, safe);
         }
-        return safe;
+        return between_cloths_ ? std::min(safe, between_cloths_->largest_safe_fraction(from, to)) : safe;
     }
 
     double smallest_distance() const override { return smallest_distance_; }
@@ -152,6 +151,7 @@ private:
     std::vector<double> thickness_;
     Obstacles obstacles_;
     std::optional<CandidateLists> lists_;
+    std::optional<SelfContactDetection> between_cloths_;  // if any cloth meets cloth
     double smallest_distance_ = std::numeric_limits<double>::infinity();
 };
 

@@ -66,7 +66,7 @@ TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle) {
 }
 
 std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {
-    if (scene.obstacles.empty() && (scene.step.skip || scene.detector == Detector::none)) return nullptr;
+    if (!scene.has_contact() && (scene.step.skip || scene.detector == Detector::none)) return nullptr;
     switch (scene.detector) {
         case Detector::fcl:
             return make_fcl_detector();
@@ -77,11 +77,12 @@ std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {
         case Detector::none:
             break;
     }
-    const ObstacleSpec& obstacle = scene.obstacles.front();
     std::vector<std::string> valid(detector_words.begin(), detector_words.end());
     std::erase(valid, word_of(Detector::none));
-    fail_at(obstacle.place,
-            "obstacle '" + obstacle.name + "' needs a detector, but step.detector is none; valid: " + joined(valid));
+    const std::string lacks = " needs a detector, but step.detector is none; valid: " + joined(valid);
+    const ClothSpec* cloth = scene.cloth_that_meets_cloth();
+    if (!scene.obstacles.empty()) fail_at(scene.obstacles[0].place, "obstacle '" + scene.obstacles[0].name + "'" + lacks);
+    fail_at(cloth->place, "cloth '" + cloth->name + "': self_contact" + lacks);
 }
 
 const Fabric& fabric_of(const Scene& scene, const ClothSpec& cloth) {
@@ -121,13 +122,20 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     built.obstacle_meshes.push_back(std::move(mesh));
 }
 
-// Obstacles have the same numbers in the scene and in the simulation.
+// Obstacles have the same numbers in the scene and in the simulation; triangles are counted through all cloths.
+SourcePlace place_of(const StartFault& fault, const BuiltScene& built) {
+    if (!fault.between_cloths()) return built.scene.obstacles.at(static_cast<std::size_t>(fault.obstacle)).place;
+    std::size_t cloth = 0, end = built.cloth_meshes[0].triangles.size();
+    while (static_cast<std::size_t>(fault.cloth_triangle) >= end) end += built.cloth_meshes[++cloth].triangles.size();
+    return built.scene.cloths[cloth].place;
+}
+
 void check_start(BuiltScene& built) {
     const Scene& scene = built.scene;
     try {
         built.simulation.prepare();
     } catch (const StartError& error) {
-        fail_at(scene.obstacles.at(static_cast<std::size_t>(error.fault().obstacle)).place, error.what());
+        fail_at(place_of(error.fault(), built), error.what());
     } catch (const SceneError& error) {
         fail_at(scene.scheme_place, std::string("step.scheme: ") + error.what());
     }

@@ -15,12 +15,25 @@ double quadratic_form(const DiagonalBlocks& a, int i, const Vec3& n) {
            n.y() * (a[3][i] * n.y() + 2.0 * a[4][i] * n.z()) + a[5][i] * n.z() * n.z();
 }
 
-double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
-    double inertia = 0.0, mass = 0.0;
+/// What a_k of a row's vertices makes at the contact: the mean by weight against an obstacle; between cloths, where both sides
+/// give way, 1 / sum w_k^2/a_k.
+template <class Value>
+double at_contact(const ContactRows& rows, std::size_t row, Value value) {
+    const bool between_cloths = rows.obstacle[row] < 0;
+    double sum = 0.0;
     for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-        const int vertex = rows.vertex[row][k];
-        inertia += rows.weight[row][k] * quadratic_form(*step.diagonal, vertex, rows.direction[row]);
-        mass += rows.weight[row][k] * (*step.mass)[vertex];
+        const double weight = rows.weight[row][k], a = value(rows.vertex[row][k]);
+        sum += between_cloths ? weight * weight / a : weight * a;
+    }
+    return between_cloths ? 1.0 / sum : sum;
+}
+
+double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
+    const double inertia =
+        at_contact(rows, row, [&](int vertex) { return quadratic_form(*step.diagonal, vertex, rows.direction[row]); });
+    double mass = 0.0;
+    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
+        mass += std::abs(rows.weight[row][k]) * (*step.mass)[rows.vertex[row][k]];
     }
     return std::max(share_of_matrix * inertia / (step.dt * step.dt), 4.0 * mass * step.gravity.norm() / rows.thickness[row]);
 }
@@ -56,15 +69,16 @@ Vec3 friction(const ContactRows& rows, std::size_t row, double normal_force, con
     if (limit == 0.0) return Vec3::Zero();
     const Vec3 obstacle_velocity = step.obstacle_rate * rows.obstacle_displacement[row];
     Vec3 slip = tangential(velocity - obstacle_velocity, n);
-    double mass = 0.0, weight_squares = 0.0;
-    for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
-        mass += block.weight[k] * (*step.mass)[block.vertex[k]];
-        weight_squares += block.weight[k] * block.weight[k];
-    }
-    const Vec3 heading = step.first_evaluation ? Vec3(slip + step.dt * tangential(step.gravity, n)) : slip;
+    const bool between_cloths = rows.obstacle[row] < 0;
+    double mass = at_contact(rows, row, [&](int vertex) { return (*step.mass)[vertex]; }), weight_squares = 0.0;
+    for (const double weight : block.weight) weight_squares += weight * weight;
+    if (!between_cloths) mass /= weight_squares;
+    // Gravity pushes both of two cloths alike.
+    const Vec3 push = step.first_evaluation && !between_cloths ? tangential(step.gravity, n) : Vec3(Vec3::Zero());
+    const Vec3 heading = slip + step.dt * push;
     const double speed = heading.norm();
     // Sliding: friction at its limit cannot stop the point within the step.
-    const bool slides = speed > stick_speed && speed * mass / weight_squares > step.dt * limit;
+    const bool slides = speed > stick_speed && speed * mass > step.dt * limit;
     if (slides) {
         add_tangent_block(block.k, step.dt * limit / speed, n, heading / speed);
         return -limit / speed * heading;

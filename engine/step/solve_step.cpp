@@ -120,13 +120,14 @@ void name_blocked_pin(World& world) {
     }
 }
 
-/// The obstacle of the closest contact.
+/// What the closest contact is with.
 void name_blocking_obstacle(World& world) {
     const ContactRows& rows = world.newton.current.forces.rows;
     if (rows.size() == 0) return;
     const auto closest = std::min_element(rows.distance.begin(), rows.distance.end());
     world.report.blocking_obstacle = rows.obstacle[static_cast<std::size_t>(closest - rows.distance.begin())];
-    world.report.blocking_name = world.script.obstacles[world.report.blocking_obstacle].name;
+    const bool cloth = world.report.blocking_obstacle < 0;
+    world.report.blocking_name = cloth ? "cloth" : world.script.obstacles[world.report.blocking_obstacle].name;
 }
 
 void fail(World& world, NewtonEnd end) {

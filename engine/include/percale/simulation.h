@@ -53,7 +53,7 @@ public:
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
 
     /// Checks the scene as a whole; the first step calls it. Throws StartError where cloth starts through, inside or touching an
-    /// obstacle, SceneError where the scheme takes no obstacles.
+    /// obstacle, or with self_contact through or touching cloth, SceneError where the scheme takes neither.
     void prepare();
     StepReport step();
     /// What the coming steps are made of and what is left out; runs nothing. `to_come`: what will change later on.
