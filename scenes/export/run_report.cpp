@@ -163,7 +163,8 @@ FrameRecord frame_record(const ordered_json& json) {
     record.check.intersections = json.at("intersections").get<int>();
     record.check.deepest_penetration = json.at("deepest_penetration").get<double>();
     record.check.smallest_distance = number_or_infinity(json.at("smallest_distance"));
-    record.meeting = json.at("self_contact").get<std::vector<std::string>>();
+    // Reports of builds without contact between cloths lack it.
+    if (json.contains("self_contact")) record.meeting = json.at("self_contact").get<std::vector<std::string>>();
     return record;
 }
 

@@ -39,8 +39,8 @@ struct ClothCertificate {
     std::vector<IntersectingPair> touching;  // that share a point though no vertex, and do not cross
 };
 
-/// Exact, with the triangle-triangle tests of certify; shares no code with the solver. Neighbours cross where they share more than
-/// the vertices, edge or points that they have to. Thread-safe.
+/// Exact, with the triangle-triangle tests of certify; shares no code with the solver. Neighbours cross where they share more
+/// than the vertices, edge or points that they have to. Thread-safe.
 ClothCertificate certify_cloth(const TriangleMesh& cloth);
 
 /// Intersecting pairs inside one mesh, neighbours that share a vertex left out.

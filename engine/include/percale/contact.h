@@ -54,8 +54,8 @@ struct StartFault {
     int cloth_triangle = -1;     // one of them
     int obstacle_triangle = -1;
     int other_cloth_triangle = -1;  // cloth against cloth: what cloth_triangle crosses or touches
-    int vertices_inside = 0;  // cloth vertices inside it, if it is watertight
-    int inside_vertex = -1;   // one of them
+    int vertices_inside = 0;        // cloth vertices inside it, if it is watertight
+    int inside_vertex = -1;         // one of them
 
     bool between_cloths() const { return other_cloth_triangle >= 0; }
     bool any() const { return obstacle >= 0 || between_cloths(); }

@@ -64,7 +64,7 @@ struct StepReport {
     double largest_speed = 0.0;      // m/s
     int blocked_cloth = -1;          // the cloth and vertex of a blocked pin
     int blocked_vertex = -1;
-    int blocking_obstacle = -1;  // -1 where it is cloth, too; blocking_name then says so
+    int blocking_obstacle = -1;               // -1 where it is cloth, too; blocking_name then says so
     std::string blocked_name, blocking_name;  // of that cloth and obstacle
     std::uint64_t contact_hash = 0;           // of the contact rows at the end
     StepEnergy energy;
