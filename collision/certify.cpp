@@ -7,6 +7,7 @@
 #include <string>
 
 #include "certificate/box_tree.h"
+#include "certificate/exact_orientation.h"
 #include "certificate/inside_test.h"
 #include "certificate/triangle_gap.h"
 #include "certificate/triangle_overlap.h"
@@ -143,6 +144,20 @@ bool share_a_vertex(const Triangle& a, const Triangle& b) {
     return std::any_of(a.begin(), a.end(), [&](int v) { return std::find(b.begin(), b.end(), v) != b.end(); });
 }
 
+/// Whether what b does not share of a lies strictly on one side of a's plane: then they share their common vertices only.
+bool one_sided(const Triangle& a, const Triangle& b, const TriangleMesh& mesh) {
+    const auto& x = mesh.vertices;
+    int below = 0, above = 0, on = 0;
+    for (const int v : b) {
+        if (std::find(a.begin(), a.end(), v) != a.end()) continue;
+        const int side = orient3d(x[a[0]], x[a[1]], x[a[2]], x[v]);
+        below += side < 0;
+        above += side > 0;
+        on += side == 0;
+    }
+    return on == 0 && (below == 0) != (above == 0);
+}
+
 }  // namespace
 
 Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, double distance_limit) {
@@ -156,6 +171,24 @@ Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, dou
     if (result.watertight) measure_depth(cloth, obstacle_surface, free, result);
     const bool meet = !result.pairs.empty() || result.touching_pairs > 0;
     result.smallest_distance = meet ? 0.0 : smallest_distance(cloth_surface, obstacle_surface, distance_limit);
+    return result;
+}
+
+ClothCertificate certify_cloth(const TriangleMesh& cloth) {
+    check(cloth, "certify_cloth: cloth");
+    const Surface surface(cloth);
+    ClothCertificate result;
+    surface.tree.walk_overlaps(surface.tree, [&](int i, int j) {
+        if (i >= j) return;
+        const Triangle &a = cloth.triangles[i], &b = cloth.triangles[j];
+        const bool neighbours = share_a_vertex(a, b);
+        if (neighbours && (one_sided(a, b, cloth) || one_sided(b, a, cloth))) return;
+        const Overlap overlap = classify(surface.triangles[i], surface.triangles[j]);
+        if (overlap == Overlap::crossing) result.crossing.push_back({i, j});
+        if (overlap == Overlap::touching && !neighbours) result.touching.push_back({i, j});
+    });
+    sort(result.crossing);
+    sort(result.touching);
     return result;
 }
 

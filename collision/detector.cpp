@@ -6,27 +6,22 @@
 #include <optional>
 
 #include "candidate_lists.h"
+#include "cut_floor.h"
 #include "pack_measure.h"
 #include "percale/certify.h"
+#include "self_contact_detection.h"
 #include "untangle.h"
 
 namespace percale {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr double most_floor = 0.2;  // of the thickness
-constexpr double kept_way = 0.1;    // of the thickness: a vertex that has moved no farther keeps its contacts from step to step
-
-/// The distance a cut leaves of a distance d, m: a fifth of the thickness h for d above 0.4 h, half of d below, but never less
-/// than h/1000 unless d itself is there. Without a floor distances collapse to rounding, where directions are lost; a fixed floor
-/// would lock vertices.
-double floor_below(double d, double h) {
-    if (d > 2.0 * most_floor * h) return most_floor * h;
-    return d > 1e-3 * h ? std::max(0.5 * d, 1e-3 * h) : 0.999 * d;
-}
+constexpr double kept_way = 0.1;  // of the thickness: a vertex that has moved no farther keeps its contacts from step to step
 
 /// Pairs farther apart than this keep their floor if they come closer by no more than `way`.
-double within(double way, double h) { return way > most_floor * h ? way + most_floor * h : std::max(2.0 * way, way + 1e-3 * h); }
+double within(double way, double h) {
+    return way > largest_floor * h ? way + largest_floor * h : std::max(2.0 * way, way + 1e-3 * h);
+}
 
 constexpr int most_marked = 64;  // packs of a feature that have a bit each
 
@@ -74,7 +69,10 @@ public:
         triangles_.assign(triangles.begin(), triangles.end());
         thickness_.assign(vertex_thickness.begin(), vertex_thickness.end());
         lists_.reset();
+        between_cloths_.reset();
     }
+
+    void set_self_contact(const SelfContact& cloth) override { between_cloths_.emplace(triangles_, thickness_, cloth); }
 
     int add_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) override {
         obstacles_.push_back(std::make_unique<Obstacle>(mesh, pose, friction, make_tree_));
@@ -92,7 +90,7 @@ public:
             if (certificate.clean() && certificate.smallest_distance > 0.0) continue;
             return start_fault(static_cast<int>(i), certificate);
         }
-        return {};
+        return between_cloths_ ? between_cloths_->check_start(positions) : StartFault{};
     }
 
     std::optional<Untangled> untangle(std::span<const Vec3> positions, std::span<const double> free) override {
@@ -105,6 +103,7 @@ public:
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
         if (!lists_->empty()) forget_contacts(start);
         lists_->cover({.from = start, .to = predicted, .part = {0.0, 1.0}}, obstacles_);
+        if (between_cloths_) between_cloths_->refresh(start, predicted);
     }
 
     void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) override {
@@ -112,8 +111,23 @@ public:
         lists_->cover({.from = positions, .to = positions, .part = {fraction, fraction}}, obstacles_);
         rows.clear();
         smallest_distance_ = std::numeric_limits<double>::infinity();
+        if (!lists_->empty()) add_rows(positions, fraction, rows);
+        if (between_cloths_) smallest_distance_ = std::min(smallest_distance_, between_cloths_->add_rows(positions, rows));
+    }
+
+    double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) override {
+        if (!lists_) lists_.emplace(triangles_, thickness_, from);
+        const ClothMove move{.from = from, .to = to, .part = part};
+        double safe = lists_->cover(move, obstacles_);
+        if (!lists_->empty()) safe = cut(move, safe);
+        return between_cloths_ ? std::min(safe, between_cloths_->largest_safe_fraction(from, to)) : safe;
+    }
+
+    double smallest_distance() const override { return smallest_distance_; }
+
+private:
+    void add_rows(std::span<const Vec3> positions, double fraction, ContactRows& rows) {
         near_clusters_.clear();
-        if (lists_->empty()) return;
         for (ClusterList& list : lists_->lists()) {
             if (list.quiet_until <= list.travel) near_clusters_.push_back(&list);
         }
@@ -123,22 +137,15 @@ public:
         }
     }
 
-    double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) override {
-        if (!lists_) lists_.emplace(triangles_, thickness_, from);
-        const ClothMove move{.from = from, .to = to, .part = part};
-        const double covered = lists_->cover(move, obstacles_);
-        if (lists_->empty()) return covered;
+    /// Lowers `safe` to what all clusters allow.
+    double cut(const ClothMove& move, double safe) {
         double obstacle_way = 0.0;
         for (const auto& obstacle : obstacles_) obstacle_way = std::max(obstacle_way, obstacle->longest_way());
-        obstacle_way *= part.to - part.from;
-        double safe = covered;
+        obstacle_way *= move.part.to - move.part.from;
         for (std::size_t i = 0; i < lists_->lists().size(); ++i) safe = cut_cluster(move, obstacle_way, i, safe);
         return safe;
     }
 
-    double smallest_distance() const override { return smallest_distance_; }
-
-private:
     /// Contacts of vertices that have moved since theirs were last forgotten, and all while an obstacle moves. Those of cloth
     /// that rests stay, or contacts that join while a step is solved would be missing at the start of the next: the cloth would
     /// tremble between the two.
@@ -335,14 +342,14 @@ private:
             room.add(move.from[feature.pair.cloth[k]]);
             room.add(move.to[feature.pair.cloth[k]]);
         }
-        room.grow(most_floor * thickness);
+        room.grow(largest_floor * thickness);
         const ObstaclePacks& packs = obstacles_[feature.pair.obstacle]->packs();
         float least = infinity;
         for (int i = feature.first; i < feature.first + feature.count; ++i) {
             ListedPack& listed = list.packs[i];
             const double near = within(way * safe, thickness);
             const bool may_cross = static_cast<double>(listed.reach) - list.travel < near &&
-                                   !stays_above(packs.planes[listed.pack], feature.pair, move, most_floor * thickness) &&
+                                   !stays_above(packs.planes[listed.pack], feature.pair, move, largest_floor * thickness) &&
                                    packs.packs[listed.pack].box.overlaps(room);
             if (may_cross) safe = cut_pack(move, feature, near, list, listed, safe);
             least = std::min(least, listed.reach);
@@ -378,6 +385,7 @@ private:
     std::vector<std::pair<int, int>> candidates_, selected_;  // features and packs of a cluster to be measured
     std::vector<Vec3> kept_at_;                               // m, where each vertex was when its contacts were last forgotten
     std::vector<unsigned char> moved_;                        // whether they are to be forgotten now
+    std::optional<SelfContactDetection> between_cloths_;      // if any cloth meets cloth
     double smallest_distance_ = std::numeric_limits<double>::infinity();
 };
 

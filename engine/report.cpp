@@ -11,8 +11,11 @@ std::string numbered(const char* what, int number, const std::string& name) {
 
 std::string failure_text(const StepReport& report) {
     std::ostringstream text;
-    const std::string blocker =
-        report.blocking_obstacle >= 0 ? numbered("obstacle", report.blocking_obstacle, report.blocking_name) : "the obstacles";
+    const bool by_cloth = report.blocking_obstacle < 0 && !report.blocking_name.empty();
+    const std::string blocker = report.blocking_obstacle >= 0
+                                    ? numbered("obstacle", report.blocking_obstacle, report.blocking_name)
+                                : by_cloth ? report.blocking_name
+                                           : "the obstacles";
     switch (report.status) {
         case StepStatus::pin_blocked:
             text << "pinned vertex " << report.blocked_vertex << " of "

@@ -84,8 +84,47 @@ struct Simulation::Implementation {
         world.settings = settings;
     }
 
+    bool meets_cloth() const {
+        return std::any_of(world.model.cloths.begin(), world.model.cloths.end(),
+                           [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
+    }
+
     void pass_cloth_to_detector() {
-        if (world.detector) world.detector->set_cloth(world.model.triangles, world.model.thickness);
+        if (!world.detector) return;
+        world.detector->set_cloth(world.model.triangles, world.model.thickness);
+        if (!meets_cloth()) return;
+        std::vector<int> owner;
+        std::vector<double> friction;
+        for (std::size_t c = 0; c < world.model.cloths.size(); ++c) {
+            const ClothRange& cloth = world.model.cloths[c];
+            const auto end = static_cast<std::size_t>(cloth.first + cloth.count);
+            owner.resize(end, cloth.fabric.self_contact ? static_cast<int>(c) : -1);
+            friction.resize(end, cloth.fabric.friction);
+        }
+        world.detector->set_self_contact({.cloth = owner, .rest = world.model.rest, .friction = friction});
+    }
+
+    /// The cloth of a triangle of the whole system, and its index there.
+    std::pair<const ClothRange*, long> cloth_triangle(int triangle) const {
+        const std::vector<Triangle>& all = world.model.triangles;
+        const auto owns = [&](const ClothRange& range) { return all[triangle][0] < range.first + range.count; };
+        const auto owner = std::find_if(world.model.cloths.begin(), world.model.cloths.end(), owns);
+        const auto first = std::find_if(all.begin(), all.end(), [&](const Triangle& t) { return t[0] >= owner->first; });
+        return {&*owner, triangle - (first - all.begin())};
+    }
+
+    std::string cloth_text(const StartFault& fault) const {
+        const auto [cloth, triangle] = cloth_triangle(fault.cloth_triangle);
+        const auto [other, other_triangle] = cloth_triangle(fault.other_cloth_triangle);
+        const bool same = cloth == other;
+        const std::string places = "triangle " + std::to_string(triangle) + (same ? "" : " of " + cloth->name) +
+                                   " and triangle " + std::to_string(other_triangle) + (same ? "" : " of " + other->name);
+        const std::string met = same ? "itself" : other->name;
+        if (fault.intersecting_pairs == 0) {
+            return cloth->name + " starts touching " + met + ": " + places + "; leave some distance";
+        }
+        return cloth->name + " starts through " + met + ": " + std::to_string(fault.intersecting_pairs) +
+               " intersecting triangle pairs, one of them " + places + "; move them apart, or let self_contact be false";
     }
 
     /// Brings the view of positions up to date.
@@ -127,6 +166,7 @@ struct Simulation::Implementation {
     }
 
     std::string start_text(const StartFault& fault) const {
+        if (fault.between_cloths()) return cloth_text(fault);
         const std::string& obstacle_name = world.script.obstacles[fault.obstacle].name;
         if (fault.intersecting_pairs > 0) {
             const int corner = world.model.triangles[fault.cloth_triangle][0];
@@ -162,6 +202,7 @@ struct Simulation::Implementation {
         place_obstacles();
         const StartFault fault = world.detector->check_start(world.state.points);
         if (!fault.any()) return;
+        if (fault.between_cloths()) refuse_start(start_text(fault), fault);
         if (const int pin = pin_inside(fault); pin >= 0) {
             refuse_start("pinned " + vertex_name(pin) + " starts inside " + world.script.obstacles[fault.obstacle].name +
                              "; move the pin or the obstacle, or do not pin this vertex",
@@ -189,8 +230,11 @@ struct Simulation::Implementation {
     }
 
     void check_scheme() const {
-        if (world.script.obstacles.empty() || facts_of(world.settings.scheme).implicit) return;
-        throw SceneError("an explicit scheme takes no obstacles; use scheme backward_euler");
+        if (facts_of(world.settings.scheme).implicit) return;
+        if (!world.script.obstacles.empty()) {
+            throw SceneError("an explicit scheme takes no obstacles; use scheme backward_euler");
+        }
+        if (meets_cloth()) throw SceneError("an explicit scheme takes no self_contact; use scheme backward_euler");
     }
 };
 
@@ -212,6 +256,9 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose, const std::string& name) {
     World& world = implementation_->world;
     check_pose(pose, name);
+    if (fabric.self_contact && !world.detector) {
+        throw SceneError(name + ": self_contact needs a contact detector, give one to the simulation");
+    }
     TriangleMesh rest = mesh;
     rest.vertices = transform(normalised(pose), mesh.vertices);
     ClothModel model = world.model;
@@ -353,7 +400,8 @@ void Simulation::prepare() {
     World& world = implementation_->world;
     if (!world.changed) return;
     implementation_->check_scheme();
-    if (world.detector && !world.script.obstacles.empty() && !world.model.cloths.empty()) implementation_->clear_start();
+    const bool obstacles = !world.script.obstacles.empty() && !world.model.cloths.empty();
+    if (world.detector && (obstacles || implementation_->meets_cloth())) implementation_->clear_start();
     world.changed = false;
 }
 

@@ -12,10 +12,12 @@ namespace {
 
 const MeasureDescription measure_list[] = {
     {"intersections", "",
-     "Intersecting (not merely touching) triangle pairs of cloth and obstacles, summed over all output frames."},
+     "Intersecting (not merely touching) triangle pairs of cloth and obstacles, and of cloth with self_contact, summed over all "
+     "output frames."},
     {"deepest_penetration", "m",
      "Largest depth of a cloth vertex inside a watertight obstacle over all output frames; 0 if none."},
-    {"smallest_distance", "m", "Smallest distance between cloth and obstacles over all steps; infinite if they were never near."},
+    {"smallest_distance", "m",
+     "Smallest distance between cloth and obstacles, or in a contact between cloths, over all steps; infinite if none was near."},
     {"largest_strain", "", "Largest (l - l0)/l0 of a structural spring over all steps."},
     {"speed_at_end", "m/s", "Largest speed of a vertex in the last step."},
     {"rms_speed_at_end", "m/s", "Root of the mean squared speed of all vertices in the last step."},

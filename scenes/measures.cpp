@@ -14,6 +14,18 @@ void add_certificate(FrameCheck& check, const Certificate& certificate) {
     check.smallest_distance = std::min(check.smallest_distance, certificate.smallest_distance);
 }
 
+void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths) {
+    TriangleMesh all;
+    for (const TriangleMesh& cloth : cloths) {
+        const int first = static_cast<int>(all.vertices.size());
+        all.vertices.insert(all.vertices.end(), cloth.vertices.begin(), cloth.vertices.end());
+        for (const auto& [a, b, c] : cloth.triangles) all.triangles.push_back({first + a, first + b, first + c});
+    }
+    const ClothCertificate certificate = certify_cloth(all);
+    check.intersections += static_cast<int>(certificate.crossing.size());
+    check.touching_pairs += static_cast<int>(certificate.touching.size());
+}
+
 namespace {
 
 bool worse(const FrameCheck& a, const FrameCheck& b) {

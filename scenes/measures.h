@@ -12,7 +12,7 @@
 // What a run is judged by: collected over its steps and its output frames.
 namespace percale::scenes {
 
-/// What the certificates of one output frame say together, over all pairs of cloth and obstacle.
+/// What the certificates of one output frame say together, over all pairs of cloth and obstacle and cloth that meets cloth.
 struct FrameCheck {
     int intersections = 0;  // intersecting triangle pairs
     int touching_pairs = 0;
@@ -24,6 +24,8 @@ struct FrameCheck {
 };
 
 void add_certificate(FrameCheck& check, const Certificate& certificate);
+/// Of cloths that meet each other, all together; distances between them are not measured.
+void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths);
 
 /// What the certificates of all states say, one after each step and one of the start.
 struct StepChecks {

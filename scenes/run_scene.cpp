@@ -89,6 +89,10 @@ void place_and_certify(const BuiltScene& built, Frame& frame) {
     for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth)
         for (const TriangleMesh& obstacle : frame.obstacles)
             add_certificate(frame.check, certify(frame.cloths[cloth], obstacle, distance_limit(built, cloth)));
+    std::vector<TriangleMesh> meeting;
+    for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth)
+        if (built.scene.meets_cloth(built.scene.cloths[cloth])) meeting.push_back(frame.cloths[cloth]);
+    if (!meeting.empty()) add_cloth_certificate(frame.check, meeting);
 }
 
 /// Looks at the state after each step: certificates, frames.

@@ -148,6 +148,20 @@ struct Scene {
     std::vector<EventSpec> events;  // ascending times
     std::vector<Expectation> expectations;
     OutputSpec output;
+
+    /// Whether this cloth meets itself and other such cloth.
+    bool meets_cloth(const ClothSpec& cloth) const {
+        const auto found = fabrics.find(cloth.fabric);
+        return found != fabrics.end() && found->second.self_contact;
+    }
+    /// The first cloth that does; null: none.
+    const ClothSpec* cloth_that_meets_cloth() const {
+        for (const ClothSpec& cloth : cloths)
+            if (meets_cloth(cloth)) return &cloth;
+        return nullptr;
+    }
+    /// Whether anything can come into contact at all.
+    bool has_contact() const { return !obstacles.empty() || cloth_that_meets_cloth() != nullptr; }
 };
 
 }  // namespace percale::scenes

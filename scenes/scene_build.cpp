@@ -67,7 +67,7 @@ TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle) {
 }
 
 std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {
-    if (scene.obstacles.empty() && (scene.step.skip || scene.detector == Detector::none)) return nullptr;
+    if (!scene.has_contact() && (scene.step.skip || scene.detector == Detector::none)) return nullptr;
     switch (scene.detector) {
         case Detector::fcl:
             return make_fcl_detector();
@@ -78,11 +78,12 @@ std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {
         case Detector::none:
             break;
     }
-    const ObstacleSpec& obstacle = scene.obstacles.front();
     std::vector<std::string> valid(detector_words.begin(), detector_words.end());
     std::erase(valid, word_of(Detector::none));
-    fail_at(obstacle.place,
-            "obstacle '" + obstacle.name + "' needs a detector, but step.detector is none; valid: " + joined(valid));
+    const std::string lacks = " needs a detector, but step.detector is none; valid: " + joined(valid);
+    const ClothSpec* cloth = scene.cloth_that_meets_cloth();
+    if (!scene.obstacles.empty()) fail_at(scene.obstacles[0].place, "obstacle '" + scene.obstacles[0].name + "'" + lacks);
+    fail_at(cloth->place, "cloth '" + cloth->name + "': self_contact" + lacks);
 }
 
 const Fabric& fabric_of(const Scene& scene, const ClothSpec& cloth) {
@@ -122,8 +123,16 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     built.obstacle_meshes.push_back(std::move(mesh));
 }
 
-// Obstacles and cloths have the same numbers in the scene and in the simulation.
+// Cloths have the same numbers in the scene and in the simulation; triangles are counted through all of them.
+const SourcePlace& place_of_triangle(const BuiltScene& built, int triangle) {
+    std::size_t cloth = 0, end = built.cloth_meshes[0].triangles.size();
+    while (static_cast<std::size_t>(triangle) >= end) end += built.cloth_meshes[++cloth].triangles.size();
+    return built.scene.cloths[cloth].place;
+}
+
+// So have obstacles.
 [[noreturn]] void refuse_start(const BuiltScene& built, const StartError& error) {
+    if (error.fault().between_cloths()) fail_at(place_of_triangle(built, error.fault().cloth_triangle), error.what());
     const auto number = static_cast<std::size_t>(error.fault().obstacle);
     TriangleMesh obstacle = built.obstacle_meshes.at(number);
     obstacle.vertices =

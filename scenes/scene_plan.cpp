@@ -68,7 +68,7 @@ std::string plan_text(const BuiltScene& built) {
     for (std::size_t i = 0; i < built.obstacles.size(); ++i)
         text += line("obstacle", built.scene.obstacles[i].name + ", " +
                                      counted(static_cast<long>(built.obstacle_meshes[i].triangles.size()), "triangle"));
-    const bool detects = plan.obstacles > 0;
+    const bool detects = built.scene.has_contact();
     text += line("memory",
                  short_number(1e-6 * plan.memory_bytes) + " MB predicted" + (detects ? ", lists of near pairs on top" : ""));
     text += line("cost", short_number(plan.evaluations_a_step) + " evaluations of all springs a step predicted" +

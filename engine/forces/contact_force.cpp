@@ -6,6 +6,7 @@
 namespace percale {
 namespace {
 
+constexpr double stick_speed = 1e-3;  // m/s, below it friction between cloths is a damper
 constexpr double share_of_matrix =
     0.5;  // of the step matrix that the contact stiffness takes: softer sinks, stiffer takes Newton longer
 
@@ -14,12 +15,25 @@ double quadratic_form(const DiagonalBlocks& a, int i, const Vec3& n) {
            n.y() * (a[3][i] * n.y() + 2.0 * a[4][i] * n.z()) + a[5][i] * n.z() * n.z();
 }
 
-double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
-    double inertia = 0.0, mass = 0.0;
+/// What a_k of a row's vertices makes at the contact: the mean by weight against an obstacle; between cloths, where both sides
+/// give way, 1 / sum w_k^2/a_k.
+template <class Value>
+double at_contact(const ContactRows& rows, std::size_t row, Value value) {
+    const bool between_cloths = rows.obstacle[row] < 0;
+    double sum = 0.0;
     for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-        const int vertex = rows.vertex[row][k];
-        inertia += rows.weight[row][k] * quadratic_form(*step.diagonal, vertex, rows.direction[row]);
-        mass += rows.weight[row][k] * (*step.mass)[vertex];
+        const double weight = rows.weight[row][k], a = value(rows.vertex[row][k]);
+        sum += between_cloths ? weight * weight / a : weight * a;
+    }
+    return between_cloths ? 1.0 / sum : sum;
+}
+
+double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
+    const double inertia =
+        at_contact(rows, row, [&](int vertex) { return quadratic_form(*step.diagonal, vertex, rows.direction[row]); });
+    double mass = 0.0;
+    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
+        mass += std::abs(rows.weight[row][k]) * (*step.mass)[rows.vertex[row][k]];
     }
     return std::max(share_of_matrix * inertia / (step.dt * step.dt), 4.0 * mass * step.gravity.norm() / rows.thickness[row]);
 }
@@ -78,6 +92,30 @@ void add_friction(const ContactStep& step, const Vectors& positions, Touch& touc
     terms.obstacle_power += force.dot(touch.flow) * step.obstacle_rate;
 }
 
+/// Friction force between two cloths pressed by `normal_force`, and its matrix added to `block`: against the velocity of one
+/// relative to the other, growing linearly below the stick speed.
+Vec3 friction_between_cloths(const ContactRows& rows, std::size_t row, double normal_force, const ContactStep& step,
+                             const Vectors& positions, ContactBlock& block) {
+    const Vec3& n = rows.direction[row];
+    const double limit = rows.friction[row] * normal_force;
+    Vec3 slip = Vec3::Zero();
+    for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
+        const int vertex = block.vertex[k];
+        slip += block.weight[k] / step.dt * (positions.at(vertex) - step.friction->positions->at(vertex));
+    }
+    slip -= n * n.dot(slip);
+    const double speed = slip.norm(), mass = at_contact(rows, row, [&](int vertex) { return (*step.mass)[vertex]; });
+    // Sliding: friction at its limit cannot stop the point within the step.
+    if (speed > stick_speed && speed * mass > step.dt * limit) {
+        add_tangent_block(block.k, step.dt * limit / speed, n, slip / speed);
+        return -limit / speed * slip;
+    }
+    const double y = speed / stick_speed;
+    const double damping = !step.previous || y < 1.0 ? limit * (2.0 - std::min(y, 1.0)) / stick_speed : limit / speed;
+    add_tangent_block(block.k, step.dt * damping, n, Vec3::Zero());
+    return -damping * slip;
+}
+
 }  // namespace
 
 ContactPotential contact_potential(double distance, double thickness, double stiffness) {
@@ -99,14 +137,15 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
         const ContactPotential potential = contact_potential(rows.distance[row], rows.thickness[row], stiffness);
         ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}};
         add_normal_block(block.k, step.dt * step.dt * potential.curvature, rows.direction[row]);
-        const Vec3 force = potential.slope * rows.direction[row];
+        Vec3 force = potential.slope * rows.direction[row];
+        const bool rubs = step.friction && rows.friction[row] * potential.slope > 0.0, on_obstacle = rows.obstacle[row] >= 0;
+        if (rubs && !on_obstacle) force += friction_between_cloths(rows, row, potential.slope, step, positions, block);
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) forces.add(block.vertex[k], block.weight[k] * force);
         terms.blocks.push_back(block);
         terms.energy += potential.energy;
         terms.largest_stiffness = std::max(terms.largest_stiffness, stiffness);
         terms.obstacle_power += force.dot(rows.obstacle_displacement[row]) * step.obstacle_rate;
-        const bool rubs = step.friction && rows.friction[row] * potential.slope > 0.0 && rows.obstacle[row] >= 0;
-        if (rubs) add_press(rows, row, potential.slope, terms.touches);
+        if (rubs && on_obstacle) add_press(rows, row, potential.slope, terms.touches);
     }
     for (Touch& touch : terms.touches.all) add_friction(step, positions, touch, forces, terms);
 }

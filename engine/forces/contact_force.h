@@ -56,7 +56,8 @@ struct ContactTerms {
     double obstacle_power = 0.0;     // W, of the obstacles on the cloth
 };
 
-/// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`.
+/// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`. Between cloths the velocity is the relative
+/// one, and n.A n and masses are those of both sides in series, 1/sum w^2/a.
 /// Stiffness of a row: half of n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks, but at least four
 /// times (static weight on the row)/thickness, so that slack cloth rests at no less than 3/4 of the thickness. Friction with
 /// obstacles acts on vertices (friction.h), each pressed by its share of all rows with the same obstacle; in the matrix a sliding

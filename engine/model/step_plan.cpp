@@ -1,5 +1,7 @@
 #include "step_plan.h"
 
+#include <algorithm>
+
 #include "schemes.h"
 
 namespace percale {
@@ -16,8 +18,23 @@ void add_springs(const ClothFacts& cloth, std::vector<Skip>& skipped) {
     if (springs.bend == 0.0) skipped.push_back({"bending springs of " + cloth.name, "springs.bend is 0 N/m"});
 }
 
+bool meets_cloth(const SceneFacts& facts) {
+    return std::any_of(facts.cloths.begin(), facts.cloths.end(),
+                       [](const ClothFacts& cloth) { return cloth.fabric.self_contact; });
+}
+
+void add_contacts(const StepPlan& plan, const SceneFacts& facts, std::vector<Skip>& skipped) {
+    if (!plan.contacts) {
+        skipped.push_back({"contact detection, rows, cuts and predicted positions",
+                           facts.obstacles == 0 ? "the scene has no obstacle" : "the scene has no cloth"});
+    }
+    for (const ClothFacts& cloth : facts.cloths) {
+        if (!cloth.fabric.self_contact) skipped.push_back({"contact of " + cloth.name + " with cloth", "self_contact is false"});
+    }
+}
+
 void add_motion(const StepPlan& plan, const SceneFacts& facts, std::vector<Skip>& skipped) {
-    if (plan.contacts && !plan.still_obstacles && !facts.changes.obstacles) {
+    if (plan.contacts && facts.obstacles > 0 && !plan.still_obstacles && !facts.changes.obstacles) {
         skipped.push_back({"motion of obstacles", "no obstacle moves: their trees are built once"});
     }
     if (!plan.pins) {
@@ -52,7 +69,8 @@ StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts) {
     StepPlan plan;
     plan.everything = everything;
     plan.implicit = facts_of(settings.scheme).implicit;
-    plan.contacts = plan.implicit && facts.cloth_vertices > 0 && (facts.obstacles > 0 || (everything && facts.detector));
+    plan.contacts = plan.implicit && facts.cloth_vertices > 0 &&
+                    (facts.obstacles > 0 || meets_cloth(facts) || (everything && facts.detector));
     const bool start_lengths = plan.implicit && (facts.damped || everything);
     plan.damping = start_lengths ? settings.damping_form : DampingForm::velocity;
     plan.pins = facts.pinned_vertices > 0 || facts.changes.pins || everything;
@@ -75,10 +93,7 @@ void set_motion(StepPlan& plan, const ScriptedChanges& changes) {
 
 std::vector<Skip> skipped_by(const StepPlan& plan, const StepSettings& settings, const SceneFacts& facts) {
     std::vector<Skip> skipped;
-    if (!plan.contacts) {
-        skipped.push_back({"contact detection, rows, cuts and predicted positions",
-                           facts.obstacles == 0 ? "the scene has no obstacle" : "the scene has no cloth"});
-    }
+    add_contacts(plan, facts, skipped);
     add_motion(plan, facts, skipped);
     for (const ClothFacts& cloth : facts.cloths) add_springs(cloth, skipped);
     if (plan.implicit && plan.damping != settings.damping_form) {

@@ -1,5 +1,8 @@
 #include "block_matrix.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace percale {
 namespace {
 
@@ -25,19 +28,27 @@ double add_contact_product(const BlockMatrix& matrix, const Vectors& x, Vectors&
     return sum;
 }
 
+/// sum |weight|: the factor that makes |w_k| K at each vertex an upper bound of the row.
+double bound_factor(const ContactBlock& block) {
+    const bool between_cloths = std::any_of(block.weight.begin(), block.weight.end(), [](double w) { return w < 0.0; });
+    return between_cloths ? 2.0 : 1.0;
+}
+
 void gather_contacts(BlockMatrix& matrix) {
     for (const VertexContact& contact : matrix.contacts_by_vertex) matrix.contact_slot[contact.vertex] = -1;
     matrix.contacts_by_vertex.clear();
     for (const ContactBlock& block : matrix.contacts) {
+        const double factor = bound_factor(block);
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
             const int i = block.vertex[k];
-            if (block.weight[k] <= 0.0 || matrix.free[i] == 0.0) continue;
+            const double weight = factor * std::abs(block.weight[k]);
+            if (weight == 0.0 || matrix.free[i] == 0.0) continue;
             int& slot = matrix.contact_slot[i];
             if (slot < 0) {
                 slot = static_cast<int>(matrix.contacts_by_vertex.size());
                 matrix.contacts_by_vertex.push_back({.vertex = i, .k = {}});
             }
-            for (int entry = 0; entry < 6; ++entry) matrix.contacts_by_vertex[slot].k[entry] += block.weight[k] * block.k[entry];
+            for (int entry = 0; entry < 6; ++entry) matrix.contacts_by_vertex[slot].k[entry] += weight * block.k[entry];
         }
     }
 }

@@ -15,7 +15,7 @@ namespace percale {
 constexpr int symmetric_entry[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
 
 /// What all contacts of one vertex add to its diagonal block, each row taken whole at every vertex by weight (an upper bound that
-/// equals the row itself where the vertices move alike).
+/// equals the row itself where the vertices move alike, or between cloths where the two sides move against each other).
 struct VertexContact {
     int vertex;
     std::array<double, 6> k;  // kg, xx xy xz yy yz zz

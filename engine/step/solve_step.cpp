@@ -137,7 +137,7 @@ void name_second_obstacle(World& world, std::size_t closest) {
     const ContactRows& rows = world.newton.current.forces.rows;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        const bool other = rows.obstacle[row] != rows.obstacle[closest];
+        const bool other = rows.obstacle[row] >= 0 && rows.obstacle[row] != rows.obstacle[closest];
         if (!other || rows.direction[row].dot(rows.direction[closest]) >= 0.0 || rows.distance[row] >= least) continue;
         least = rows.distance[row];
         world.report.second_obstacle = rows.obstacle[row];
@@ -146,13 +146,14 @@ void name_second_obstacle(World& world, std::size_t closest) {
     world.report.second_name = world.script.obstacles[world.report.second_obstacle].name;
 }
 
-/// The obstacle of the closest contact.
+/// What the closest contact is with.
 void name_blocking_obstacle(World& world) {
     const ContactRows& rows = world.newton.current.forces.rows;
     if (rows.size() == 0) return;
     const auto closest = std::min_element(rows.distance.begin(), rows.distance.end());
     world.report.blocking_obstacle = rows.obstacle[static_cast<std::size_t>(closest - rows.distance.begin())];
-    world.report.blocking_name = world.script.obstacles[world.report.blocking_obstacle].name;
+    const bool cloth = world.report.blocking_obstacle < 0;
+    world.report.blocking_name = cloth ? "cloth" : world.script.obstacles[world.report.blocking_obstacle].name;
     name_second_obstacle(world, static_cast<std::size_t>(closest - rows.distance.begin()));
 }
 

@@ -51,14 +51,16 @@ bool obstacle_moves(const ObstacleSpec& obstacle) {
 FrameWriter::FrameWriter(const std::string& folder, const Scene& scene)
     : folder_(folder), cloth_names_(file_names("cloth", scene.cloths)), obstacle_names_(file_names("obstacle", scene.obstacles)) {
     for (const ObstacleSpec& obstacle : scene.obstacles) obstacle_moves_.push_back(obstacle_moves(obstacle));
+    for (const ClothSpec& cloth : scene.cloths) cloth_meets_.push_back(scene.meets_cloth(cloth));
 }
 
 FrameRecord FrameWriter::write(const Frame& frame) {
-    FrameRecord record{frame.index, frame.time, {}, {}, frame.check};
+    FrameRecord record{frame.index, frame.time, {}, {}, frame.check, {}};
     make_folder(folder_ + "/frames");
     if (!frame.obstacles.empty()) make_folder(folder_ + "/obstacles");
     for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
         record.cloths.push_back(numbered("frames", cloth_names_[i], frame.index));
+        if (cloth_meets_[i]) record.meeting.push_back(record.cloths.back());
         write_mesh(record.cloths.back(), frame.cloths[i]);
     }
     for (std::size_t i = 0; i < frame.obstacles.size(); ++i) {

@@ -14,6 +14,7 @@ struct FrameRecord {
     std::vector<std::string> cloths;     // in the order of the scene; empty if nothing was written
     std::vector<std::string> obstacles;  // in the order of the scene; a resting one has the same file in every frame
     FrameCheck check;
+    std::vector<std::string> meeting;  // those of `cloths` that meet each other (self_contact)
 };
 
 /// Writes FOLDER/frames/<cloth>_00000.obj and FOLDER/obstacles/<obstacle>_00000.obj, whole or not at all.
@@ -33,7 +34,7 @@ private:
 
     std::string folder_;
     std::vector<std::string> cloth_names_, obstacle_names_;
-    std::vector<bool> obstacle_moves_;
+    std::vector<bool> obstacle_moves_, cloth_meets_;
     std::vector<std::string> written_;
 };
 

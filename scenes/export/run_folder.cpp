@@ -70,7 +70,7 @@ void RunFolder::begin() {
 }
 
 void RunFolder::add(const Frame& frame) {
-    frames_.push_back(with_frames_ ? writer_.write(frame) : FrameRecord{frame.index, frame.time, {}, {}, frame.check});
+    frames_.push_back(with_frames_ ? writer_.write(frame) : FrameRecord{frame.index, frame.time, {}, {}, frame.check, {}});
 }
 
 void RunFolder::add(const StepReport& report, const Simulation& simulation) {

@@ -113,7 +113,8 @@ ordered_json frame_list(std::span<const FrameRecord> frames) {
                         {"obstacles", frame.obstacles},
                         {"intersections", frame.check.intersections},
                         {"deepest_penetration", frame.check.deepest_penetration},
-                        {"smallest_distance", frame.check.smallest_distance}});
+                        {"smallest_distance", frame.check.smallest_distance},
+                        {"self_contact", frame.meeting}});
     return list;
 }
 
@@ -187,6 +188,8 @@ FrameRecord frame_record(const ordered_json& json) {
     record.check.intersections = json.at("intersections").get<int>();
     record.check.deepest_penetration = json.at("deepest_penetration").get<double>();
     record.check.smallest_distance = number_or_infinity(json.at("smallest_distance"));
+    // Reports of builds without contact between cloths lack it.
+    if (json.contains("self_contact")) record.meeting = json.at("self_contact").get<std::vector<std::string>>();
     return record;
 }
 

@@ -25,13 +25,14 @@ using namespace percale::scenes;
 struct CertifyOptions {
     std::vector<std::string> paths;  // DIR, or OBSTACLE FRAME...
     double distance_limit = 0.1;     // m
+    bool self = false;
     bool json = false;
 };
 
-/// One time: every cloth file against every obstacle file.
+/// One time: every cloth file against every obstacle file, and those that meet each other.
 struct CertifiedFrame {
     std::string label;
-    std::vector<std::string> cloths, obstacles;
+    std::vector<std::string> cloths, obstacles, meeting;
     FrameCheck check;
 };
 
@@ -46,9 +47,10 @@ std::vector<CertifiedFrame> frames_of_run(const std::string& folder) {
     std::vector<CertifiedFrame> frames;
     for (const FrameRecord& record : read_frame_records(folder)) {
         if (record.cloths.empty()) throw SceneError(folder + ": the run wrote no frames (--frames none), so none can be checked");
-        CertifiedFrame frame{"frame " + std::to_string(record.index), {}, {}, {}};
+        CertifiedFrame frame{"frame " + std::to_string(record.index), {}, {}, {}, {}};
         for (const std::string& file : record.cloths) frame.cloths.push_back(folder + "/" + file);
         for (const std::string& file : record.obstacles) frame.obstacles.push_back(folder + "/" + file);
+        for (const std::string& file : record.meeting) frame.meeting.push_back(folder + "/" + file);
         frames.push_back(frame);
     }
     if (frames.empty()) throw SceneError(folder + ": the report lists no frames");
@@ -57,7 +59,7 @@ std::vector<CertifiedFrame> frames_of_run(const std::string& folder) {
 
 std::vector<CertifiedFrame> frames_of_files(const std::vector<std::string>& paths) {
     std::vector<CertifiedFrame> frames;
-    for (std::size_t i = 1; i < paths.size(); ++i) frames.push_back({paths[i], {paths[i]}, {paths[0]}, {}});
+    for (std::size_t i = 1; i < paths.size(); ++i) frames.push_back({paths[i], {paths[i]}, {paths[0]}, {}, {}});
     return frames;
 }
 
@@ -84,11 +86,14 @@ void check_frame(CertifiedFrame& frame, double distance_limit, MeshCache& obstac
         const bool needed = std::find(frame.obstacles.begin(), frame.obstacles.end(), entry->first) != frame.obstacles.end();
         entry = needed ? std::next(entry) : obstacles.erase(entry);
     }
+    std::vector<TriangleMesh> meeting;
     for (const std::string& file : frame.cloths) {
         const TriangleMesh cloth = import_mesh(file);
         for (const std::string& obstacle : frame.obstacles)
             add_certificate(frame.check, certify(cloth, cached_mesh(obstacles, obstacle), distance_limit));
+        if (std::find(frame.meeting.begin(), frame.meeting.end(), file) != frame.meeting.end()) meeting.push_back(cloth);
     }
+    if (!meeting.empty()) add_cloth_certificate(frame.check, meeting);
 }
 
 Verdict check_frames(std::vector<CertifiedFrame> frames, double distance_limit) {
@@ -113,13 +118,18 @@ std::string distance_text(double distance, double limit) {
     return text;
 }
 
+bool has_cloth_that_meets(const Verdict& verdict) {
+    return std::any_of(verdict.frames.begin(), verdict.frames.end(),
+                       [](const CertifiedFrame& frame) { return !frame.meeting.empty(); });
+}
+
 bool has_obstacles(const Verdict& verdict) {
     return std::any_of(verdict.frames.begin(), verdict.frames.end(),
                        [](const CertifiedFrame& frame) { return !frame.obstacles.empty(); });
 }
 
 void print_verdict(const Verdict& verdict, double limit) {
-    if (!has_obstacles(verdict)) {
+    if (!has_obstacles(verdict) && !has_cloth_that_meets(verdict)) {
         std::printf("%zu frames and no obstacle: there is nothing to check against\n", verdict.frames.size());
         return;
     }
@@ -146,6 +156,7 @@ void print_json(const Verdict& verdict, double limit) {
     const Measures& m = verdict.measures;
     nlohmann::ordered_json json = {{"clean", verdict.clean},
                                    {"has_obstacles", has_obstacles(verdict)},
+                                   {"self_contact", has_cloth_that_meets(verdict)},
                                    {"intersections", m.intersections},
                                    {"deepest_penetration", m.deepest_penetration},
                                    {"smallest_distance", m.smallest_distance},
@@ -162,7 +173,10 @@ void print_json(const Verdict& verdict, double limit) {
 
 int certify_files(const CertifyOptions& options) {
     if (!(options.distance_limit >= 0.0)) throw SceneError("--distance-limit: must be at least 0 m");
-    const Verdict verdict = check_frames(frames_to_check(options), options.distance_limit);
+    std::vector<CertifiedFrame> frames = frames_to_check(options);
+    for (CertifiedFrame& frame : frames)
+        if (options.self) frame.meeting = frame.cloths;
+    const Verdict verdict = check_frames(std::move(frames), options.distance_limit);
     if (options.json)
         print_json(verdict, options.distance_limit);
     else
@@ -174,12 +188,14 @@ int certify_files(const CertifyOptions& options) {
 
 void add_certify_command(CLI::App& program, Action& action) {
     auto options = std::make_shared<CertifyOptions>();
-    CLI::App* command = program.add_subcommand("certify", "Check frames against obstacles for intersecting triangles and depth");
+    CLI::App* command = program.add_subcommand("certify", "Check frames for intersecting triangles and depth");
     command->footer("Examples: percale certify out\n          percale certify body.obj shirt_00000.obj shirt_00001.obj");
     command->add_option("PATH", options->paths, "The folder of a run, or an obstacle and frames")->required();
     command
         ->add_option("--distance-limit", options->distance_limit, "How far to search for the smallest distance, m (default 0.1)")
         ->type_name("M");
+    command->add_flag("--self", options->self,
+                      "Check all cloth against itself, too; in a folder cloth with self_contact always is");
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options, &action] { action = [options] { return certify_files(*options); }; });
 }

@@ -70,7 +70,7 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
     std::printf("%s: %d steps, %.6g s simulated in %.3g s (CPU %.3g s), largest strain %.3g, speed at end %.3g m/s",
                 status_word(result.status), result.totals.steps, result.totals.simulated_s, result.totals.wall_s,
                 result.totals.cpu_s, m.largest_strain, m.speed_at_end);
-    if (!built.scene.obstacles.empty())
+    if (built.scene.has_contact())
         std::printf(", %d intersecting pairs, %s", m.intersections, nearness_text(m.smallest_distance).c_str());
     std::printf("; %s/report.json\n", options.folder.c_str());
     for (const ExpectationResult& expectation : expectations) std::printf("  %s\n", expectation.text.c_str());

@@ -246,3 +246,59 @@ TEST_CASE("self-intersections of a crumpled sheet are those of all pairs without
     CHECK(expected.size() > 20);
     CHECK(same(self_intersections(sheet), expected));
 }
+
+TEST_CASE("cloth that lies beside, above or along itself has no crossings") {
+    for (const TriangleMesh& mesh : {make_sphere(1.0, 3), make_grid(1, 1, 12, 9), make_box({1, 1, 1})}) {
+        const ClothCertificate found = certify_cloth(mesh);
+        CHECK(found.crossing.empty());
+        CHECK(found.touching.empty());
+    }
+}
+
+TEST_CASE("crossings of a crumpled sheet are those of all pairs, neighbours at one vertex included") {
+    const TriangleMesh sheet = crumpled(1.0, 15, 0.08, 9);
+    std::vector<IntersectingPair> expected;
+    int neighbours = 0;
+    for (int i = 0; i < int(sheet.triangles.size()); ++i) {
+        for (int j = i + 1; j < int(sheet.triangles.size()); ++j) {
+            if (certificate::classify(corners(sheet, i), corners(sheet, j)) != certificate::Overlap::crossing) continue;
+            expected.push_back({i, j});
+            neighbours += share_a_vertex(sheet.triangles[i], sheet.triangles[j]);
+        }
+    }
+    CHECK(neighbours > 5);
+    CHECK(same(certify_cloth(sheet).crossing, expected));
+}
+
+TEST_CASE(
+    "a triangle pushed through its neighbour at a vertex crosses it, one folded against its neighbour at an edge does not") {
+    // Two triangles that share vertex 0 alone.
+    TriangleMesh wings{.vertices = {{0, 0, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 0, -1}, {-1, 0, 1}},
+                       .triangles = {{0, 1, 2}, {0, 3, 4}}};
+    CHECK(certify_cloth(wings).crossing.empty());
+    wings.vertices[3] = {1, 0, -1};
+    wings.vertices[4] = {1, 0, 1};
+    CHECK(certify_cloth(wings).crossing.size() == 1);
+    TriangleMesh fold{.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1e-9, 0.9}}, .triangles = {{0, 1, 2}, {0, 3, 1}}};
+    CHECK(certify_cloth(fold).crossing.empty());
+    fold.vertices[3].y() = 0.0;  // exactly onto each other
+    CHECK(certify_cloth(fold).crossing.size() == 1);
+}
+
+TEST_CASE("cloth that only touches itself away from its neighbours is told apart from cloth that crosses itself") {
+    TriangleMesh mesh = make_grid(1, 1, 3, 3);
+    const TriangleMesh upper = moved(make_grid(1, 1, 3, 3), {0.01, 0.1, 0.02});
+    for (const Triangle& t : upper.triangles) mesh.triangles.push_back({t[0] + 9, t[1] + 9, t[2] + 9});
+    mesh.vertices.insert(mesh.vertices.end(), upper.vertices.begin(), upper.vertices.end());
+    CHECK(certify_cloth(mesh).touching.empty());
+    mesh.vertices[9 + 4].y() = 0.0;
+    const ClothCertificate touching = certify_cloth(mesh);
+    CHECK(touching.crossing.empty());
+    REQUIRE_FALSE(touching.touching.empty());
+    CHECK(touching.touching[0].first < 8);
+    CHECK(touching.touching[0].second >= 8);
+    mesh.vertices[9 + 4].y() = -0.01;
+    CHECK_FALSE(certify_cloth(mesh).crossing.empty());
+    mesh.triangles[0][1] = 4242;
+    CHECK_THROWS_WITH(certify_cloth(mesh), Catch::Contains("4242"));
+}

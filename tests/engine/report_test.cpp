@@ -61,6 +61,9 @@ TEST_CASE("Failures say what failed and what to do") {
     pin.blocked_name = "cape";
     pin.blocking_name = "table";
     CHECK(mentions(pin.explanation(), {"pinned vertex 45 of cloth 2 (cape)", "obstacle 1 (table)"}));
+    StepReport by_cloth = report_of(StepStatus::pin_blocked);
+    by_cloth.blocking_name = "cloth";
+    CHECK(mentions(by_cloth.explanation(), {"taking the cloth through cloth"}));
     StepReport fast = report_of(StepStatus::obstacle_too_fast);
     fast.blocking_obstacle = 3;
     CHECK(mentions(fast.explanation(), {"obstacle 3", "0.0625", "shorter time step"}));

@@ -398,4 +398,13 @@ TEST_CASE("Velocities set on pinned vertices are not taken over") {
     CHECK(simulation.velocities(cloth)[2] == Vec3(1, 2, 3));
 }
 
+TEST_CASE("Cloth that is to meet cloth needs a detector that can do that") {
+    Fabric fabric = sheet_fabric();
+    fabric.self_contact = true;
+    const auto add_to = [&](Simulation&& simulation) { simulation.add_cloth(make_grid(0.5, 0.5, 3, 3), fabric, {}, "towel"); };
+    CHECK(mentions(scene_error([&] { add_to(Simulation(StepSettings{})); }), {"towel", "self_contact", "detector"}));
+    CHECK(mentions(scene_error([&] { add_to(Simulation(StepSettings{}, std::make_unique<PlaneDetector>())); }),
+                   {"self_contact must be false"}));
+}
+
 }  // namespace percale::test

@@ -59,6 +59,20 @@ TEST_CASE("certificates of one frame add up: pairs and vertices sum, depth and d
     CHECK_FALSE(check.clean());
 }
 
+TEST_CASE("cloths that meet are certified against themselves and each other, all together") {
+    const TriangleMesh low = make_grid(1, 1, 3, 3);
+    TriangleMesh high = low;
+    for (Vec3& x : high.vertices) x += Vec3(0.01, 0.1, 0.02);
+    FrameCheck check;
+    add_cloth_certificate(check, std::vector{low, high});
+    CHECK(check.clean());
+    CHECK(check.touching_pairs == 0);
+    high.vertices[4].y() = -0.1;
+    add_cloth_certificate(check, std::vector{low, high});
+    CHECK(check.intersections > 0);
+    CHECK_FALSE(check.clean());
+}
+
 TEST_CASE("a vertex inside an obstacle makes a frame unclean even if no triangles cross") {
     FrameCheck check;
     check.vertices_inside = 1;

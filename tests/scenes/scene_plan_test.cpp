@@ -103,5 +103,7 @@ TEST_CASE("text and JSON say the same") {
     for (const auto& skip : json.at("skipped"))
         CHECK(text.find("  " + skip.at("what").get<std::string>() + ": " + skip.at("why").get<std::string>()) !=
               std::string::npos);
-    CHECK(plan_text(built(sheet_on_box(), {{"step.skip", "false"}})).find("skipped    nothing") != std::string::npos);
+    CHECK(text.find("  contact of sheet with cloth: self_contact is false") != std::string::npos);
+    CHECK(plan_text(built(sheet_on_box(), {{"step.skip", "false"}, {"fabric.sheet.self_contact", "true"}}))
+              .find("skipped    nothing") != std::string::npos);
 }

@@ -34,6 +34,16 @@ struct Certificate {
 Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle,
                     double distance_limit = std::numeric_limits<double>::infinity());
 
+/// Where cloth meets itself, all its pieces taken as one mesh.
+struct ClothCertificate {
+    std::vector<IntersectingPair> crossing;  // first < second, ordered; neighbours that share vertices included
+    std::vector<IntersectingPair> touching;  // that share a point though no vertex, and do not cross
+};
+
+/// Exact, with the triangle-triangle tests of certify; shares no code with the solver. Neighbours cross where they share more
+/// than the vertices, edge or points that they have to. Thread-safe.
+ClothCertificate certify_cloth(const TriangleMesh& cloth);
+
 /// Intersecting pairs inside one mesh, neighbours that share a vertex left out.
 std::vector<IntersectingPair> self_intersections(const TriangleMesh& mesh);
 

@@ -14,18 +14,21 @@ namespace percale {
 /// Contact rows, a structure of arrays. Row i says: the cloth point sum_k weight[i][k] x[vertex[i][k]] is
 /// `distance` away from `obstacle_point`, along the unit vector `direction` (from the obstacle towards the cloth):
 /// direction . (sum_k weight[k] x[vertex[k]] - obstacle_point) = distance.
+/// Between two places of cloth the same holds with weights > 0 at one and < 0 at the other, obstacle_point 0: the direction
+/// leads from the second to the first.
 /// The order of rows follows from cloth and obstacles alone, whatever the backend.
 struct ContactRows {
-    std::vector<std::array<int, 4>> vertex;     // cloth vertices; -1 = unused: 1 point, 2 edge, 3 triangle
-    std::vector<std::array<double, 4>> weight;  // sums to 1 against an obstacle
+    std::vector<std::array<int, 4>> vertex;     // cloth vertices; -1 = unused: 1 point, 2 edge, 3 triangle, 4 cloth on both sides
+    std::vector<std::array<double, 4>> weight;  // sums to 1 against an obstacle, to 0 between cloths
     std::vector<Vec3> direction;                // unit
     std::vector<Vec3> obstacle_point;           // m, world, at the asked fraction of the step
     std::vector<Vec3> obstacle_displacement;    // m, how far that point moves during the whole step
-    std::vector<double> distance;               // m, from the cloth's middle surface to the obstacle, > 0
+    std::vector<double> distance;               // m, from the cloth's middle surface to the obstacle or to the other's, > 0
     std::vector<double> thickness;              // m, where the contact zone starts
     std::vector<double> friction;               // Coulomb coefficient
-    std::vector<int> obstacle;
-    std::vector<int> feature;  // obstacle triangle, edge or vertex, by number of vertices used
+    std::vector<int> obstacle;                  // -1: cloth against cloth
+    std::vector<int> feature;  // obstacle triangle, edge or vertex, by number of vertices used; between cloths the
+                               // number of vertices on the first side: 1 vertex-face, 2 edge-edge
 
     std::size_t size() const { return vertex.size(); }
     void clear() {
@@ -44,18 +47,20 @@ struct StepFraction {
     double to = 1.0;
 };
 
-/// What is wrong with a start position: the first obstacle that the cloth crosses, is inside of or touches. Vertices have the
-/// engine's numbers where a detector returns it, those of the meshes in a StartError.
+/// What is wrong with a start position: the first obstacle that the cloth crosses, is inside of or touches; else cloth that
+/// crosses or touches cloth. Vertices have the engine's numbers where a detector returns it, those of the meshes in a StartError.
 struct StartFault {
-    int obstacle = -1;           // -1 = nothing is wrong
-    int intersecting_pairs = 0;  // cloth triangles that cross a triangle of it
+    int obstacle = -1;           // -1 = nothing is wrong with obstacles
+    int intersecting_pairs = 0;  // cloth triangles that cross a triangle of it, or pairs of cloth triangles that cross
     int cloth_triangle = -1;     // one of them, counted through all cloths
     int obstacle_triangle = -1;
+    int other_cloth_triangle = -1;          // cloth against cloth: what cloth_triangle crosses or touches
     int vertices_inside = 0;                // cloth vertices inside it, if it is watertight
     int inside_vertex = -1;                 // the deepest of them, counted through all cloths
     std::vector<int> inside_vertices = {};  // all of them, ascending
 
-    bool any() const { return obstacle >= 0; }
+    bool between_cloths() const { return other_cloth_triangle >= 0; }
+    bool any() const { return obstacle >= 0 || between_cloths(); }
 };
 
 /// Cloth moved out of the obstacles that it started through, inside of or touching.
@@ -74,6 +79,13 @@ private:
     StartFault fault_;
 };
 
+/// Which cloth meets cloth, and what for that is known of each vertex.
+struct SelfContact {
+    std::span<const int> cloth;        // the number of its cloth; -1: it meets no cloth
+    std::span<const Vec3> rest;        // m, positions without strain
+    std::span<const double> friction;  // Coulomb coefficient of its fabric; between two fabrics the mean counts
+};
+
 /// Finds contacts between all cloth of a simulation and its obstacles. Whole batches, plain types.
 /// Within a step an obstacle vertex moves on the straight line from its place at the start to its place at the end.
 /// Not thread-safe: one detector belongs to one simulation.
@@ -85,6 +97,10 @@ public:
     /// vertex, m, > 0. Here and in all positions and rows vertices have the engine's numbers, not those of the meshes.
     virtual void set_cloth(std::span<const Triangle> triangles, std::span<const double> vertex_thickness) = 0;
 
+    /// After set_cloth, which forgets it: cloth that also meets cloth. Two features of it are in contact below the mean of their
+    /// thicknesses (half a thickness each), but where they belong to one cloth at no more than half of their distance at rest.
+    virtual void set_self_contact(const SelfContact& cloth);
+
     /// Returns the obstacle's number. Throws SceneError if nothing is left of the mesh after cleaning.
     virtual int add_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) = 0;
 
@@ -92,7 +108,8 @@ public:
     /// change.
     virtual void move_obstacle(int obstacle, const Pose& start, const Pose& end) = 0;
 
-    /// Whether this start may be simulated: no crossing, no touching, no vertex inside a watertight obstacle.
+    /// Whether this start may be simulated: no crossing, no touching, no vertex inside a watertight obstacle; none of cloth that
+    /// meets cloth crosses or touches other such cloth.
     virtual StartFault check_start(std::span<const Vec3> positions) = 0;
 
     /// Positions clear of every obstacle, as near to the given ones as was found; nothing where none were found. Vertices with
@@ -116,8 +133,12 @@ public:
     /// f of the part of the step, keeps every distance above a small positive floor.
     virtual double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) = 0;
 
-    /// Smallest distance of the last evaluation, m; infinity if nothing was near.
+    /// Smallest distance of the last evaluation, m; infinity if nothing was near. Between cloths those of its rows count.
     virtual double smallest_distance() const = 0;
 };
+
+inline void ContactDetector::set_self_contact(const SelfContact&) {
+    throw SceneError("this contact detector knows obstacles only; self_contact must be false");
+}
 
 }  // namespace percale

@@ -13,6 +13,8 @@ struct SpringConstants {
 struct Fabric {
     double area_density = 0.2;    // kg/m^2
     double thickness = 0.005;     // m, gap kept from obstacles, measured from the middle surface
+    bool self_contact = false;    // it meets itself and all other cloth of which this is true
+    double friction = 0.3;        // Coulomb coefficient against such cloth
     SpringConstants springs;      // N/m
     double spring_damping = 0.1;  // N s/m of each spring, along the spring only
 };

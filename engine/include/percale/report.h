@@ -64,7 +64,7 @@ struct StepReport {
     double largest_speed = 0.0;      // m/s
     int blocked_cloth = -1;          // the cloth and vertex of a blocked pin
     int blocked_vertex = -1;
-    int blocking_obstacle = -1;
+    int blocking_obstacle = -1;               // -1 where it is cloth, too; blocking_name then says so
     std::string blocked_name, blocking_name;  // of that cloth and obstacle
     int second_obstacle = -1;                 // pushes the cloth towards the blocking one
     std::string second_name;

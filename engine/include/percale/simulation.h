@@ -63,8 +63,9 @@ public:
 
     /// Checks the scene as a whole; the first step calls it. Cloth that starts through, inside or touching an obstacle is moved
     /// out (StepSettings::start): its free vertices only, no structural spring longer than by half; velocities stay. Throws
-    /// StartError, and leaves everything as it was, where that is not possible or not wanted, or where a pinned vertex is inside
-    /// an obstacle; SceneError where the scheme takes no obstacles.
+    /// StartError, and leaves everything as it was, where that is not possible or not wanted, where a pinned vertex is inside
+    /// an obstacle, or where cloth with self_contact starts through or touching such cloth; SceneError where the scheme takes
+    /// neither.
     void prepare();
     /// What the last `prepare` that found something to check moved out of obstacles; empty where the start was clear.
     std::span<const StartMove> start_repair() const;

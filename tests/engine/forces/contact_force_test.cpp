@@ -325,4 +325,46 @@ TEST_CASE("The power of an obstacle is its force times its velocity, friction in
     CHECK(touch.terms.obstacle_power == Approx((push * 0.002 + 0.5 * push * 0.1) * 60.0).epsilon(1e-12));
 }
 
+TEST_CASE("Between cloths the stiffness is that of both sides in series, and forces cancel") {
+    Random random(11);
+    Touch touch(4);
+    const std::array<double, 4> a{5.0, 8.0, 3.0, 7.0};
+    for (const int entry : {0, 3, 5}) touch.set_diagonal(entry, {a.begin(), a.end()});
+    for (const std::array<double, 4>& weight : {std::array{1.0, -0.2, -0.5, -0.3}, std::array{0.4, 0.6, -0.9, -0.1}}) {
+        touch.rows.clear();
+        touch.add_row({0, 1, 2, 3}, weight, random.unit(), 0.6 * h);
+        touch.rows.obstacle[0] = -1;
+        touch.rows.friction[0] = 0.4;
+        for (int i = 0; i < 4; ++i) touch.velocities.set(i, random.point(2.0));
+        touch.evaluate();
+        double compliance = 0.0;
+        for (int k = 0; k < 4; ++k) compliance += weight[k] * weight[k] / a[k];
+        CHECK(touch.terms.largest_stiffness == Approx(0.5 * 3600.0 / compliance).epsilon(1e-12));
+        Vec3 sum = Vec3::Zero();
+        for (int i = 0; i < 4; ++i) sum += touch.forces.at(i);
+        CHECK(sum.norm() < 1e-13 * touch.forces.at(0).norm());
+        CHECK(touch.terms.obstacle_power == 0.0);
+    }
+}
+
+TEST_CASE("Friction between cloths opposes their relative velocity and knows no common one") {
+    Touch touch(4);
+    const Vec3 n(0, 1, 0), common(3.0, 0.7, -2.0);
+    touch.add_row({0, 1, 2, 3}, {1.0, -0.25, -0.25, -0.5}, n, 0.8 * h);
+    touch.rows.obstacle[0] = -1;
+    touch.rows.friction[0] = 0.4;
+    for (const bool first : {false, true}) {
+        touch.step.first_evaluation = first;
+        for (int i = 0; i < 4; ++i) touch.velocities.set(i, common);
+        touch.evaluate();
+        const double normal = touch.forces.at(0).y();
+        CHECK((touch.forces.at(0) - normal * n).norm() < 1e-12 * normal);
+        touch.velocities.set(0, common + Vec3(0.5, 0.1, 0.0));
+        touch.evaluate();
+        const Vec3 friction = touch.forces.at(0) - normal * n;
+        CHECK((friction - Vec3(-0.4 * normal, 0, 0)).norm() < 1e-12 * normal);
+        CHECK((touch.forces.at(3) + 0.5 * touch.forces.at(0)).norm() < 1e-12 * normal);
+    }
+}
+
 }  // namespace percale::test

@@ -18,7 +18,7 @@ bool skips(const StepSettings& settings, const SceneFacts& facts, const std::str
 SceneFacts sheet_facts() {
     SceneFacts facts;
     facts.cloth_vertices = 9;
-    facts.cloths = {{"sheet", true, {.springs = {.structural = 100.0, .shear = 50.0, .bend = 1.0}}}};
+    facts.cloths = {{"sheet", true, {.self_contact = true, .springs = {.structural = 100.0, .shear = 50.0, .bend = 1.0}}}};
     return facts;
 }
 
@@ -41,6 +41,20 @@ TEST_CASE("Contacts are planned only where there is cloth and an obstacle") {
             CHECK_FALSE(make_step_plan({.scheme = Scheme::rk4}, facts).contacts);
         }
     }
+}
+
+TEST_CASE("Contacts are planned where cloth meets cloth, and what does not is listed by name") {
+    SceneFacts facts = sheet_facts();
+    CHECK(make_step_plan({}, facts).contacts);
+    CHECK_FALSE(skips({}, facts, "contact"));
+    CHECK_FALSE(skips({}, facts, "motion of obstacles"));
+    facts.cloths.push_back({"towel"});
+    CHECK(make_step_plan({}, facts).contacts);
+    CHECK(skips({}, facts, "contact of towel with cloth"));
+    CHECK_FALSE(skips({}, facts, "contact of sheet with cloth"));
+    facts.cloths[0].fabric.self_contact = false;
+    CHECK_FALSE(make_step_plan({}, facts).contacts);
+    CHECK(skips({}, facts, "contact detection"));
 }
 
 TEST_CASE("The plan passes on what moves in the coming step") {

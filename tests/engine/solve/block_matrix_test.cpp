@@ -106,4 +106,31 @@ TEST_CASE("Refilling the matrix leaves nothing of what was there") {
     CHECK(refilled.inverse == system.matrix.inverse);
 }
 
+TEST_CASE("A row between cloths enters the product exactly and the diagonal as an upper bound") {
+    RandomSystem system(8, 24);
+    const ContactBlock row{.vertex = {1, 20, 7, 13}, .weight = {1.0, -0.2, -0.5, -0.3}, .k = {5.0, 1.0, -0.5, 4.0, 0.3, 6.0}};
+    std::fill(system.matrix.free.begin(), system.matrix.free.begin() + 24, 1.0);
+    system.contacts = {row};
+    fill_matrix(system.terms, system.contacts, system.matrix);
+    const Eigen::VectorXd x = system.random_vector();
+    AlignedVector<double> points;
+    Vectors y;
+    y.resize(24);
+    multiply(system.matrix, from_dense(x), points, y);
+    const Eigen::VectorXd expected = system.dense() * x;
+    CHECK((to_dense(y, 24) - expected).norm() <= 1e-13 * expected.norm());
+    REQUIRE(system.matrix.contacts_by_vertex.size() == 4);
+    for (int trial = 0; trial < 200; ++trial) {
+        const Eigen::VectorXd u = system.random_vector();
+        Vec3 apart = Vec3::Zero();
+        for (int k = 0; k < 4; ++k) apart += row.weight[k] * u.segment<3>(3 * row.vertex[k]);
+        double bound = 0.0;
+        for (const VertexContact& contact : system.matrix.contacts_by_vertex) {
+            const Vec3 part = u.segment<3>(3 * contact.vertex);
+            bound += part.dot(full_block(contact.k) * part);
+        }
+        CHECK(apart.dot(full_block(row.k) * apart) <= bound * (1.0 + 1e-12));
+    }
+}
+
 }  // namespace percale::test

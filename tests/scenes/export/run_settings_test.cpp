@@ -44,11 +44,16 @@ TEST_CASE("every field of a fabric is listed under its fabric, springs as a tabl
     Scene scene;
     Fabric& fabric = scene.fabrics["silk"];
     double next = 0.001;
-    for (const Option<Fabric>& option : fabric_options()) *option.number(fabric) = next += 0.001;
+    for (const Option<Fabric>& option : fabric_options()) {
+        if (option.number) *option.number(fabric) = next += 0.001;
+        if (option.flag) *option.flag(fabric) = true;
+    }
     const ordered_json json = settings(scene).at("fabric").at("silk");
     for (const Option<Fabric>& option : fabric_options()) {
         INFO(option.key);
-        CHECK(at_dotted(json, std::string(option.key)).get<double>() == *option.number(fabric));
+        const ordered_json& value = at_dotted(json, std::string(option.key));
+        if (option.number) CHECK(value.get<double>() == *option.number(fabric));
+        if (option.flag) CHECK(value == true);
     }
     CHECK(json.at("springs").is_object());
 }

@@ -140,3 +140,31 @@ TEST_CASE("what cannot be read is exit code 2 with one message") {
     REQUIRE(run_program({"run", "sheet.toml", "-o", "out", "--frames", "none"}, folder.path()).exit_code == 0);
     CHECK(refused(certified({"out"}), "no frames"));
 }
+
+TEST_CASE("cloth that meets cloth is certified against it, in a folder because its scene says so, else with --self") {
+    const TestFolder folder;
+    std::string scene = falling_sheet();
+    scene.replace(scene.find("scheme = \"symplectic_euler\""), 27, "");
+    scene.replace(scene.find("damping_form = \"velocity\""), 25, "");
+    scene.replace(scene.find("area_density"), 0, "self_contact = true\n");
+    folder.write("sheet.toml", scene);
+    REQUIRE(run_program({"run", "sheet.toml", "-o", "out"}, folder.path()).exit_code == 0);
+    const ProgramRun clean = run_program({"certify", "out", "--json"}, folder.path());
+    CHECK(clean.exit_code == 0);
+    CHECK(nlohmann::json::parse(clean.out).at("self_contact") == true);
+    // A frame with one corner of the sheet pulled through its middle.
+    TriangleMesh sheet = make_grid(0.3, 0.3, 4, 4);
+    sheet.vertices[0] = Vec3(0.1, -0.05, 0.13);
+    sheet.vertices[1] = Vec3(0.11, 0.05, 0.12);
+    scenes::write_obj(folder.path("out/frames/sheet_00002.obj"), sheet.vertices, sheet.triangles);
+    const ProgramRun crossing = run_program({"certify", "out", "--json"}, folder.path());
+    CHECK(crossing.exit_code == 1);
+    CHECK(nlohmann::json::parse(crossing.out).at("intersections").get<int>() > 0);
+    write_box(folder);
+    const std::string frame = "out/frames/sheet_00002.obj";
+    CHECK(nlohmann::json::parse(run_program({"certify", "box.obj", frame, "--self", "--json"}, folder.path()).out)
+              .at("intersections")
+              .get<int>() > nlohmann::json::parse(run_program({"certify", "box.obj", frame, "--json"}, folder.path()).out)
+                                .at("intersections")
+                                .get<int>());
+}

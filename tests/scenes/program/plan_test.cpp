@@ -24,9 +24,9 @@ TEST_CASE("plan prints the plan of a scene and writes nothing") {
 TEST_CASE("plan takes overrides, --no-skip and --json") {
     const TestFolder folder;
     folder.write("sheet.toml", sheet_on_box());
-    const ProgramRun run = run_program(
-        {"plan", "sheet.toml", "--json", "--no-skip", "--set", "cloth.sheet.pin=[0]", "--set", "fabric.sheet.springs.bend=0"},
-        folder.path());
+    const ProgramRun run = run_program({"plan", "sheet.toml", "--json", "--no-skip", "--set", "cloth.sheet.pin=[0]", "--set",
+                                        "fabric.sheet.springs.bend=0", "--set", "fabric.sheet.self_contact=true"},
+                                       folder.path());
     CHECK(run.exit_code == 0);
     const auto json = nlohmann::json::parse(run.out);
     CHECK(json.at("pinned_vertices") == 1);
