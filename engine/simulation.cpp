@@ -82,7 +82,12 @@ struct Simulation::Implementation {
     }
 
     void pass_cloth_to_detector() {
-        if (world.detector) world.detector->set_cloth(world.model.triangles, world.model.thickness);
+        if (!world.detector) return;
+        std::vector<double> zone = world.model.thickness;
+        if (world.settings.contact_response == ContactResponse::projection) {
+            for (double& thickness : zone) thickness *= projection_zone;
+        }
+        world.detector->set_cloth(world.model.triangles, zone);
     }
 
     /// The cloth that owns a vertex of the whole system, and its index there.
@@ -273,6 +278,7 @@ void Simulation::prepare() {
     if (!world.changed) return;
     implementation_->check_scheme();
     if (world.detector && !world.script.obstacles.empty() && !world.model.cloths.empty()) implementation_->check_start();
+    world.newton.projection.forget();
     world.changed = false;
 }
 

@@ -45,6 +45,7 @@ private:
         if (!space_.solver.is_for(model_)) space_.solver.set_model(*part_.compute, model_, part_.settings->linear_solver);
         space_.solver.matrix.free = *part_.free;
         space_.solver.start_part();
+        if (projects()) space_.projection.start_part();
         for (auto* vectors : {&space_.direction, &space_.right_side}) vectors->resize(model_.vertex_count());
         set_step_springs(*part_.compute, {model_.adjacency, state.positions, part_.plan->damping, part_.dt}, space_.springs);
     }
@@ -126,21 +127,53 @@ private:
         StageTimer timer(stages_.force);
         const ForceInput input = force_input(point);
         evaluate_forces(input, point.forces);
-        if (part_.plan->contacts) add_contacts(input, point.forces);
+        if (part_.plan->contacts) add_contacts(input, point);
         set_residual(point);
     }
 
-    void add_contacts(const ForceInput& input, Forces& forces) {
+    bool projects() const { return part_.plan->contacts && part_.settings->contact_response == ContactResponse::projection; }
+
+    ContactStep contact_step(bool first) const {
+        return {.dt = part_.dt,
+                .obstacle_rate = 1.0 / part_.full_step,
+                .gravity = part_.settings->gravity,
+                .mass = &model_.mass,
+                .diagonal = &space_.frozen_diagonal,
+                .first_evaluation = first};
+    }
+
+    void add_contacts(const ForceInput& input, NewtonPoint& point) {
+        Forces& forces = point.forces;
         const bool first = space_.frozen_diagonal.padded == 0;
         if (first) fill_diagonal(space_.solver.matrix, forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
-        const ContactStep step{.dt = part_.dt,
-                               .obstacle_rate = 1.0 / part_.full_step,
-                               .gravity = part_.settings->gravity,
-                               .mass = &model_.mass,
-                               .diagonal = &space_.frozen_diagonal,
-                               .first_evaluation = first};
-        add_contact_forces(input, step, forces);
+        if (projects()) {
+            space_.projection.add(projected(point), projected_forces(point));
+        } else {
+            add_contact_forces(input, contact_step(first), forces);
+        }
         report_.largest_stiffness = std::max(report_.largest_stiffness, forces.contact.largest_stiffness);
+    }
+
+    ProjectedPoint projected(const NewtonPoint& point) const {
+        return {.step = contact_step(false),
+                .rows = &point.forces.rows,
+                .velocities = &point.velocities,
+                .obstacles_moved = point.fraction - part_.span.from};
+    }
+    static ProjectedForces projected_forces(NewtonPoint& point) {
+        return {point.forces.total, point.forces.contact, point.row_forces};
+    }
+
+    /// The contact forces that the last iteration found are the multipliers of the next.
+    void advance_multipliers(int iteration) {
+        if (!projects()) return;
+        StageTimer timer(stages_.force);
+        NewtonPoint& point = space_.current;
+        if (iteration > 0 && full_step_) {
+            space_.projection.advance(projected(point), projected_forces(point));
+            set_residual(point);
+        }
+        space_.projection.solve_at(point.forces.rows, point.row_forces);
     }
 
     /// r = M (v - v_n) - dt f and the incremental potential whose gradient by v it is.
@@ -167,6 +200,7 @@ private:
         const int most = part_.settings->newton_iterations;
         double first_norm = 0.0, last_norm = 0.0;
         for (int iteration = 0;; ++iteration) {
+            advance_multipliers(iteration);
             const double norm = residual_norm();
             if (iteration == 0) first_norm = std::max(norm, gravity_norm());
             set_relative_residual(norm, first_norm);
@@ -309,6 +343,7 @@ private:
             ++report_.line_search_cuts;
         }
         std::swap(space_.current, space_.trial);
+        full_step_ = accepted && fraction * kept == 1.0;
         if (accepted && fraction * kept == 1.0 && was_arrived && !small) go_on(line);
         const bool by_change = small && direction_is_good_ && fraction * kept == 1.0 && !part_.settings->newton_tolerance &&
                                report_.newton_iterations > 1;
@@ -320,6 +355,7 @@ private:
     /// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and
     /// what the secant says is still missing along the same direction costs an evaluation only.
     void go_on(LineTrial line) {
+        if (projects() && space_.current.forces.rows.size() > 0) return;
         const double ratio = line.slope / line.start_slope;
         if (!(ratio > 0.4) || !part_.options.line_search || part_.settings->newton_iterations == 1) return;
         const double further = std::min(ratio / std::max(1.0 - ratio, 0.1), 3.0);
@@ -373,6 +409,7 @@ private:
             state.positions.set(i, part_.targets->at(i));
         }
         update_points(state);
+        if (projects()) space_.projection.keep(space_.current.forces.rows, space_.current.row_forces);
     }
 
     const ImplicitPart& part_;
@@ -382,6 +419,7 @@ private:
     NewtonReport report_;
     bool converged_ = false;
     bool direction_is_good_ = true;  // the linear solve got where it should
+    bool full_step_ = false;         // the last iteration went all the way
     bool went_on_ = false;           // the state is not the one whose matrix was solved with
 };
 

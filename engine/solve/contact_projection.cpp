@@ -1,0 +1,149 @@
+#include "contact_projection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace percale {
+namespace {
+
+constexpr double stiffness_share = 10.0;  // of the step matrix: one update leaves about 1/11 of an error
+constexpr double recovery_time = 0.05;    // s, in which cloth that starts too near comes back to the thickness
+
+Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - normal * normal.dot(v); }
+
+double quadratic_form(const DiagonalBlocks& a, int i, const Vec3& n) {
+    return n.x() * (a[0][i] * n.x() + 2.0 * a[1][i] * n.y() + 2.0 * a[2][i] * n.z()) +
+           n.y() * (a[3][i] * n.y() + 2.0 * a[4][i] * n.z()) + a[5][i] * n.z() * n.z();
+}
+
+/// One row at one point of the search.
+struct RowState {
+    Vec3 normal;
+    double stiffness = 0.0;  // k, N/m
+    double approach = 0.0;   // m, how much nearer than its target the row is
+    Vec3 slip;               // m/s
+    double friction = 0.0;   // mu
+};
+
+/// k = share/(dt^2 W), W = sum w^2/(n.A n) over the row's vertices: n.A^-1 n if these had no neighbours.
+double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
+    double yielding = 0.0;
+    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
+        const double weight = rows.weight[row][k];
+        yielding += weight * weight / quadratic_form(*step.diagonal, rows.vertex[row][k], rows.direction[row]);
+    }
+    return stiffness_share / (step.dt * step.dt * yielding);
+}
+
+/// The distance a row has to keep: the thickness; if it began nearer, only part of what is missing, as pushing it out at once
+/// would throw the cloth off. Where the row began follows from its velocity, but it was nowhere nearer than `kept`.
+double target_distance(double thickness, double kept, double began, double dt) {
+    const double start = std::clamp(began, std::min(kept, thickness), thickness);
+    return thickness - (thickness - start) * std::exp(-dt / recovery_time);
+}
+
+RowState row_state(const ProjectedPoint& point, std::size_t row, double kept_share) {
+    const ContactRows& rows = *point.rows;
+    Vec3 velocity = Vec3::Zero();
+    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
+        velocity += rows.weight[row][k] * point.velocities->at(rows.vertex[row][k]);
+    }
+    const Vec3 &n = rows.direction[row], &way = rows.obstacle_displacement[row];
+    const double thickness = rows.thickness[row] / projection_zone;
+    const double began = rows.distance[row] - n.dot(point.step.dt * velocity - point.obstacles_moved * way);
+    const double target = target_distance(thickness, kept_share * thickness, began, point.step.dt);
+    return {.normal = n,
+            .stiffness = row_stiffness(rows, row, point.step),
+            .approach = target - rows.distance[row],
+            .slip = tangential(velocity - point.step.obstacle_rate * way, n),
+            .friction = rows.friction[row]};
+}
+
+/// The row's force, N, and its matrix, kg; no matrix if it does not push.
+RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, std::array<double, 6>& block) {
+    RowForce force{.normal = std::max(0.0, multiplier.normal + row.stiffness * row.approach)};
+    if (force.normal == 0.0) return force;
+    const double damping = row.stiffness * dt, limit = row.friction * force.normal;
+    const Vec3 trial = tangential(multiplier.friction, row.normal) - damping * row.slip;
+    const double size = trial.norm();
+    const bool slides = size > limit;
+    const double share = slides ? limit / size : 1.0;
+    force.friction = share * trial;
+    const Vec3 along = slides ? Vec3(trial / size) : Vec3(Vec3::Zero());
+    const double across_normal = dt * dt * row.stiffness, across_slip = row.friction > 0.0 ? dt * damping * share : 0.0;
+    int entry = 0;
+    for (int a = 0; a < 3; ++a) {
+        for (int b = a; b < 3; ++b) {
+            const double nn = row.normal[a] * row.normal[b];
+            block[entry++] = across_normal * nn + across_slip * ((a == b ? 1.0 : 0.0) - nn - along[a] * along[b]);
+        }
+    }
+    return force;
+}
+
+Vec3 total(const ContactRows& rows, std::size_t row, const RowForce& force) {
+    return force.normal * rows.direction[row] + force.friction;
+}
+
+void spread(const ContactRows& rows, std::size_t row, const Vec3& force, Vectors& forces) {
+    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) forces.add(rows.vertex[row][k], rows.weight[row][k] * force);
+}
+
+void take(const ContactRows& rows, const std::vector<RowForce>& forces, ContactMultipliers& multipliers) {
+    multipliers.clear(rows.size());
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        if (forces[row].normal > 0.0) multipliers.add(row_key(rows, row), forces[row]);
+    }
+}
+
+}  // namespace
+
+void ContactProjection::start_part() { multipliers_ = kept_; }
+
+void ContactProjection::forget() {
+    kept_.clear(0);
+    kept_share_ = 0.0;
+}
+
+void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces) const {
+    const ContactRows& rows = *point.rows;
+    ContactTerms& terms = forces.terms;
+    terms.blocks.clear();
+    terms.energy = terms.largest_stiffness = terms.obstacle_power = 0.0;
+    forces.rows.clear();
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const RowState state = row_state(point, row, kept_share_);
+        ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}};
+        const RowForce& force =
+            forces.rows.emplace_back(row_force(state, multipliers_.of(row_key(rows, row)), point.step.dt, block.k));
+        if (force.normal == 0.0) continue;
+        const Vec3 whole = total(rows, row, force);
+        spread(rows, row, whole, forces.total);
+        terms.blocks.push_back(block);
+        terms.largest_stiffness = std::max(terms.largest_stiffness, state.stiffness);
+        terms.obstacle_power += whole.dot(rows.obstacle_displacement[row]) * point.step.obstacle_rate;
+    }
+}
+
+void ContactProjection::solve_at(const ContactRows& rows, const std::vector<RowForce>& forces) { take(rows, forces, solved_); }
+
+void ContactProjection::advance(const ProjectedPoint& point, ProjectedForces forces) {
+    const ContactRows& rows = *point.rows;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        spread(rows, row, -total(rows, row, forces.rows[row]), forces.total);
+        if (!solved_.knows(row_key(rows, row))) forces.rows[row] = {};
+    }
+    take(rows, forces.rows, multipliers_);
+    add(point, forces);
+}
+
+void ContactProjection::keep(const ContactRows& rows, const std::vector<RowForce>& forces) {
+    take(rows, forces, kept_);
+    kept_share_ = 1.0;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        kept_share_ = std::min(kept_share_, rows.distance[row] * projection_zone / rows.thickness[row]);
+    }
+}
+
+}  // namespace percale
