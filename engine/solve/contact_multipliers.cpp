@@ -33,6 +33,4 @@ void ContactMultipliers::add(const RowKey& key, const RowForce& force) {
 
 RowForce ContactMultipliers::of(const RowKey& key) const { return slots_.empty() ? RowForce{} : slots_[place(key)].force; }
 
-bool ContactMultipliers::knows(const RowKey& key) const { return !slots_.empty() && slots_[place(key)].used; }
-
 }  // namespace percale

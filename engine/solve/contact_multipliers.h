@@ -23,6 +23,7 @@ RowKey row_key(const ContactRows& rows, std::size_t row);
 struct RowForce {
     double normal = 0.0;
     Vec3 friction = Vec3::Zero();
+    double stiffness = 0.0;  // N/m, that it was found with
 };
 
 /// Contact forces found again by row. A row that is not known has none.
@@ -33,7 +34,6 @@ public:
     /// Each key once.
     void add(const RowKey& key, const RowForce& force);
     RowForce of(const RowKey& key) const;
-    bool knows(const RowKey& key) const;
     std::size_t size() const { return size_; }
 
 private:

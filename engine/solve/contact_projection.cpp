@@ -7,8 +7,8 @@
 namespace percale {
 namespace {
 
-constexpr double stiffness_share = 10.0;  // of the step matrix: one update leaves about 1/11 of an error
-constexpr double recovery_time = 0.05;    // s, in which cloth that starts too near comes back to the thickness
+constexpr double stiffness_share = 1.0;  // of the step matrix: softer takes more rounds, stiffer makes each take longer
+constexpr double recovery_time = 0.05;   // s, in which cloth that starts too near comes back to the thickness
 
 Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - normal * normal.dot(v); }
 
@@ -62,7 +62,7 @@ RowState row_state(const ProjectedPoint& point, std::size_t row, double kept_sha
 
 /// The row's force, N, and its matrix, kg; no matrix if it does not push.
 RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, std::array<double, 6>& block) {
-    RowForce force{.normal = std::max(0.0, multiplier.normal + row.stiffness * row.approach)};
+    RowForce force{.normal = std::max(0.0, multiplier.normal + row.stiffness * row.approach), .stiffness = row.stiffness};
     if (force.normal == 0.0) return force;
     const double damping = row.stiffness * dt, limit = row.friction * force.normal;
     const Vec3 trial = tangential(multiplier.friction, row.normal) - damping * row.slip;
@@ -99,10 +99,9 @@ void take(const ContactRows& rows, const std::vector<RowForce>& forces, ContactM
 
 }  // namespace
 
-void ContactProjection::start_part() { multipliers_ = kept_; }
-
 void ContactProjection::forget() {
     kept_.clear(0);
+    lasting_.clear(0);
     kept_share_ = 0.0;
 }
 
@@ -115,8 +114,9 @@ void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces)
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const RowState state = row_state(point, row, kept_share_);
         ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}};
-        const RowForce& force =
-            forces.rows.emplace_back(row_force(state, multipliers_.of(row_key(rows, row)), point.step.dt, block.k));
+        const RowForce multiplier = multipliers_.of(row_key(rows, row));
+        const RowForce& force = forces.rows.emplace_back(row_force(state, multiplier, point.step.dt, block.k));
+        terms.energy += (force.normal * force.normal - multiplier.normal * multiplier.normal) / (2.0 * state.stiffness);
         if (force.normal == 0.0) continue;
         const Vec3 whole = total(rows, row, force);
         spread(rows, row, whole, forces.total);
@@ -126,19 +126,32 @@ void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces)
     }
 }
 
-void ContactProjection::solve_at(const ContactRows& rows, const std::vector<RowForce>& forces) { take(rows, forces, solved_); }
+double ContactProjection::mismatch(const ContactRows& rows, const std::vector<RowForce>& forces) const {
+    double largest = 0.0;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const RowForce before = multipliers_.of(row_key(rows, row));
+        const double change = std::hypot(forces[row].normal - before.normal, (forces[row].friction - before.friction).norm());
+        if (change > 0.0) largest = std::max(largest, change / forces[row].stiffness);
+    }
+    return largest;
+}
 
 void ContactProjection::advance(const ProjectedPoint& point, ProjectedForces forces) {
     const ContactRows& rows = *point.rows;
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-        spread(rows, row, -total(rows, row, forces.rows[row]), forces.total);
-        if (!solved_.knows(row_key(rows, row))) forces.rows[row] = {};
-    }
+    for (std::size_t row = 0; row < rows.size(); ++row) spread(rows, row, -total(rows, row, forces.rows[row]), forces.total);
     take(rows, forces.rows, multipliers_);
     add(point, forces);
 }
 
 void ContactProjection::keep(const ContactRows& rows, const std::vector<RowForce>& forces) {
+    std::vector<RowForce> lasting = forces;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const double before = kept_.of(row_key(rows, row)).normal;
+        if (lasting[row].normal <= before) continue;
+        lasting[row].friction *= before / lasting[row].normal;
+        lasting[row].normal = before;
+    }
+    take(rows, lasting, lasting_);
     take(rows, forces, kept_);
     kept_share_ = 1.0;
     for (std::size_t row = 0; row < rows.size(); ++row) {

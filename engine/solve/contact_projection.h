@@ -30,31 +30,31 @@ struct ProjectedForces {
 ///
 /// Augmented Lagrangian (Alart and Curnier 1991; Simo and Laursen 1992): each row has a force l as multiplier and acts with
 ///     n max(0, l_n + k (h - d)) + P(l_t - k dt s),   P the projection onto the disc of radius mu times the push,
-/// with slip velocity s. Newton solves for the motion with the multipliers fixed, then each multiplier becomes its row's force,
-/// until neither changes: then d = h and s = 0 where rows push and stick, whatever k is. k is ten times what the step matrix
-/// resists the row with, divided by dt^2: an error shrinks about elevenfold each time.
+/// with slip velocity s. Newton solves for the motion with the multipliers fixed, then each multiplier becomes its row's force:
+/// where that changes nothing, d = h for rows that push and s = 0 for rows that stick, whatever k is. A step makes a few such
+/// rounds, the next step goes on from its forces.
 class ContactProjection {
 public:
-    /// A part of a step begins, from the multipliers that were kept last.
-    void start_part();
+    /// A part of a step begins, from what was kept last: forces that lasted for two parts, as the push of an impact lasts for
+    /// one.
+    void start_part() { multipliers_ = lasting_; }
 
     void add(const ProjectedPoint& point, ProjectedForces forces) const;
 
-    /// A linear system is solved at this point next: its matrix holds the rows that push there.
-    void solve_at(const ContactRows& rows, const std::vector<RowForce>& forces);
+    /// How far the forces of a point are from the multipliers, in m: the largest change of one over its k.
+    double mismatch(const ContactRows& rows, const std::vector<RowForce>& forces) const;
 
-    /// After a full step along the solution: the forces there become the multipliers of the rows that the matrix held, and are
-    /// exchanged for those that follow. Rows that it did not hold have not been solved for and start from 0.
+    /// Makes the forces of a solved point the multipliers and exchanges them for those that follow.
     void advance(const ProjectedPoint& point, ProjectedForces forces);
 
-    /// The part ends in a state with these forces: the next one starts with them.
+    /// The part ends in a state with these forces.
     void keep(const ContactRows& rows, const std::vector<RowForce>& forces);
 
     /// Cloth or obstacles are not where the last part left them.
     void forget();
 
 private:
-    ContactMultipliers kept_, multipliers_, solved_;
+    ContactMultipliers kept_, lasting_, multipliers_;
     double kept_share_ = 0.0;  // of the thickness, the least distance of a kept row; 0 if unknown
 };
 

@@ -14,6 +14,8 @@ constexpr double share_of_time_error = 0.25;  // solver error over time error
 constexpr double estimated_share = 0.1;       // likewise where the solver error is only estimated
 constexpr double smallest_change = 1e-7;      // m, below it iterations are pointless
 constexpr double smallest_share = 2e-4;       // likewise in contact, of the thickness
+constexpr int most_rounds = 4;                // of contact multipliers in one solve
+constexpr double round_share = 0.01;          // of the thickness: contact less exact than this takes another round
 constexpr int most_trials = 10;               // of one line search
 
 /// The solve of one part: functions that share the part, its work space and what is reported.
@@ -164,16 +166,17 @@ private:
         return {point.forces.total, point.forces.contact, point.row_forces};
     }
 
-    /// The contact forces that the last iteration found are the multipliers of the next.
-    void advance_multipliers(int iteration) {
-        if (!projects()) return;
-        StageTimer timer(stages_.force);
+    /// With the motion solved for, contact forces become multipliers: true if that leaves something to be solved.
+    bool another_round() {
+        if (!projects() || rounds_ == most_rounds || space_.current.forces.rows.size() == 0) return false;
         NewtonPoint& point = space_.current;
-        if (iteration > 0 && full_step_) {
-            space_.projection.advance(projected(point), projected_forces(point));
-            set_residual(point);
-        }
-        space_.projection.solve_at(point.forces.rows, point.row_forces);
+        const double enough = round_share * model_.thickness[0];
+        if (space_.projection.mismatch(point.forces.rows, point.row_forces) <= enough) return false;
+        StageTimer timer(stages_.force);
+        ++rounds_;
+        space_.projection.advance(projected(point), projected_forces(point));
+        set_residual(point);
+        return true;
     }
 
     /// r = M (v - v_n) - dt f and the incremental potential whose gradient by v it is.
@@ -200,21 +203,24 @@ private:
         const int most = part_.settings->newton_iterations;
         double first_norm = 0.0, last_norm = 0.0;
         for (int iteration = 0;; ++iteration) {
-            advance_multipliers(iteration);
             const double norm = residual_norm();
             if (iteration == 0) first_norm = std::max(norm, gravity_norm());
             set_relative_residual(norm, first_norm);
             if (norm == 0.0 || !std::isfinite(norm)) return end_here(norm == 0.0);
-            if (arrived() && part_.settings->newton_tolerance && report_.residual <= *part_.settings->newton_tolerance) return;
+            if (arrived() && part_.settings->newton_tolerance && report_.residual <= *part_.settings->newton_tolerance) {
+                if (another_round()) continue;
+                return;
+            }
             if (iteration == most) break;
             if (iteration > 0 && estimate_is_small()) {
+                if (another_round()) continue;
                 converged_ = true;
                 return;
             }
             solve_direction(iteration, norm, last_norm);
             last_norm = norm;
             ++report_.newton_iterations;
-            if (step_along() && most > 1) continue;
+            if ((step_along() || another_round()) && most > 1) continue;
             set_relative_residual(residual_norm(), first_norm);
             return end_here(most == 1);
         }
@@ -343,7 +349,6 @@ private:
             ++report_.line_search_cuts;
         }
         std::swap(space_.current, space_.trial);
-        full_step_ = accepted && fraction * kept == 1.0;
         if (accepted && fraction * kept == 1.0 && was_arrived && !small) go_on(line);
         const bool by_change = small && direction_is_good_ && fraction * kept == 1.0 && !part_.settings->newton_tolerance &&
                                report_.newton_iterations > 1;
@@ -355,7 +360,6 @@ private:
     /// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and
     /// what the secant says is still missing along the same direction costs an evaluation only.
     void go_on(LineTrial line) {
-        if (projects() && space_.current.forces.rows.size() > 0) return;
         const double ratio = line.slope / line.start_slope;
         if (!(ratio > 0.4) || !part_.options.line_search || part_.settings->newton_iterations == 1) return;
         const double further = std::min(ratio / std::max(1.0 - ratio, 0.1), 3.0);
@@ -419,7 +423,7 @@ private:
     NewtonReport report_;
     bool converged_ = false;
     bool direction_is_good_ = true;  // the linear solve got where it should
-    bool full_step_ = false;         // the last iteration went all the way
+    int rounds_ = 0;                 // of multipliers
     bool went_on_ = false;           // the state is not the one whose matrix was solved with
 };
 
