@@ -20,10 +20,11 @@ double quadratic_form(const DiagonalBlocks& a, int i, const Vec3& n) {
 /// One row at one point of the search.
 struct RowState {
     Vec3 normal;
-    double stiffness = 0.0;  // k, N/m
-    double approach = 0.0;   // m, how much nearer than its target the row is
-    Vec3 slip;               // m/s
-    double friction = 0.0;   // mu
+    double stiffness = 0.0;   // k, N/m
+    ContactPotential spring;  // beside the multiplier: pulls beyond the target distance
+    double approach = 0.0;    // m, how much nearer than its target the row is
+    Vec3 slip;                // m/s
+    double friction = 0.0;    // mu
 };
 
 /// k = share/(dt^2 W), W = sum w^2/(n.A n) over the row's vertices: n.A^-1 n if these had no neighbours.
@@ -43,6 +44,13 @@ double target_distance(double thickness, double kept, double began, double dt) {
     return thickness - (thickness - start) * std::exp(-dt / recovery_time);
 }
 
+/// k (target - d), but logarithmic below half of the target: a motion that only multipliers can stop must not reach d = 0 first.
+ContactPotential row_spring(double distance, double target, double stiffness) {
+    if (distance < target) return contact_potential(distance, target, stiffness);
+    const double depth = target - distance;
+    return {0.5 * stiffness * depth * depth, stiffness * depth, stiffness};
+}
+
 RowState row_state(const ProjectedPoint& point, std::size_t row, double kept_share) {
     const ContactRows& rows = *point.rows;
     Vec3 velocity = Vec3::Zero();
@@ -53,8 +61,10 @@ RowState row_state(const ProjectedPoint& point, std::size_t row, double kept_sha
     const double thickness = rows.thickness[row] / projection_zone;
     const double began = rows.distance[row] - n.dot(point.step.dt * velocity - point.obstacles_moved * way);
     const double target = target_distance(thickness, kept_share * thickness, began, point.step.dt);
+    const double stiffness = row_stiffness(rows, row, point.step);
     return {.normal = n,
-            .stiffness = row_stiffness(rows, row, point.step),
+            .stiffness = stiffness,
+            .spring = row_spring(rows.distance[row], target, stiffness),
             .approach = target - rows.distance[row],
             .slip = tangential(velocity - point.step.obstacle_rate * way, n),
             .friction = rows.friction[row]};
@@ -62,7 +72,7 @@ RowState row_state(const ProjectedPoint& point, std::size_t row, double kept_sha
 
 /// The row's force, N, and its matrix, kg; no matrix if it does not push.
 RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, std::array<double, 6>& block) {
-    RowForce force{.normal = std::max(0.0, multiplier.normal + row.stiffness * row.approach), .stiffness = row.stiffness};
+    RowForce force{.normal = std::max(0.0, multiplier.normal + row.spring.slope), .stiffness = row.stiffness};
     if (force.normal == 0.0) return force;
     const double damping = row.stiffness * dt, limit = row.friction * force.normal;
     const Vec3 trial = tangential(multiplier.friction, row.normal) - damping * row.slip;
@@ -71,7 +81,7 @@ RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, s
     const double share = slides ? limit / size : 1.0;
     force.friction = share * trial;
     const Vec3 along = slides ? Vec3(trial / size) : Vec3(Vec3::Zero());
-    const double across_normal = dt * dt * row.stiffness, across_slip = row.friction > 0.0 ? dt * damping * share : 0.0;
+    const double across_normal = dt * dt * row.spring.curvature, across_slip = row.friction > 0.0 ? dt * damping * share : 0.0;
     int entry = 0;
     for (int a = 0; a < 3; ++a) {
         for (int b = a; b < 3; ++b) {
@@ -80,6 +90,12 @@ RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, s
         }
     }
     return force;
+}
+
+/// Its derivative by the distance is -force; the multiplier's part is what it does from the target on.
+double row_energy(const RowState& row, double multiplier, double force) {
+    if (force == 0.0) return -0.5 * multiplier * multiplier / row.stiffness;
+    return multiplier * row.approach + row.spring.energy;
 }
 
 Vec3 total(const ContactRows& rows, std::size_t row, const RowForce& force) {
@@ -116,7 +132,7 @@ void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces)
         ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}};
         const RowForce multiplier = multipliers_.of(row_key(rows, row));
         const RowForce& force = forces.rows.emplace_back(row_force(state, multiplier, point.step.dt, block.k));
-        terms.energy += (force.normal * force.normal - multiplier.normal * multiplier.normal) / (2.0 * state.stiffness);
+        terms.energy += row_energy(state, multiplier.normal, force.normal);
         if (force.normal == 0.0) continue;
         const Vec3 whole = total(rows, row, force);
         spread(rows, row, whole, forces.total);

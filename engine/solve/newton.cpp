@@ -15,7 +15,7 @@ constexpr double estimated_share = 0.1;       // likewise where the solver error
 constexpr double smallest_change = 1e-7;      // m, below it iterations are pointless
 constexpr double smallest_share = 2e-4;       // likewise in contact, of the thickness
 constexpr int most_rounds = 4;                // of contact multipliers in one solve
-constexpr double round_share = 0.01;          // of the thickness: contact less exact than this takes another round
+constexpr double round_share = 0.01;          // of the thickness at most: contact less exact takes another round
 constexpr int most_trials = 10;               // of one line search
 
 /// The solve of one part: functions that share the part, its work space and what is reported.
@@ -170,7 +170,9 @@ private:
     bool another_round() {
         if (!projects() || rounds_ == most_rounds || space_.current.forces.rows.size() == 0) return false;
         NewtonPoint& point = space_.current;
-        const double enough = round_share * model_.thickness[0];
+        const double time_error = 0.5 * part_.dt * std::sqrt(velocity_change() / total_mass());
+        const double thickness = *std::min_element(model_.thickness.begin(), model_.thickness.end());
+        const double enough = std::clamp(share_of_time_error * time_error, smallest_share * thickness, round_share * thickness);
         if (space_.projection.mismatch(point.forces.rows, point.row_forces) <= enough) return false;
         StageTimer timer(stages_.force);
         ++rounds_;
@@ -230,10 +232,12 @@ private:
     void set_relative_residual(double norm, double first_norm) { report_.residual = first_norm > 0.0 ? norm / first_norm : 0.0; }
 
     /// The momentum that gravity gives in a step, as a norm: what a residual is measured against in a scene that is at rest.
-    double gravity_norm() const {
+    double gravity_norm() const { return part_.dt * part_.settings->gravity.norm() * std::sqrt(total_mass()); }
+
+    double total_mass() const {
         double mass = 0.0;
         for (const double m : model_.mass) mass += m;
-        return part_.dt * part_.settings->gravity.norm() * std::sqrt(mass);
+        return mass;
     }
 
     void end_here(bool good_enough) {
