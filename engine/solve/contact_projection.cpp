@@ -44,14 +44,21 @@ double target_distance(double thickness, double kept, double began, double dt) {
     return thickness - (thickness - start) * std::exp(-dt / recovery_time);
 }
 
-/// k (target - d), but logarithmic below half of the target: a motion that only multipliers can stop must not reach d = 0 first.
-ContactPotential row_spring(double distance, double target, double stiffness) {
-    if (distance < target) return contact_potential(distance, target, stiffness);
-    const double depth = target - distance;
-    return {0.5 * stiffness * depth * depth, stiffness * depth, stiffness};
+/// Where a row has to be, m.
+struct RowRange {
+    double distance = 0.0, target = 0.0, zone = 0.0;
+};
+
+/// What acts beside the multiplier: k (target - d), but logarithmic below half of the target, as a motion that only multipliers
+/// can stop must not reach d = 0 first, and beyond the target so steep that the row's force ends before the zone does.
+ContactPotential row_spring(const RowRange& range, double multiplier, double stiffness) {
+    if (range.distance < range.target) return contact_potential(range.distance, range.target, stiffness);
+    const double depth = range.target - range.distance;
+    const double steep = std::max(stiffness, multiplier / (0.9 * (range.zone - range.target)));
+    return {0.5 * steep * depth * depth, steep * depth, steep};
 }
 
-RowState row_state(const ProjectedPoint& point, std::size_t row, double kept_share) {
+RowState row_state(const ProjectedPoint& point, std::size_t row, double kept_share, double multiplier) {
     const ContactRows& rows = *point.rows;
     Vec3 velocity = Vec3::Zero();
     for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
@@ -64,7 +71,7 @@ RowState row_state(const ProjectedPoint& point, std::size_t row, double kept_sha
     const double stiffness = row_stiffness(rows, row, point.step);
     return {.normal = n,
             .stiffness = stiffness,
-            .spring = row_spring(rows.distance[row], target, stiffness),
+            .spring = row_spring({rows.distance[row], target, rows.thickness[row]}, multiplier, stiffness),
             .approach = target - rows.distance[row],
             .slip = tangential(velocity - point.step.obstacle_rate * way, n),
             .friction = rows.friction[row]};
@@ -94,7 +101,7 @@ RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, s
 
 /// Its derivative by the distance is -force; the multiplier's part is what it does from the target on.
 double row_energy(const RowState& row, double multiplier, double force) {
-    if (force == 0.0) return -0.5 * multiplier * multiplier / row.stiffness;
+    if (force == 0.0) return -0.5 * multiplier * multiplier / row.spring.curvature;
     return multiplier * row.approach + row.spring.energy;
 }
 
@@ -128,9 +135,9 @@ void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces)
     terms.energy = terms.largest_stiffness = terms.obstacle_power = 0.0;
     forces.rows.clear();
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        const RowState state = row_state(point, row, kept_share_);
         ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}};
         const RowForce multiplier = multipliers_.of(row_key(rows, row));
+        const RowState state = row_state(point, row, kept_share_, multiplier.normal);
         const RowForce& force = forces.rows.emplace_back(row_force(state, multiplier, point.step.dt, block.k));
         terms.energy += row_energy(state, multiplier.normal, force.normal);
         if (force.normal == 0.0) continue;
