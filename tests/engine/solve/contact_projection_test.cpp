@@ -49,7 +49,122 @@ void run(SolverScene& scene, int steps) {
     }
 }
 
+double energy(const SolverScene& scene) {
+    double sum = elastic_energy(scene.model.springs, scene.state.positions);
+    for (int i = 0; i < scene.model.vertex_count(); ++i) {
+        sum += scene.model.mass[i] * (0.5 * scene.state.velocities.at(i).squaredNorm() + 9.81 * scene.state.positions.y[i]);
+    }
+    return sum;
+}
+
+/// One vertex in contact with the plane y = 0, whose step matrix is `inertia` kg.
+struct OneRow {
+    static constexpr double dt = 0.01, inertia = 2.0, mu = 0.4;
+    ContactRows rows;
+    DiagonalBlocks diagonal;
+    Vectors velocities, total;
+    ContactTerms terms;
+    std::vector<RowForce> forces;
+    ContactProjection projection;
+
+    explicit OneRow(double distance, const Vec3& velocity = Vec3::Zero()) {
+        diagonal.resize(16);
+        for (const int entry : {0, 3, 5}) diagonal.data[16 * entry] = inertia;
+        velocities.resize(1);
+        velocities.set(0, velocity);
+        rows.vertex = {{0, -1, -1, -1}};
+        rows.weight = {{1.0, 0.0, 0.0, 0.0}};
+        rows.direction = {Vec3(0.0, 1.0, 0.0)};
+        rows.obstacle_point = rows.obstacle_displacement = {Vec3::Zero()};
+        rows.distance = {distance};
+        rows.thickness = {projection_zone * h};
+        rows.friction = {mu};
+        rows.obstacle = rows.feature = {0};
+        const ContactRows far;
+        projection.keep(far, {});  // nothing was nearer than the thickness before
+    }
+
+    ProjectedPoint point() const {
+        return {.step = {.dt = dt, .obstacle_rate = 1.0 / dt, .mass = nullptr, .diagonal = &diagonal},
+                .rows = &rows,
+                .velocities = &velocities};
+    }
+    void add() {
+        total.resize(1);
+        projection.add(point(), {total, terms, forces});
+    }
+    void advance() { projection.advance(point(), {total, terms, forces}); }
+};
+
 }  // namespace
+
+TEST_CASE("A projected row's push is minus the derivative of its energy and its matrix that of its push") {
+    for (const double share : {0.2, 0.45, 0.55, 0.9, 1.02, 1.15}) {
+        CAPTURE(share);
+        const double step = 1e-7 * h;
+        OneRow low(share * h - step), middle(share * h), high(share * h + step);
+        for (OneRow* row : {&low, &middle, &high}) {
+            const double distance = row->rows.distance[0];
+            row->rows.distance[0] = 0.93 * h;  // a multiplier from elsewhere
+            row->add();
+            row->advance();
+            row->rows.distance[0] = distance;
+            row->add();
+        }
+        const double push = middle.forces[0].normal;
+        CHECK(middle.total.at(0).y() == Approx(push));
+        const double zone = 2.0 * step * std::max(push, 1.0);
+        CHECK(low.terms.energy - high.terms.energy == Approx(2.0 * step * push).margin(1e-4 * zone));
+        const double slope = (low.forces[0].normal - high.forces[0].normal) / (2.0 * step);
+        const double entry = push > 0.0 ? middle.terms.blocks.at(0).k[3] / (OneRow::dt * OneRow::dt) : 0.0;
+        CHECK(slope == Approx(entry).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("A projected row sticks inside Coulomb's cone and slides on it against the slip") {
+    for (const double speed : {1e-4, 1e-2, 10.0}) {
+        OneRow row(0.9 * h, Vec3(0.6 * speed, 0.0, 0.8 * speed));
+        row.add();
+        const double stiffness = row.forces[0].stiffness, limit = OneRow::mu * row.forces[0].normal;
+        const double damped = stiffness * OneRow::dt * speed;
+        CAPTURE(speed, limit, damped);
+        CHECK((row.forces[0].friction + std::min(damped, limit) * Vec3(0.6, 0.0, 0.8)).norm() < 1e-9 * limit);
+    }
+}
+
+TEST_CASE("Multipliers match where rows are at the thickness without slip") {
+    OneRow row(0.95 * h);
+    row.add();
+    const double push = row.forces[0].normal;
+    CHECK(row.projection.mismatch(row.rows, row.forces) == Approx(0.05 * h));
+    row.advance();
+    CHECK(row.forces[0].normal == Approx(2.0 * push));
+    CHECK(row.total.at(0).y() == Approx(2.0 * push));
+    row.rows.distance = {h};
+    row.add();
+    CHECK(row.forces[0].normal == Approx(push));
+    CHECK(row.projection.mismatch(row.rows, row.forces) < 1e-12);
+}
+
+TEST_CASE("A step begins with contact forces that lasted for two parts") {
+    OneRow row(0.95 * h);
+    row.add();
+    const double push = row.forces[0].normal;
+    row.projection.keep(row.rows, row.forces);
+    row.rows.distance = {h};
+    row.projection.start_part();
+    row.add();
+    CHECK(row.forces[0].normal == 0.0);
+    row.forces[0].normal = 3.0 * push;
+    row.projection.keep(row.rows, row.forces);
+    row.projection.start_part();
+    row.add();
+    CHECK(row.forces[0].normal == Approx(push));
+    row.projection.forget();
+    row.projection.start_part();
+    row.add();
+    CHECK(row.forces[0].normal == 0.0);
+}
 
 TEST_CASE("Projected cloth that fell on a plane rests at the thickness") {
     const auto solver = GENERATE(LinearSolver::automatic, LinearSolver::cg, LinearSolver::direct);
@@ -64,14 +179,6 @@ TEST_CASE("Projected cloth that fell on a plane rests at the thickness") {
             CHECK(scene.state.velocities.at(i).norm() < 1e-6);
         }
     }
-}
-
-double energy(const SolverScene& scene) {
-    double sum = elastic_energy(scene.model.springs, scene.state.positions);
-    for (int i = 0; i < scene.model.vertex_count(); ++i) {
-        sum += scene.model.mass[i] * (0.5 * scene.state.velocities.at(i).squaredNorm() + 9.81 * scene.state.positions.y[i]);
-    }
-    return sum;
 }
 
 TEST_CASE("Projected cloth thrown at a plane never crosses it and gains no energy") {
