@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view scheme_words[] = {"symplectic_euler", "rk4", "backward_euler"};
 constexpr std::string_view solver_words[] = {"auto", "cg", "multigrid", "direct"};
-constexpr std::string_view response_words[] = {"penalty"};
+constexpr std::string_view response_words[] = {"penalty", "projection"};
 constexpr std::string_view damping_words[] = {"length_rate", "velocity"};
 constexpr std::string_view start_words[] = {"repair", "refuse"};
 constexpr std::string_view measure_words[] = {"all", "none"};
@@ -101,7 +101,8 @@ constexpr Option<StepSettings> step_list[] = {
      .set_choice = [](StepSettings& s, int i) { s.linear_solver = static_cast<LinearSolver>(i); }},
     {.key = "contact_response",
      .unit = "",
-     .sentence = "How contact acts inside a step: penalty = springs that grow without bound as the distance goes to 0.",
+     .sentence = "How contact acts inside a step: penalty = springs that grow without bound as the distance goes to 0, "
+                 "projection = constraints that keep cloth at the thickness itself, with exact Coulomb friction; dearer.",
      .choices = response_words,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.contact_response); },
      .set_choice = [](StepSettings& s, int i) { s.contact_response = static_cast<ContactResponse>(i); }},

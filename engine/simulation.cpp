@@ -91,7 +91,11 @@ struct Simulation::Implementation {
 
     void pass_cloth_to_detector() {
         if (!world.detector) return;
-        world.detector->set_cloth(world.model.triangles, world.model.thickness);
+        std::vector<double> zone = world.model.thickness;
+        if (world.settings.contact_response == ContactResponse::projection) {
+            for (double& thickness : zone) thickness *= projection_zone;
+        }
+        world.detector->set_cloth(world.model.triangles, zone);
         if (!meets_cloth()) return;
         std::vector<int> owner;
         std::vector<double> friction;
@@ -402,6 +406,7 @@ void Simulation::prepare() {
     implementation_->check_scheme();
     const bool obstacles = !world.script.obstacles.empty() && !world.model.cloths.empty();
     if (world.detector && (obstacles || implementation_->meets_cloth())) implementation_->clear_start();
+    world.newton.projection.forget();
     world.changed = false;
 }
 

@@ -13,13 +13,11 @@ struct Lacking {
 };
 
 constexpr std::string_view schemes[] = {"forward_euler", "midpoint", "implicit_midpoint", "trapezoid", "bdf2", "tr_bdf2", "auto"};
-constexpr std::string_view responses[] = {"projection"};
 constexpr std::string_view time_steps[] = {"auto"};
 constexpr std::string_view frame_formats[] = {"ply", "glb", "pc2", "mdd", "vtp"};
 
 constexpr Lacking lacking[] = {
     {.path = "step.scheme", .words = schemes},
-    {.path = "step.contact_response", .words = responses},
     {.path = "step.time_step", .words = time_steps},
     {.path = "output.frames", .words = frame_formats},
     {.path = "step.tolerance"},

@@ -14,6 +14,8 @@ constexpr double share_of_time_error = 0.25;  // solver error over time error
 constexpr double estimated_share = 0.1;       // likewise where the solver error is only estimated
 constexpr double smallest_change = 1e-7;      // m, below it iterations are pointless
 constexpr double smallest_share = 2e-4;       // likewise in contact, of the thickness
+constexpr int most_rounds = 4;                // of contact multipliers in one solve
+constexpr double round_share = 0.01;          // of the thickness at most: contact less exact takes another round
 constexpr int most_trials = 10;               // of one line search
 
 /// The solve of one part: functions that share the part, its work space and what is reported.
@@ -45,6 +47,7 @@ private:
         if (!space_.solver.is_for(model_)) space_.solver.set_model(*part_.compute, model_, part_.settings->linear_solver);
         space_.solver.matrix.free = *part_.free;
         space_.solver.start_part();
+        if (projects()) space_.projection.start_part();
         for (auto* vectors : {&space_.direction, &space_.right_side}) vectors->resize(model_.vertex_count());
         space_.start_grips = state.grips;
         space_.friction = {
@@ -133,19 +136,55 @@ private:
         set_residual(point);
     }
 
+    bool projects() const { return part_.plan->contacts && part_.settings->contact_response == ContactResponse::projection; }
+
+    ContactStep contact_step(const NewtonPoint& point, bool first) const {
+        return {.dt = part_.dt,
+                .obstacle_rate = 1.0 / part_.full_step,
+                .fraction = point.fraction,
+                .gravity = part_.settings->gravity,
+                .mass = &model_.mass,
+                .diagonal = &space_.frozen_diagonal,
+                .friction = &space_.friction,
+                .previous = first ? nullptr : &space_.current.forces.contact.touches};
+    }
+
     void add_contacts(const ForceInput& input, NewtonPoint& point) {
+        Forces& forces = point.forces;
         const bool first = space_.frozen_diagonal.padded == 0;
-        if (first) fill_diagonal(space_.solver.matrix, point.forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
-        const ContactStep step{.dt = part_.dt,
-                               .obstacle_rate = 1.0 / part_.full_step,
-                               .fraction = point.fraction,
-                               .gravity = part_.settings->gravity,
-                               .mass = &model_.mass,
-                               .diagonal = &space_.frozen_diagonal,
-                               .friction = &space_.friction,
-                               .previous = first ? nullptr : &space_.current.forces.contact.touches};
-        add_contact_forces(input, step, point.forces);
-        report_.largest_stiffness = std::max(report_.largest_stiffness, point.forces.contact.largest_stiffness);
+        if (first) fill_diagonal(space_.solver.matrix, forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
+        if (projects()) {
+            space_.projection.add(projected(point), projected_forces(point));
+        } else {
+            add_contact_forces(input, contact_step(point, first), forces);
+        }
+        report_.largest_stiffness = std::max(report_.largest_stiffness, forces.contact.largest_stiffness);
+    }
+
+    ProjectedPoint projected(const NewtonPoint& point) const {
+        return {.step = contact_step(point, false),
+                .rows = &point.forces.rows,
+                .velocities = &point.velocities,
+                .obstacles_moved = point.fraction - part_.span.from};
+    }
+    static ProjectedForces projected_forces(NewtonPoint& point) {
+        return {point.forces.total, point.forces.contact, point.row_forces};
+    }
+
+    /// With the motion solved for, contact forces become multipliers: true if that leaves something to be solved.
+    bool another_round() {
+        if (!projects() || rounds_ == most_rounds || space_.current.forces.rows.size() == 0) return false;
+        NewtonPoint& point = space_.current;
+        const double time_error =
+            0.5 * part_.dt * std::sqrt(velocity_change(0, model_.vertex_count(), space_.current.velocities) / total_mass());
+        const double thickness = *std::min_element(model_.thickness.begin(), model_.thickness.end());
+        const double enough = std::clamp(share_of_time_error * time_error, smallest_share * thickness, round_share * thickness);
+        if (space_.projection.mismatch(point.forces.rows, point.row_forces) <= enough) return false;
+        StageTimer timer(stages_.force);
+        ++rounds_;
+        space_.projection.advance(projected(point), projected_forces(point));
+        set_residual(point);
+        return true;
     }
 
     /// r = M (v - v_n) - dt f and the incremental potential whose gradient by v it is.
@@ -178,16 +217,20 @@ private:
             if (iteration == 0) first_norm = std::max(norm, gravity_norm());
             set_relative_residual(norm, first_norm);
             if (norm == 0.0 || !std::isfinite(norm)) return end_here(norm == 0.0);
-            if (arrived() && part_.settings->newton_tolerance && report_.residual <= *part_.settings->newton_tolerance) return;
+            if (arrived() && part_.settings->newton_tolerance && report_.residual <= *part_.settings->newton_tolerance) {
+                if (another_round()) continue;
+                return;
+            }
             if (iteration == most) break;
             if (iteration > 0 && estimate_is_small()) {
+                if (another_round()) continue;
                 converged_ = true;
                 return;
             }
             solve_direction(iteration, norm, last_norm);
             last_norm = norm;
             ++report_.newton_iterations;
-            if (step_along() && most > 1) continue;
+            if ((step_along() || another_round()) && most > 1) continue;
             set_relative_residual(residual_norm(), first_norm);
             return end_here(most == 1);
         }
@@ -197,10 +240,12 @@ private:
     void set_relative_residual(double norm, double first_norm) { report_.residual = first_norm > 0.0 ? norm / first_norm : 0.0; }
 
     /// The momentum that gravity gives in a step, as a norm: what a residual is measured against in a scene that is at rest.
-    double gravity_norm() const {
+    double gravity_norm() const { return part_.dt * part_.settings->gravity.norm() * std::sqrt(total_mass()); }
+
+    double total_mass() const {
         double mass = 0.0;
         for (const double m : model_.mass) mass += m;
-        return part_.dt * part_.settings->gravity.norm() * std::sqrt(mass);
+        return mass;
     }
 
     void end_here(bool good_enough) {
@@ -402,6 +447,7 @@ private:
         }
         if (part_.plan->contacts) set_grips(space_.current.forces.contact.touches, state.grips);
         update_points(state);
+        if (projects()) space_.projection.keep(space_.current.forces.rows, space_.current.row_forces);
     }
 
     const ImplicitPart& part_;
@@ -411,6 +457,7 @@ private:
     NewtonReport report_;
     bool converged_ = false;
     bool direction_is_good_ = true;  // the linear solve got where it should
+    int rounds_ = 0;                 // of multipliers
     bool went_on_ = false;           // the state is not the one whose matrix was solved with
 };
 

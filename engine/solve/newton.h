@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "contact_projection.h"
 #include "forces/total_force.h"
 #include "linear_solver.h"
 #include "model/cloth_model.h"
@@ -59,8 +60,9 @@ struct NewtonPoint {
     std::vector<Vec3> points;
     double fraction = 0.0;  // of the whole step
     Forces forces;
-    Vectors residual;        // M (v - v_n) - dt f, kg m/s; 0 at prescribed vertices
-    double objective = 0.0;  // J: 1/2 |v - v_n|_M^2 + potential
+    std::vector<RowForce> row_forces;  // with contact_response projection
+    Vectors residual;                  // M (v - v_n) - dt f, kg m/s; 0 at prescribed vertices
+    double objective = 0.0;            // J: 1/2 |v - v_n|_M^2 + potential
 };
 
 /// Work space of the solve, kept from step to step so that nothing is allocated once sizes are known.
@@ -70,6 +72,7 @@ struct NewtonSpace {
     DiagonalBlocks frozen_diagonal;  // empty until the part has been evaluated
     AlignedVector<float> frozen_inverse;
     NewtonPoint current, trial;
+    ContactProjection projection;  // likewise
     Vectors start_positions, start_velocities;
     std::vector<Grip> start_grips;
     FrictionStart friction;

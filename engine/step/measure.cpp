@@ -69,7 +69,7 @@ void measure(World& world) {
     if (world.plan.measures) report.energy.work = work;
     if (!world.plan.contacts) return;
     const ContactRows& rows = world.newton.current.forces.rows;
-    report.contacts = static_cast<int>(rows.size());
+    report.contacts = static_cast<int>(world.newton.current.forces.contact.blocks.size());
     report.contact_hash = hash_of(rows);
     report.smallest_distance = world.detector->smallest_distance();
 }

@@ -202,7 +202,9 @@ void solve_step(World& world) {
     if (!world.plan.implicit) return solve_explicit(world);
     if (!world.plan.keep_work_space) {
         const LinearSolver solver = world.newton.solver.in_use();
+        ContactProjection projection = std::move(world.newton.projection);
         world.newton = NewtonSpace{};
+        world.newton.projection = std::move(projection);
         world.newton.solver.begin_with(solver);
     }
     const bool good = solve_span(world, {0.0, 1.0}, 0);

@@ -14,7 +14,6 @@ TEST_CASE("keys and words that this build lacks are known as such") {
     }
     for (const char* word : {"forward_euler", "midpoint", "implicit_midpoint", "trapezoid", "bdf2", "tr_bdf2", "auto"})
         CHECK(lacks_choice("step.scheme", word));
-    CHECK(lacks_choice("step.contact_response", "projection"));
     CHECK(lacks_choice("step.time_step", "auto"));
     CHECK(lacks_choice("output.frames", "ply"));
 }

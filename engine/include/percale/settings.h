@@ -8,7 +8,7 @@ namespace percale {
 
 enum class Scheme { symplectic_euler, rk4, backward_euler };
 enum class LinearSolver { automatic, cg, multigrid, direct };
-enum class ContactResponse { penalty };
+enum class ContactResponse { penalty, projection };
 enum class DampingForm { length_rate, velocity };
 enum class StepMeasures { all, none };
 enum class StartRule { repair, refuse };
