@@ -64,7 +64,7 @@ TriangleMesh open_sheet(Random& random) {
 
 NamedMesh random_obstacle(Random& random) {
     const double size = random.number(0.08, 0.3), other = random.number(0.08, 0.3);
-    switch (random.index(scans().empty() ? 11 : 12)) {
+    switch (random.index(12)) {
         case 0:
             return {"sphere", make_sphere(size, 2)};
         case 1:
@@ -88,6 +88,8 @@ NamedMesh random_obstacle(Random& random) {
         case 10:
             return {"blade", make_box({2.0 * size, 0.002, 0.05})};
         default:
+            // Where none is installed only these scenes are others.
+            if (scans().empty()) return {"sphere", make_sphere(size, 3)};
             return scans()[static_cast<std::size_t>(random.index(static_cast<int>(scans().size())))];
     }
 }

@@ -15,7 +15,7 @@ inline constexpr std::array random_responses = {ContactResponse::penalty};
 struct RandomScene {
     std::string obstacle, motion, cloth;  // their kinds
     bool pinned = false;
-    std::string description;              // one line with all that was drawn
+    std::string description;  // one line with all that was drawn
     scenes::BuiltScene built;
 };
 

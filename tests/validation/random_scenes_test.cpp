@@ -27,7 +27,7 @@ TEST_CASE("Nothing crosses in 200 random scenes, by the exact certificate after 
     CHECK(touched > 100);
     // Where an obstacle runs over a pin nothing can be done; cloth that nothing holds gets away.
     CHECK(blocked_free == 0);
-    CHECK(blocked < 30);
+    CHECK(blocked < 25);
 }
 
 }  // namespace
