@@ -94,11 +94,7 @@ public:
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
-        for (ClusterList& list : lists_->empty() ? std::span<ClusterList>() : lists_->lists()) {
-            if (!list.holds) continue;
-            for (ListedPack& pack : list.packs) pack.held = 0;
-            list.holds = false;
-        }
+        if (!lists_->empty()) let_go();
         lists_->cover({.from = start, .to = predicted, .part = {0.0, 1.0}}, obstacles_);
     }
 
@@ -134,6 +130,19 @@ public:
     double smallest_distance() const override { return smallest_distance_; }
 
 private:
+    /// No pair is held any longer. Held packs are busy ones, or their lists have not been looked at since they were made.
+    void let_go() {
+        for (ClusterList& list : lists_->lists()) {
+            if (!list.holds) continue;
+            list.holds = false;
+            for (ListedFeature& feature : list.features) {
+                if (feature.others.quiet_until < 0.0F)
+                    feature.busy = ~0UL >> (most_marked - std::min(feature.count, most_marked));
+                for_busy(feature, [&](int i) { list.packs[i].held = 0; });
+            }
+        }
+    }
+
     void evaluate_cluster(std::span<const Vec3> positions, double fraction, ClusterList& list, ContactRows& rows) {
         select_packs(positions, list);
         for (const auto& [feature, pack] : selected_) {
@@ -167,7 +176,11 @@ private:
             if (static_cast<double>(list.bounds[f].quiet_until) > list.travel) continue;
             active_.push_back(static_cast<int>(f));
             const ListedFeature& feature = list.features[f];
-            fetch(list.packs.data() + feature.first, static_cast<std::size_t>(feature.count));
+            if (static_cast<double>(feature.others.quiet_until) <= list.travel) {
+                fetch(list.packs.data() + feature.first, static_cast<std::size_t>(feature.count));
+            } else {
+                for_busy(feature, [&](int i) { __builtin_prefetch(&list.packs[i]); });
+            }
         }
         candidates_.clear();
         for (const int f : active_) {
@@ -204,7 +217,7 @@ private:
         selected_.emplace_back(f, i);
     }
 
-    /// Marks the packs that a tenth of the thickness more of travel would wake.
+    /// Marks the packs that a tenth of the thickness more of travel would wake, and those that are held.
     void find_busy(std::span<const Vec3> positions, ListedFeature& feature, ClusterList& list) const {
         const float thickness = float_thickness(feature);
         const double soon = list.travel + 0.1 * static_cast<double>(thickness);
@@ -215,7 +228,7 @@ private:
         for (int i = 0; i < std::min(feature.count, most_marked); ++i) {
             ListedPack& listed = list.packs[feature.first + i];
             if (static_cast<double>(listed.quiet_until(thickness)) < soon) raise_bounds(positions, feature, list.travel, listed);
-            if (static_cast<double>(listed.quiet_until(thickness)) < soon) {
+            if (listed.held != 0 || static_cast<double>(listed.quiet_until(thickness)) < soon) {
                 feature.busy |= 1UL << i;
             } else {
                 feature.others.reach = std::min(feature.others.reach, listed.reach);
