@@ -1,6 +1,7 @@
 #include "candidate_lists.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -83,8 +84,12 @@ Box CandidateLists::set_boxes(std::size_t cluster, const ClothMove& move) {
 /// The patches of triangles near a box.
 void CandidateLists::set_near_patches(const Box& asked, std::span<const int> near, const Obstacle& obstacle) {
     near_patches_.clear();
+    int last = -1;
     for (const int triangle : near) {
-        if (obstacle.box(triangle).overlaps(asked)) near_patches_.push_back(obstacle.packs().patch_of[triangle]);
+        const int patch = obstacle.packs().patch_of[triangle];
+        if (patch == last || !obstacle.box(triangle).overlaps(asked)) continue;
+        near_patches_.push_back(patch);
+        last = patch;
     }
     std::sort(near_patches_.begin(), near_patches_.end());
     near_patches_.erase(std::unique(near_patches_.begin(), near_patches_.end()), near_patches_.end());
@@ -121,17 +126,10 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
     list.quiet_until = std::min(list.quiet_until, static_cast<double>(bounds.quiet_until));
 }
 
-void CandidateLists::add_features(std::size_t cluster, int obstacle_number, std::span<const int> near, const ClothMove& move,
-                                  const Obstacle& obstacle) {
+void CandidateLists::add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle) {
     ClusterList& list = lists_[cluster];
     const ClothCluster& features = clusters_.clusters[cluster];
-    Box asked;
-    for (std::size_t k = 0; k < features.all_vertices.size(); ++k) {
-        vertex_boxes_[features.all_vertices[k]] = list.boxes[k];
-        asked.add(list.boxes[k]);
-    }
-    asked.grow(list.thickness);
-    set_near_patches(asked, near, obstacle);
+    for (std::size_t k = 0; k < features.all_vertices.size(); ++k) vertex_boxes_[features.all_vertices[k]] = list.boxes[k];
     for (const int vertex : features.vertices) {
         add_packs({.kind = PairKind::vertex_face, .cloth = {vertex, -1, -1}, .obstacle = obstacle_number}, move, obstacle, list);
     }
@@ -212,26 +210,32 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) 
     return share;
 }
 
-/// Builds the dirty lists anew; false (and lists of no use) if they would hold too many packs, unless `whatever_it_takes`.
-bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes) {
-    const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 500000L + 40L * static_cast<long>(way_.size());
+void CandidateLists::empty_dirty(const ClothMove& move) {
     listed_ = 0;
     asked_.clear();
     for (const std::size_t i : dirty_) {
-        lists_[i].features.clear();
-        lists_[i].bounds.clear();
-        lists_[i].packs.clear();
-        lists_[i].holds = false;
-        lists_[i].travel = 0.0;
-        lists_[i].least_reach = lists_[i].quiet_until = infinity;
+        ClusterList& list = lists_[i];
+        list.features.clear();
+        list.bounds.clear();
+        list.packs.clear();
+        list.holds = false;
+        list.travel = 0.0;
+        list.least_reach = list.quiet_until = infinity;
         asked_.push_back(set_boxes(i, move));
     }
+}
+
+/// Builds the dirty lists anew; false (and lists of no use) if they would hold too many packs, unless `whatever_it_takes`.
+bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes) {
+    const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 500000L + 40L * static_cast<long>(way_.size());
+    empty_dirty(move);
     for (std::size_t number = 0; number < obstacles.size(); ++number) {
         obstacles[number]->find(asked_, found_);
         for (std::size_t k = 0; k < dirty_.size(); ++k) {
-            const auto near = std::span<const int>(found_.ids).subspan(found_.start[k], found_.start[k + 1] - found_.start[k]);
-            if (near.empty()) continue;
-            add_features(dirty_[k], static_cast<int>(number), near, move, *obstacles[number]);
+            const int first = found_.start[k], count = found_.start[k + 1] - first;
+            if (count == 0) continue;
+            set_near_patches(asked_[k], std::span<const int>(found_.ids).subspan(first, count), *obstacles[number]);
+            add_features(dirty_[k], static_cast<int>(number), move, *obstacles[number]);
             if (listed_ > most) return false;
         }
     }
@@ -244,8 +248,8 @@ void CandidateLists::keep_held(std::size_t cluster, const Obstacles& obstacles) 
     for (const ListedFeature& feature : list.features) {
         for (int i = feature.first; i < feature.first + feature.count; ++i) {
             const FeaturePack& pack = obstacles[feature.pair.obstacle]->packs().packs[list.packs[i].pack];
-            for (int lane = 0; lane < pack.count; ++lane) {
-                if ((list.packs[i].held >> lane & 1U) != 0) held_.emplace_back(cluster, feature.with(pack, lane));
+            for (unsigned held = list.packs[i].held; held != 0; held &= held - 1) {
+                held_.emplace_back(cluster, feature.with(pack, std::countr_zero(held)));
             }
         }
     }

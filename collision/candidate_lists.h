@@ -93,11 +93,11 @@ private:
     }
     bool covers(std::size_t cluster, const ClothMove& move, int version);
     Box set_boxes(std::size_t cluster, const ClothMove& move);
-    void add_features(std::size_t cluster, int obstacle_number, std::span<const int> near, const ClothMove& move,
-                      const Obstacle& obstacle);
+    void add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle);
     void add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list);
     void set_near_patches(const Box& asked, std::span<const int> near, const Obstacle& obstacle);
     bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes);
+    void empty_dirty(const ClothMove& move);
     void keep_held(std::size_t cluster, const Obstacles& obstacles);
     void mark_held(const Obstacles& obstacles);
     bool is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version);

@@ -161,17 +161,19 @@ private:
         for (ClusterList& list : lists_->lists()) {
             if (!list.holds) continue;
             list.holds = false;
-            for (const ListedFeature& feature : list.features) forget_contacts(feature, list);
+            for (ListedFeature& feature : list.features) forget_contacts(feature, list);
         }
     }
 
-    void forget_contacts(const ListedFeature& feature, ClusterList& list) const {
+    /// Held packs are busy ones, or their list has not been looked at since it was made.
+    void forget_contacts(ListedFeature& feature, ClusterList& list) const {
         bool moved = false;
         for (int k = 0; k < feature.pair.cloth_count(); ++k) moved = moved || moved_[feature.pair.cloth[k]];
-        for (int i = feature.first; i < feature.first + feature.count; ++i) {
+        if (feature.others.quiet_until < 0.0F) feature.busy = ~0UL >> (most_marked - std::min(feature.count, most_marked));
+        for_busy(feature, [&](int i) {
             if (moved) list.packs[i].held = 0;
             list.holds = list.holds || list.packs[i].held != 0;
-        }
+        });
     }
 
     void evaluate_cluster(std::span<const Vec3> positions, double fraction, ClusterList& list, ContactRows& rows) {
@@ -207,7 +209,11 @@ private:
             if (static_cast<double>(list.bounds[f].quiet_until) > list.travel) continue;
             active_.push_back(static_cast<int>(f));
             const ListedFeature& feature = list.features[f];
-            fetch(list.packs.data() + feature.first, static_cast<std::size_t>(feature.count));
+            if (static_cast<double>(feature.others.quiet_until) <= list.travel) {
+                fetch(list.packs.data() + feature.first, static_cast<std::size_t>(feature.count));
+            } else {
+                for_busy(feature, [&](int i) { __builtin_prefetch(&list.packs[i]); });
+            }
         }
         candidates_.clear();
         for (const int f : active_) {
@@ -244,7 +250,7 @@ private:
         selected_.emplace_back(f, i);
     }
 
-    /// Marks the packs that a tenth of the thickness more of travel would wake.
+    /// Marks the packs that a tenth of the thickness more of travel would wake, and those that are held.
     void find_busy(std::span<const Vec3> positions, ListedFeature& feature, ClusterList& list) const {
         const float thickness = float_thickness(feature);
         const double soon = list.travel + 0.1 * static_cast<double>(thickness);
@@ -255,7 +261,7 @@ private:
         for (int i = 0; i < std::min(feature.count, most_marked); ++i) {
             ListedPack& listed = list.packs[feature.first + i];
             if (static_cast<double>(listed.quiet_until(thickness)) < soon) raise_bounds(positions, feature, list.travel, listed);
-            if (static_cast<double>(listed.quiet_until(thickness)) < soon) {
+            if (listed.held != 0 || static_cast<double>(listed.quiet_until(thickness)) < soon) {
                 feature.busy |= 1UL << i;
             } else {
                 feature.others.reach = std::min(feature.others.reach, listed.reach);

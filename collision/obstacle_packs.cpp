@@ -90,15 +90,17 @@ struct Cone {
 /// Rays of the cone { d : d . e <= 0 for all edges e at the vertex }: products of two edges that keep the others below.
 std::vector<Vec3> extreme_rays(std::span<const Vec3> edges) {
     constexpr double unsure = 1e-6;
+    const auto are_below = [&](const Vec3& ray) {
+        return std::all_of(edges.begin(), edges.end(), [&](const Vec3& e) { return e.dot(ray) <= unsure; });
+    };
     std::vector<Vec3> rays;
     for (std::size_t i = 0; i < edges.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
             const Vec3 product = edges[i].cross(edges[k]);
             if (product.norm() < 1e-3) continue;
-            for (const Vec3& ray : {Vec3(product.normalized()), Vec3(-product.normalized())}) {
-                const bool below = std::all_of(edges.begin(), edges.end(), [&](const Vec3& e) { return e.dot(ray) <= unsure; });
-                if (below) rays.push_back(ray);
-            }
+            const Vec3 ray = product.normalized();
+            if (are_below(ray)) rays.push_back(ray);
+            if (are_below(-ray)) rays.push_back(-ray);
         }
     }
     return rays;
@@ -159,6 +161,25 @@ std::vector<Vec3> patch_normals(const ObstaclePacks& packs, const ObstacleSurfac
     return normals;
 }
 
+void add_paths(std::span<const int> vertices, const VertexPaths& paths, Box& box) {
+    for (const int vertex : vertices) {
+        box.add(paths.start[vertex]);
+        box.add(paths.end[vertex]);
+    }
+}
+
+/// Sets a pack's box, and how far along the plane's normal it reaches.
+void enclose(FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, PackPlane& plane) {
+    pack.box = {};
+    for (int lane = 0; lane < pack.count; ++lane) {
+        const std::span<const int> vertices = vertices_of(surface, pack.kind, pack.feature[lane]);
+        add_paths(vertices, paths, pack.box);
+        for (const int vertex : vertices) {
+            plane.offset = std::max({plane.offset, plane.normal.dot(paths.start[vertex]), plane.normal.dot(paths.end[vertex])});
+        }
+    }
+}
+
 }  // namespace
 
 double longest_over_area(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -186,29 +207,14 @@ ObstaclePacks make_packs(const ObstacleSurface& surface) {
 }
 
 void set_boxes(ObstaclePacks& packs, const ObstacleSurface& surface, const VertexPaths& paths) {
-    const auto add = [&](Box& box, std::span<const int> vertices) {
-        for (const int vertex : vertices) {
-            box.add(paths.start[vertex]);
-            box.add(paths.end[vertex]);
-        }
-    };
     for (Box& box : packs.box) box = {};
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+        add_paths(surface.triangles[i], paths, packs.box[packs.patch_of[i]]);
     const std::vector<Vec3> normals = patch_normals(packs, surface, paths);
-    for (std::size_t i = 0; i < surface.triangles.size(); ++i) add(packs.box[packs.patch_of[i]], surface.triangles[i]);
     for (std::size_t patch = 0; patch < packs.patch_count(); ++patch) {
         for (int number = packs.first[patch]; number < packs.first[patch + 1]; ++number) {
-            FeaturePack& pack = packs.packs[number];
-            PackPlane& plane = packs.planes[number];
-            pack.box = {};
-            plane = {.normal = normals[patch], .offset = -infinity};
-            for (int lane = 0; lane < pack.count; ++lane) {
-                const std::span<const int> vertices = vertices_of(surface, pack.kind, pack.feature[lane]);
-                add(pack.box, vertices);
-                for (const int vertex : vertices) {
-                    const double start = plane.normal.dot(paths.start[vertex]), end = plane.normal.dot(paths.end[vertex]);
-                    plane.offset = std::max({plane.offset, start, end});
-                }
-            }
+            packs.planes[number] = {.normal = normals[patch], .offset = -infinity};
+            enclose(packs.packs[number], surface, paths, packs.planes[number]);
         }
     }
     for (PlacedPack& placed : packs.placed) placed.fraction = -1.0;

@@ -132,7 +132,8 @@ void vertex_face(const PackLanes& lanes, const PackQuery& query, PackAnswer& res
 PERCALE_INLINE Lanes way_to_row(const PackLanes& lanes, const Point& u, float length) {
     const Lanes n = dot(u, lanes_point(lanes, 6)), m = dot(u, lanes_point(lanes, 9));
     const Lanes way = 0.5F * (smaller(size_of(n), size_of(m)) - 1e-4F * length);
-    return (n * m > 0.0F) & (way > 0.0F) ? way : all(-1e30F);
+    const Mask one_sign = (n * m > 0.0F) & (way > 0.0F);
+    return one_sign ? way : all(-1e30F);
 }
 
 void edge_edge(const PackLanes& lanes, const PackQuery& query, PackAnswer& result) {
