@@ -31,7 +31,7 @@ struct StartMove {
     int cloth = -1;
     int obstacle = -1;
     std::string cloth_name = {}, obstacle_name = {};
-    int vertices_moved = 0;
+    int vertices_moved = 0;     // by more than a tenth of the thickness
     double largest_move = 0.0;  // m
 };
 
