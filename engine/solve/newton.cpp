@@ -14,7 +14,7 @@ constexpr double share_of_time_error = 0.25;  // solver error over time error
 constexpr double estimated_share = 0.1;       // likewise where the solver error is only estimated
 constexpr double smallest_change = 1e-7;      // m, below it iterations are pointless
 constexpr double smallest_share = 2e-4;       // likewise in contact, of the thickness
-constexpr int most_rounds = 4;                // of contact multipliers in one solve
+constexpr int most_rounds = 6;                // of contact multipliers in one solve
 constexpr double round_share = 0.01;          // of the thickness at most: contact less exact takes another round
 constexpr int most_trials = 10;               // of one line search
 
