@@ -18,7 +18,7 @@ bool skips(const StepSettings& settings, const SceneFacts& facts, const std::str
 SceneFacts sheet_facts() {
     SceneFacts facts;
     facts.cloth_vertices = 9;
-    facts.cloths = {{"sheet", true, {.self_contact = true, .springs = {.structural = 100.0, .shear = 50.0, .bend = 1.0}}}};
+    facts.cloths = {{"sheet", true, {.springs = {.structural = 100.0, .shear = 50.0, .bend = 1.0}}}};
     return facts;
 }
 
@@ -45,6 +45,7 @@ TEST_CASE("Contacts are planned only where there is cloth and an obstacle") {
 
 TEST_CASE("Contacts are planned where cloth meets cloth, and what does not is listed by name") {
     SceneFacts facts = sheet_facts();
+    facts.cloths[0].fabric.self_contact = true;
     CHECK(make_step_plan({}, facts).contacts);
     CHECK_FALSE(skips({}, facts, "contact"));
     CHECK_FALSE(skips({}, facts, "motion of obstacles"));
@@ -159,6 +160,7 @@ TEST_CASE("With skipping off only what is not there is left out") {
     facts.pinned_vertices = 9;
     facts.damped = false;
     facts.detector = true;
+    facts.cloths[0].fabric.self_contact = true;
     const StepSettings all{.measure = StepMeasures::none, .skip = false, .gravity = Vec3::Zero()};
     const StepPlan plan = make_step_plan(all, facts);
     CHECK((plan.solve && plan.contacts && plan.pins && plan.pin_work && plan.still_obstacles && plan.gravity_energy &&
