@@ -15,13 +15,16 @@ double quadratic_form(const DiagonalBlocks& a, int i, const Vec3& n) {
 }
 
 double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
-    double inertia = 0.0, mass = 0.0;
+    double inertia = 0.0, mass = 0.0, press = 0.0, squares = 0.0;
     for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
         const int vertex = rows.vertex[row][k];
         inertia += rows.weight[row][k] * quadratic_form(*step.diagonal, vertex, rows.direction[row]);
         mass += rows.weight[row][k] * (*step.mass)[vertex];
+        squares += rows.weight[row][k] * rows.weight[row][k];
+        if (step.load) press -= rows.weight[row][k] * rows.direction[row].dot(step.load->at(vertex));
     }
-    return std::max(share_of_matrix * inertia / (step.dt * step.dt), 4.0 * mass * step.gravity.norm() / rows.thickness[row]);
+    const double static_load = std::max(mass * step.gravity.norm(), press / squares);
+    return std::max(share_of_matrix * inertia / (step.dt * step.dt), 4.0 * static_load / rows.thickness[row]);
 }
 
 /// Adds factor (I - n n^T - t t^T) to a symmetric block; t may be zero.

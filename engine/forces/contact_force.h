@@ -37,6 +37,7 @@ struct ContactStep {
     Vec3 gravity = Vec3::Zero();                // m/s^2
     const std::vector<double>* mass = nullptr;  // kg, of each vertex
     const DiagonalBlocks* diagonal = nullptr;   // of the elastic step matrix when the step began; frozen
+    const Vectors* load = nullptr;              // N, forces without contact when the step began; null: gravity alone
     const FrictionStart* friction = nullptr;    // null: without friction
     const Touches* previous = nullptr;          // of the point that the search came from; null at the first evaluation
 };
@@ -58,7 +59,7 @@ struct ContactTerms {
 
 /// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`.
 /// Stiffness of a row: half of n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks, but at least four
-/// times (static weight on the row)/thickness, so that slack cloth rests at no less than 3/4 of the thickness. Friction with
+/// times (weight on the row, or what its vertices press with)/thickness, so that cloth rests at no less than 3/4 of the thickness. Friction with
 /// obstacles acts on vertices (friction.h), each pressed by its share of all rows with the same obstacle; in the matrix a sliding
 /// one is free along its slip.
 void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,

@@ -135,13 +135,17 @@ private:
 
     void add_contacts(const ForceInput& input, NewtonPoint& point) {
         const bool first = space_.frozen_diagonal.padded == 0;
-        if (first) fill_diagonal(space_.solver.matrix, point.forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
+        if (first) {
+            fill_diagonal(space_.solver.matrix, point.forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
+            space_.frozen_load = point.forces.total;
+        }
         const ContactStep step{.dt = part_.dt,
                                .obstacle_rate = 1.0 / part_.full_step,
                                .fraction = point.fraction,
                                .gravity = part_.settings->gravity,
                                .mass = &model_.mass,
                                .diagonal = &space_.frozen_diagonal,
+                               .load = &space_.frozen_load,
                                .friction = &space_.friction,
                                .previous = first ? nullptr : &space_.current.forces.contact.touches};
         add_contact_forces(input, step, point.forces);

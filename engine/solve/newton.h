@@ -69,6 +69,7 @@ struct NewtonSpace {
     StepSolver solver;
     DiagonalBlocks frozen_diagonal;  // empty until the part has been evaluated
     AlignedVector<float> frozen_inverse;
+    Vectors frozen_load;  // N
     NewtonPoint current, trial;
     Vectors start_positions, start_velocities;
     std::vector<Grip> start_grips;
