@@ -59,9 +59,9 @@ struct ContactTerms {
 
 /// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`.
 /// Stiffness of a row: half of n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks, but at least four
-/// times (weight on the row, or what its vertices press with)/thickness, so that cloth rests at no less than 3/4 of the thickness. Friction with
-/// obstacles acts on vertices (friction.h), each pressed by its share of all rows with the same obstacle; in the matrix a sliding
-/// one is free along its slip.
+/// times (weight on the row, or what its vertices press with)/thickness, so that cloth rests at no less than 3/4 of the
+/// thickness. Friction with obstacles acts on vertices (friction.h), each pressed by its share of all rows with the same
+/// obstacle; in the matrix a sliding one is free along its slip.
 void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
                  ContactTerms& terms);
 
