@@ -29,13 +29,21 @@ double at_contact(const ContactRows& rows, std::size_t row, Value value) {
 }
 
 double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
-    const double inertia =
-        at_contact(rows, row, [&](int vertex) { return quadratic_form(*step.diagonal, vertex, rows.direction[row]); });
-    double mass = 0.0;
+    const Vec3& n = rows.direction[row];
+    const double inertia = at_contact(rows, row, [&](int vertex) { return quadratic_form(*step.diagonal, vertex, n); });
+    const double inert = std::min(inertia, at_contact(rows, row, [&](int vertex) { return (*step.mass)[vertex]; }));
+    double mass = 0.0, press = 0.0, squares = 0.0;
     for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-        mass += std::abs(rows.weight[row][k]) * (*step.mass)[rows.vertex[row][k]];
+        const int vertex = rows.vertex[row][k];
+        const double weight = rows.weight[row][k];
+        mass += std::abs(weight) * (*step.mass)[vertex];
+        squares += weight * weight;
+        if (step.load) press -= weight * n.dot(step.load->at(vertex));
     }
-    return std::max(share_of_matrix * inertia / (step.dt * step.dt), 4.0 * mass * step.gravity.norm() / rows.thickness[row]);
+    const double static_load = std::max(mass * step.gravity.norm(), press / squares);
+    const double inert_dt = std::max(step.dt, step.stiffness_dt);
+    const double of_matrix = inert / (inert_dt * inert_dt) + (inertia - inert) / (step.dt * step.dt);
+    return std::max(share_of_matrix * of_matrix, 4.0 * static_load / rows.thickness[row]);
 }
 
 /// Adds factor (I - n n^T - t t^T) to a symmetric block; t may be zero.

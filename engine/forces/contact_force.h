@@ -32,11 +32,13 @@ struct DiagonalBlocks {
 /// What the contact term needs of the step it is in.
 struct ContactStep {
     double dt = 0.0;                            // s, of the part of the step being solved
+    double stiffness_dt = 0.0;                  // s, that the share of the masses is made for, where longer than dt
     double obstacle_rate = 0.0;                 // 1/s, obstacle velocity / obstacle_displacement
     double fraction = 0.0;                      // of the whole step, where obstacles are
     Vec3 gravity = Vec3::Zero();                // m/s^2
     const std::vector<double>* mass = nullptr;  // kg, of each vertex
     const DiagonalBlocks* diagonal = nullptr;   // of the elastic step matrix when the step began; frozen
+    const Vectors* load = nullptr;              // N, forces without contact when the step began; null: gravity alone
     const FrictionStart* friction = nullptr;    // null: without friction
     const Touches* previous = nullptr;          // of the point that the search came from; null at the first evaluation
 };
@@ -58,10 +60,11 @@ struct ContactTerms {
 
 /// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`. Between cloths the velocity is the relative
 /// one, and n.A n and masses are those of both sides in series, 1/sum w^2/a.
-/// Stiffness of a row: half of n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks, but at least four
-/// times (static weight on the row)/thickness, so that slack cloth rests at no less than 3/4 of the thickness. Friction with
-/// obstacles acts on vertices (friction.h), each pressed by its share of all rows with the same obstacle; in the matrix a sliding
-/// one is free along its slip.
+/// Stiffness of a row: half of n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks (the share of the
+/// masses for `stiffness_dt`: a step that is suddenly shorter must not throw up what lies there), but at least four
+/// times (weight on the row, or what its vertices press with)/thickness, so that cloth rests at no less than 3/4 of the
+/// thickness. Friction with obstacles acts on vertices (friction.h), each pressed by its share of all rows with the same
+/// obstacle; in the matrix a sliding one is free along its slip.
 void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
                  ContactTerms& terms);
 

@@ -140,11 +140,13 @@ private:
 
     ContactStep contact_step(const NewtonPoint& point, bool first) const {
         return {.dt = part_.dt,
+                .stiffness_dt = part_.contact_dt,
                 .obstacle_rate = 1.0 / part_.full_step,
                 .fraction = point.fraction,
                 .gravity = part_.settings->gravity,
                 .mass = &model_.mass,
                 .diagonal = &space_.frozen_diagonal,
+                .load = &space_.frozen_load,
                 .friction = &space_.friction,
                 .previous = first ? nullptr : &space_.current.forces.contact.touches};
     }
@@ -152,7 +154,10 @@ private:
     void add_contacts(const ForceInput& input, NewtonPoint& point) {
         Forces& forces = point.forces;
         const bool first = space_.frozen_diagonal.padded == 0;
-        if (first) fill_diagonal(space_.solver.matrix, forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
+        if (first) {
+            fill_diagonal(space_.solver.matrix, forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
+            space_.frozen_load = forces.total;
+        }
         if (projects()) {
             space_.projection.add(projected(point), projected_forces(point));
         } else {

@@ -32,6 +32,7 @@ struct ImplicitPart {
     const AlignedVector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
     double dt = 0.0;                              // s, length of this part
     double full_step = 0.0;                       // s, of the whole step, over which obstacles move
+    double contact_dt = 0.0;                      // s, ContactStep::stiffness_dt
     StepFraction span;                            // of the whole step
     std::span<const ObstacleFlow> flows = {};     // of each obstacle that moves; none: they stay
     NewtonOptions options;
@@ -71,6 +72,7 @@ struct NewtonSpace {
     StepSolver solver;
     DiagonalBlocks frozen_diagonal;  // empty until the part has been evaluated
     AlignedVector<float> frozen_inverse;
+    Vectors frozen_load;  // N
     NewtonPoint current, trial;
     ContactProjection projection;  // likewise
     Vectors start_positions, start_velocities;

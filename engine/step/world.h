@@ -59,6 +59,7 @@ struct World {
     Vectors part_targets;
     std::vector<ObstacleFlow> flows;
     double contact_energy = 0.0;  // J, of the current state
+    double contact_dt = 0.0;      // s, that the contact stiffness was last made for
     UserViews views;
     StepReport report;
 };

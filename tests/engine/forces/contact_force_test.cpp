@@ -159,6 +159,17 @@ TEST_CASE("A row is stiff enough to carry its weight at three quarters of the th
     CHECK(touch.forces.at(0).y() == Approx(0.01 * 9.81).epsilon(1e-12));
 }
 
+TEST_CASE("A row is stiff enough to carry at three quarters of the thickness what taut cloth presses with") {
+    Touch touch(2);
+    Vectors load;
+    load.resize(2);
+    for (const int vertex : {0, 1}) load.set(vertex, Vec3(7.0, -3.0, 0.0));
+    touch.step.load = &load;
+    touch.add_row({0, 1, -1, -1}, {0.5, 0.5, 0.0, 0.0}, Vec3(0, 1, 0), 0.75 * h);
+    touch.evaluate();
+    for (const int vertex : {0, 1}) CHECK(touch.forces.at(vertex).y() == Approx(3.0).epsilon(1e-12));
+}
+
 TEST_CASE("A row's force is spread by its weights and its energy counted once") {
     Touch touch(4);
     const Vec3 n = Vec3(2.0, 1.0, 2.0) / 3.0;
