@@ -28,6 +28,13 @@ double at_contact(const ContactRows& rows, std::size_t row, Value value) {
     return between_cloths ? 1.0 / sum : sum;
 }
 
+/// 1/dt^2 for the share of the masses: of this step where the obstacle comes or goes by a fifth of the thickness or more.
+double inverse_square_dt(const ContactRows& rows, std::size_t row, const ContactStep& step) {
+    const double way = std::abs(rows.direction[row].dot(rows.obstacle_displacement[row])) / (0.2 * rows.thickness[row]);
+    const double share = std::min(way, 1.0), longer = std::max(step.dt, step.stiffness_dt);
+    return share / (step.dt * step.dt) + (1.0 - share) / (longer * longer);
+}
+
 double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
     const Vec3& n = rows.direction[row];
     const double inertia = at_contact(rows, row, [&](int vertex) { return quadratic_form(*step.diagonal, vertex, n); });
@@ -41,8 +48,7 @@ double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep
         if (step.load) press -= weight * n.dot(step.load->at(vertex));
     }
     const double static_load = std::max(mass * step.gravity.norm(), press / squares);
-    const double inert_dt = std::max(step.dt, step.stiffness_dt);
-    const double of_matrix = inert / (inert_dt * inert_dt) + (inertia - inert) / (step.dt * step.dt);
+    const double of_matrix = inert * inverse_square_dt(rows, row, step) + (inertia - inert) / (step.dt * step.dt);
     return std::max(share_of_matrix * of_matrix, 4.0 * static_load / rows.thickness[row]);
 }
 
@@ -143,7 +149,7 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const double stiffness = row_stiffness(rows, row, step);
         const ContactPotential potential = contact_potential(rows.distance[row], rows.thickness[row], stiffness);
-        ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}};
+        ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}, .row = static_cast<int>(row)};
         add_normal_block(block.k, step.dt * step.dt * potential.curvature, rows.direction[row]);
         Vec3 force = potential.slope * rows.direction[row];
         const bool rubs = step.friction && rows.friction[row] * potential.slope > 0.0, on_obstacle = rows.obstacle[row] >= 0;

@@ -48,6 +48,7 @@ struct ContactBlock {
     std::array<int, 4> vertex;  // -1 = unused
     std::array<double, 4> weight;
     std::array<double, 6> k;  // xx xy xz yy yz zz
+    int row = -1;             // -1: friction of a vertex with all its rows
 };
 
 struct ContactTerms {
@@ -61,9 +62,9 @@ struct ContactTerms {
 /// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`. Between cloths the velocity is the relative
 /// one, and n.A n and masses are those of both sides in series, 1/sum w^2/a.
 /// Stiffness of a row: half of n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks (the share of the
-/// masses for `stiffness_dt`: a step that is suddenly shorter must not throw up what lies there), but at least four
-/// times (weight on the row, or what its vertices press with)/thickness, so that cloth rests at no less than 3/4 of the
-/// thickness. Friction with obstacles acts on vertices (friction.h), each pressed by its share of all rows with the same
+/// masses for `stiffness_dt`, unless the obstacle moves: a step that is suddenly shorter must not throw up what lies there), but
+/// at least four times (weight on the row, or what its vertices press with)/thickness, so that cloth rests at no less than 3/4 of
+/// the thickness. Friction with obstacles acts on vertices (friction.h), each pressed by its share of all rows with the same
 /// obstacle; in the matrix a sliding one is free along its slip.
 void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
                  ContactTerms& terms);

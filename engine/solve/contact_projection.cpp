@@ -135,7 +135,7 @@ void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces)
     terms.energy = terms.largest_stiffness = terms.obstacle_power = 0.0;
     forces.rows.clear();
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}};
+        ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}, .row = static_cast<int>(row)};
         const RowForce multiplier = multipliers_.of(row_key(rows, row));
         const RowState state = row_state(point, row, kept_share_, multiplier.normal);
         const RowForce& force = forces.rows.emplace_back(row_force(state, multiplier, point.step.dt, block.k));

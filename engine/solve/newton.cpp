@@ -290,11 +290,11 @@ private:
         if (!part_.plan->obstacles_move || arrived()) return;
         const ContactRows& rows = point.forces.rows;
         const double remaining = part_.span.to - point.fraction;
-        for (std::size_t row = 0; row < rows.size(); ++row) {
-            const ContactBlock& block = point.forces.contact.blocks[row];
-            const Vec3& n = rows.direction[row];
+        for (const ContactBlock& block : point.forces.contact.blocks) {
+            if (block.row < 0) continue;
+            const Vec3& n = rows.direction[block.row];
             const double stiffness = normal_part(block, n) / part_.dt;
-            const Vec3 impulse = stiffness * remaining * n.dot(rows.obstacle_displacement[row]) * n;
+            const Vec3 impulse = stiffness * remaining * n.dot(rows.obstacle_displacement[block.row]) * n;
             for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
                 const int vertex = block.vertex[k];
                 space_.right_side.add(vertex, (*part_.free)[vertex] * block.weight[k] * impulse);

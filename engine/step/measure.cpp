@@ -69,7 +69,9 @@ void measure(World& world) {
     if (world.plan.measures) report.energy.work = work;
     if (!world.plan.contacts) return;
     const ContactRows& rows = world.newton.current.forces.rows;
-    report.contacts = static_cast<int>(world.newton.current.forces.contact.blocks.size());
+    const std::vector<ContactBlock>& blocks = world.newton.current.forces.contact.blocks;
+    report.contacts =
+        static_cast<int>(std::count_if(blocks.begin(), blocks.end(), [](const ContactBlock& block) { return block.row >= 0; }));
     report.contact_hash = hash_of(rows);
     report.smallest_distance = world.detector->smallest_distance();
 }

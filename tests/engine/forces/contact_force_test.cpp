@@ -346,7 +346,7 @@ TEST_CASE("Between cloths the stiffness is that of both sides in series, and for
         touch.add_row({0, 1, 2, 3}, weight, random.unit(), 0.6 * h);
         touch.rows.obstacle[0] = -1;
         touch.rows.friction[0] = 0.4;
-        for (int i = 0; i < 4; ++i) touch.velocities.set(i, random.point(2.0));
+        for (int i = 0; i < 4; ++i) touch.positions.set(i, touch.step.dt * random.point(2.0));
         touch.evaluate();
         double compliance = 0.0;
         for (int k = 0; k < 4; ++k) compliance += weight[k] * weight[k] / a[k];
@@ -364,18 +364,36 @@ TEST_CASE("Friction between cloths opposes their relative velocity and knows no 
     touch.add_row({0, 1, 2, 3}, {1.0, -0.25, -0.25, -0.5}, n, 0.8 * h);
     touch.rows.obstacle[0] = -1;
     touch.rows.friction[0] = 0.4;
+    const Touches nothing_before;
     for (const bool first : {false, true}) {
-        touch.step.first_evaluation = first;
-        for (int i = 0; i < 4; ++i) touch.velocities.set(i, common);
+        touch.step.previous = first ? nullptr : &nothing_before;
+        for (int i = 0; i < 4; ++i) touch.positions.set(i, touch.step.dt * common);
         touch.evaluate();
         const double normal = touch.forces.at(0).y();
         CHECK((touch.forces.at(0) - normal * n).norm() < 1e-12 * normal);
-        touch.velocities.set(0, common + Vec3(0.5, 0.1, 0.0));
+        touch.positions.set(0, touch.step.dt * (common + Vec3(0.5, 0.1, 0.0)));
         touch.evaluate();
         const Vec3 friction = touch.forces.at(0) - normal * n;
         CHECK((friction - Vec3(-0.4 * normal, 0, 0)).norm() < 1e-12 * normal);
         CHECK((touch.forces.at(3) + 0.5 * touch.forces.at(0)).norm() < 1e-12 * normal);
     }
+}
+
+TEST_CASE("In a shorter step the masses make no stiffer contact than in the step that they are made for, springs do") {
+    Touch touch(1);
+    touch.add_point(Vec3(0, 1, 0), 0.7 * h);
+    touch.step.gravity = Vec3::Zero();
+    const auto stiffness = [&](double dt, double stiffness_dt, double elastic) {
+        touch.step.dt = dt;
+        touch.step.stiffness_dt = stiffness_dt;
+        for (const int entry : {0, 3, 5}) touch.set_diagonal(entry, {0.01 + dt * dt * elastic});
+        touch.evaluate();
+        return touch.terms.largest_stiffness;
+    };
+    CHECK(stiffness(1e-3, 0.0, 0.0) == Approx(0.5 * 0.01 / 1e-6));
+    CHECK(stiffness(1e-3, 1e-2, 0.0) == Approx(0.5 * 0.01 / 1e-4));
+    CHECK(stiffness(1e-3, 1e-2, 300.0) == Approx(0.5 * (0.01 / 1e-4 + 300.0)));
+    CHECK(stiffness(1e-2, 1e-3, 300.0) == Approx(0.5 * (0.01 / 1e-4 + 300.0)));
 }
 
 }  // namespace percale::test
