@@ -9,7 +9,7 @@
 #include "percale/options.h"
 #include "step/measure.h"
 #include "step/planning.h"
-#include "step/start_repair.h"
+#include "step/start_check.h"
 #include "step/step.h"
 #include "support/hash.h"
 #include "support/stage_timer.h"
@@ -108,29 +108,6 @@ struct Simulation::Implementation {
         world.detector->set_self_contact({.cloth = owner, .rest = world.model.rest, .friction = friction});
     }
 
-    /// The cloth of a triangle of the whole system, and its index there.
-    std::pair<const ClothRange*, long> cloth_triangle(int triangle) const {
-        const std::vector<Triangle>& all = world.model.triangles;
-        const auto owns = [&](const ClothRange& range) { return all[triangle][0] < range.first + range.count; };
-        const auto owner = std::find_if(world.model.cloths.begin(), world.model.cloths.end(), owns);
-        const auto first = std::find_if(all.begin(), all.end(), [&](const Triangle& t) { return t[0] >= owner->first; });
-        return {&*owner, triangle - (first - all.begin())};
-    }
-
-    std::string cloth_text(const StartFault& fault) const {
-        const auto [cloth, triangle] = cloth_triangle(fault.cloth_triangle);
-        const auto [other, other_triangle] = cloth_triangle(fault.other_cloth_triangle);
-        const bool same = cloth == other;
-        const std::string places = "triangle " + std::to_string(triangle) + (same ? "" : " of " + cloth->name) +
-                                   " and triangle " + std::to_string(other_triangle) + (same ? "" : " of " + other->name);
-        const std::string met = same ? "itself" : other->name;
-        if (fault.intersecting_pairs == 0) {
-            return cloth->name + " starts touching " + met + ": " + places + "; leave some distance";
-        }
-        return cloth->name + " starts through " + met + ": " + std::to_string(fault.intersecting_pairs) +
-               " intersecting triangle pairs, one of them " + places + "; move them apart, or let self_contact be false";
-    }
-
     /// Brings the view of positions up to date.
     void update_views() {
         for (const ClothRange& range : world.model.cloths) {
@@ -147,90 +124,6 @@ struct Simulation::Implementation {
         if (range.order.kept()) return;
         world.views.masses.resize(world.model.mass.size());
         for (int i = 0; i < range.count; ++i) world.views.masses[range.first + i] = world.model.mass[range.index_of(i)];
-    }
-
-    /// The cloth that owns a vertex of the whole system; null if there is no such vertex.
-    const ClothRange* owner(int index) const {
-        for (const ClothRange& range : world.model.cloths) {
-            if (index >= range.first && index < range.first + range.count) return &range;
-        }
-        return nullptr;
-    }
-
-    std::string vertex_name(int index) const {
-        const ClothRange* range = owner(index);
-        if (!range) return "vertex " + std::to_string(index);
-        return "vertex " + std::to_string(range->user_vertex(index)) + " of " + range->name;
-    }
-
-    /// As the user numbers vertices, counted through all cloths.
-    int user_index(int index) const {
-        const ClothRange* range = owner(index);
-        return range ? range->first + range->user_vertex(index) : index;
-    }
-
-    std::string start_text(const StartFault& fault) const {
-        if (fault.between_cloths()) return cloth_text(fault);
-        const std::string& obstacle_name = world.script.obstacles[fault.obstacle].name;
-        if (fault.intersecting_pairs > 0) {
-            const int corner = world.model.triangles[fault.cloth_triangle][0];
-            return "the cloth starts through " + obstacle_name + ": " + std::to_string(fault.intersecting_pairs) +
-                   " intersecting triangle pairs, one of them at " + vertex_name(corner) + " and triangle " +
-                   std::to_string(fault.obstacle_triangle);
-        }
-        if (fault.vertices_inside > 0) {
-            return "the cloth starts inside " + obstacle_name + ": " + std::to_string(fault.vertices_inside) +
-                   " vertices, one of them " + vertex_name(fault.inside_vertex);
-        }
-        return "the cloth starts touching " + obstacle_name;
-    }
-
-    /// The first pinned vertex inside the obstacle, -1 where there is none.
-    int pin_inside(const StartFault& fault) const {
-        const auto pinned = [&](int v) { return world.script.free[v] == 0.0; };
-        const auto found = std::find_if(fault.inside_vertices.begin(), fault.inside_vertices.end(), pinned);
-        return found == fault.inside_vertices.end() ? -1 : *found;
-    }
-
-    /// Throws StartError, its vertices as the user numbers them.
-    [[noreturn]] void refuse_start(const std::string& message, StartFault fault) const {
-        fault.inside_vertex = user_index(fault.inside_vertex);
-        for (int& vertex : fault.inside_vertices) vertex = user_index(vertex);
-        std::sort(fault.inside_vertices.begin(), fault.inside_vertices.end());
-        throw StartError(message, fault);
-    }
-
-    /// Throws where the start is not clear and cannot or may not be made so.
-    void clear_start() {
-        start_moves.clear();
-        place_obstacles();
-        const StartFault fault = world.detector->check_start(world.state.points);
-        if (!fault.any()) return;
-        if (fault.between_cloths()) refuse_start(start_text(fault), fault);
-        if (const int pin = pin_inside(fault); pin >= 0) {
-            refuse_start("pinned " + vertex_name(pin) + " starts inside " + world.script.obstacles[fault.obstacle].name +
-                             "; move the pin or the obstacle, or do not pin this vertex",
-                         fault);
-        }
-        if (world.settings.start == StartRule::refuse) {
-            refuse_start(start_text(fault) + "; move the cloth or the obstacle apart, or allow start = repair", fault);
-        }
-        StartRepair repair = repair_start(world);
-        if (!repair.obstruction.empty()) {
-            refuse_start(start_text(fault) + ", and " + repair.obstruction + "; move the cloth or the obstacle apart", fault);
-        }
-        start_moves = std::move(repair.moves);
-        update_views();
-    }
-
-    /// The detector may know the obstacles from the start of an earlier step only.
-    void place_obstacles() {
-        for (std::size_t k = 0; k < world.script.obstacles.size(); ++k) {
-            ObstacleState& obstacle = world.script.obstacles[k];
-            if (obstacle.settled) continue;
-            world.detector->move_obstacle(static_cast<int>(k), obstacle.start, obstacle.start);
-            obstacle.settled = true;
-        }
     }
 
     void check_scheme() const {
@@ -405,7 +298,10 @@ void Simulation::prepare() {
     if (!world.changed) return;
     implementation_->check_scheme();
     const bool obstacles = !world.script.obstacles.empty() && !world.model.cloths.empty();
-    if (world.detector && (obstacles || implementation_->meets_cloth())) implementation_->clear_start();
+    if (world.detector && (obstacles || implementation_->meets_cloth())) {
+        implementation_->start_moves = clear_start(world);
+        implementation_->update_views();
+    }
     world.newton.projection.forget();
     world.changed = false;
 }

@@ -164,4 +164,19 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
     for (Touch& touch : terms.touches.all) add_friction(step, positions, touch, forces, terms);
 }
 
+void add_obstacle_advance(const ContactRows& rows, const ContactTerms& terms, double rate, const AlignedVector<double>& free,
+                          Vectors& right_side) {
+    for (const ContactBlock& block : terms.blocks) {
+        if (block.row < 0) continue;
+        const Vec3& n = rows.direction[block.row];
+        const auto& k = block.k;
+        const double normal_part = n.x() * (k[0] * n.x() + 2.0 * k[1] * n.y() + 2.0 * k[2] * n.z()) +
+                                   n.y() * (k[3] * n.y() + 2.0 * k[4] * n.z()) + k[5] * n.z() * n.z();
+        const Vec3 impulse = normal_part * rate * n.dot(rows.obstacle_displacement[block.row]) * n;
+        for (int j = 0; j < 4 && block.vertex[j] >= 0; ++j) {
+            right_side.add(block.vertex[j], free[block.vertex[j]] * block.weight[j] * impulse);
+        }
+    }
+}
+
 }  // namespace percale

@@ -69,4 +69,10 @@ struct ContactTerms {
 void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
                  ContactTerms& terms);
 
+/// Obstacles go on to their ends while the cloth moves: a row's distance changes by n.(dx - dp), dp the way its obstacle point
+/// still has, so a Newton direction solves A dv = -r + dt P''(d) n n.dp. Adds the last term where `free` is 1; the blocks of rows
+/// hold dt^2 P'' n n^T. `rate`: the part of the whole step still to come over dt, 1/s.
+void add_obstacle_advance(const ContactRows& rows, const ContactTerms& terms, double rate, const AlignedVector<double>& free,
+                          Vectors& right_side);
+
 }  // namespace percale

@@ -273,7 +273,10 @@ private:
             space_.solver.fill(point.forces.spring_terms, point.forces.contact.blocks);
             space_.right_side.resize(model_.vertex_count());
             add_scaled(space_.right_side, -1.0, point.residual);
-            add_obstacle_advance(point);
+            if (part_.plan->obstacles_move && !arrived()) {
+                add_obstacle_advance(point.forces.rows, point.forces.contact, (part_.span.to - point.fraction) / part_.dt,
+                                     *part_.free, space_.right_side);
+            }
         }
         StageTimer timer(stages_.solve);
         const SolveTarget target = solve_target(iteration, norm, last_norm);
@@ -281,32 +284,6 @@ private:
         report_.linear_iterations += solved.iterations;
         direction_is_good_ = solved.converged;
         if (space_.current.forces.rows.size() == 0) correct_translation();
-    }
-
-    /// Obstacles go on to their ends while the cloth moves: a row's distance changes by n.(dx - dp), dp the way its obstacle
-    /// point still has, so A dv = -r + dt P''(d) n n.dp. The blocks of the rows hold dt^2 P'' n n^T, and friction at right angles
-    /// to n.
-    void add_obstacle_advance(const NewtonPoint& point) {
-        if (!part_.plan->obstacles_move || arrived()) return;
-        const ContactRows& rows = point.forces.rows;
-        const double remaining = part_.span.to - point.fraction;
-        for (const ContactBlock& block : point.forces.contact.blocks) {
-            if (block.row < 0) continue;
-            const Vec3& n = rows.direction[block.row];
-            const double stiffness = normal_part(block, n) / part_.dt;
-            const Vec3 impulse = stiffness * remaining * n.dot(rows.obstacle_displacement[block.row]) * n;
-            for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
-                const int vertex = block.vertex[k];
-                space_.right_side.add(vertex, (*part_.free)[vertex] * block.weight[k] * impulse);
-            }
-        }
-    }
-
-    /// n.K n
-    static double normal_part(const ContactBlock& block, const Vec3& n) {
-        const auto& k = block.k;
-        return n.x() * (k[0] * n.x() + 2.0 * k[1] * n.y() + 2.0 * k[2] * n.z()) + n.y() * (k[3] * n.y() + 2.0 * k[4] * n.z()) +
-               k[5] * n.z() * n.z();
     }
 
     void set_prescribed_direction() {
@@ -417,9 +394,7 @@ private:
         if (part_.settings->newton_tolerance || !arrived() || went_on_) return false;
         StageTimer timer(stages_.solve);
         if (!space_.solver.estimate(space_.current.residual, space_.direction)) return false;
-        for (auto* axis : {&space_.direction.x, &space_.direction.y, &space_.direction.z}) {
-            for (double& value : *axis) value = -value;
-        }
+        add_scaled(space_.direction, -2.0, space_.direction);  // the direction is -A^-1 r
         return change_is_small(space_.current.velocities, estimated_share);
     }
 

@@ -1,0 +1,129 @@
+#include "start_check.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "start_repair.h"
+
+namespace percale {
+namespace {
+
+/// What messages about a start say of places in it.
+class Names {
+public:
+    explicit Names(const World& world) : world_(world) {}
+
+    std::string vertex_name(int index) const {
+        const ClothRange* range = owner(index);
+        if (!range) return "vertex " + std::to_string(index);
+        return "vertex " + std::to_string(range->user_vertex(index)) + " of " + range->name;
+    }
+
+    /// As the user numbers vertices, counted through all cloths.
+    int user_index(int index) const {
+        const ClothRange* range = owner(index);
+        return range ? range->first + range->user_vertex(index) : index;
+    }
+
+    std::string start_text(const StartFault& fault) const {
+        if (fault.between_cloths()) return cloth_text(fault);
+        const std::string& obstacle_name = world_.script.obstacles[fault.obstacle].name;
+        if (fault.intersecting_pairs > 0) {
+            const int corner = world_.model.triangles[fault.cloth_triangle][0];
+            return "the cloth starts through " + obstacle_name + ": " + std::to_string(fault.intersecting_pairs) +
+                   " intersecting triangle pairs, one of them at " + vertex_name(corner) + " and triangle " +
+                   std::to_string(fault.obstacle_triangle);
+        }
+        if (fault.vertices_inside > 0) {
+            return "the cloth starts inside " + obstacle_name + ": " + std::to_string(fault.vertices_inside) +
+                   " vertices, one of them " + vertex_name(fault.inside_vertex);
+        }
+        return "the cloth starts touching " + obstacle_name;
+    }
+
+private:
+    /// The cloth of a triangle of the whole system, and its index there.
+    std::pair<const ClothRange*, long> cloth_triangle(int triangle) const {
+        const std::vector<Triangle>& all = world_.model.triangles;
+        const auto owns = [&](const ClothRange& range) { return all[triangle][0] < range.first + range.count; };
+        const auto owner = std::find_if(world_.model.cloths.begin(), world_.model.cloths.end(), owns);
+        const auto first = std::find_if(all.begin(), all.end(), [&](const Triangle& t) { return t[0] >= owner->first; });
+        return {&*owner, triangle - (first - all.begin())};
+    }
+
+    std::string cloth_text(const StartFault& fault) const {
+        const auto [cloth, triangle] = cloth_triangle(fault.cloth_triangle);
+        const auto [other, other_triangle] = cloth_triangle(fault.other_cloth_triangle);
+        const bool same = cloth == other;
+        const std::string places = "triangle " + std::to_string(triangle) + (same ? "" : " of " + cloth->name) +
+                                   " and triangle " + std::to_string(other_triangle) + (same ? "" : " of " + other->name);
+        const std::string met = same ? "itself" : other->name;
+        if (fault.intersecting_pairs == 0) {
+            return cloth->name + " starts touching " + met + ": " + places + "; leave some distance";
+        }
+        return cloth->name + " starts through " + met + ": " + std::to_string(fault.intersecting_pairs) +
+               " intersecting triangle pairs, one of them " + places + "; move them apart, or let self_contact be false";
+    }
+
+    /// The cloth that owns a vertex of the whole system; null if there is no such vertex.
+    const ClothRange* owner(int index) const {
+        for (const ClothRange& range : world_.model.cloths) {
+            if (index >= range.first && index < range.first + range.count) return &range;
+        }
+        return nullptr;
+    }
+
+    const World& world_;
+};
+
+/// The first pinned vertex inside the obstacle, -1 where there is none.
+int pin_inside(const World& world, const StartFault& fault) {
+    const auto pinned = [&](int v) { return world.script.free[v] == 0.0; };
+    const auto found = std::find_if(fault.inside_vertices.begin(), fault.inside_vertices.end(), pinned);
+    return found == fault.inside_vertices.end() ? -1 : *found;
+}
+
+/// Throws StartError, its vertices as the user numbers them.
+[[noreturn]] void refuse_start(const Names& names, const std::string& message, StartFault fault) {
+    fault.inside_vertex = names.user_index(fault.inside_vertex);
+    for (int& vertex : fault.inside_vertices) vertex = names.user_index(vertex);
+    std::sort(fault.inside_vertices.begin(), fault.inside_vertices.end());
+    throw StartError(message, fault);
+}
+
+/// The detector may know the obstacles from the start of an earlier step only.
+void place_obstacles(World& world) {
+    for (std::size_t k = 0; k < world.script.obstacles.size(); ++k) {
+        ObstacleState& obstacle = world.script.obstacles[k];
+        if (obstacle.settled) continue;
+        world.detector->move_obstacle(static_cast<int>(k), obstacle.start, obstacle.start);
+        obstacle.settled = true;
+    }
+}
+
+}  // namespace
+
+std::vector<StartMove> clear_start(World& world) {
+    const Names names(world);
+    place_obstacles(world);
+    const StartFault fault = world.detector->check_start(world.state.points);
+    if (!fault.any()) return {};
+    const std::string what = names.start_text(fault);
+    if (fault.between_cloths()) refuse_start(names, what, fault);
+    if (const int pin = pin_inside(world, fault); pin >= 0) {
+        refuse_start(names,
+                     "pinned " + names.vertex_name(pin) + " starts inside " + world.script.obstacles[fault.obstacle].name +
+                         "; move the pin or the obstacle, or do not pin this vertex",
+                     fault);
+    }
+    if (world.settings.start == StartRule::refuse) {
+        refuse_start(names, what + "; move the cloth or the obstacle apart, or allow start = repair", fault);
+    }
+    StartRepair repair = repair_start(world);
+    if (!repair.obstruction.empty()) {
+        refuse_start(names, what + ", and " + repair.obstruction + "; move the cloth or the obstacle apart", fault);
+    }
+    return std::move(repair.moves);
+}
+
+}  // namespace percale

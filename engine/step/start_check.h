@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "percale/simulation.h"
+#include "world.h"
+
+namespace percale {
+
+/// Makes the start clear: what the detector finds wrong is repaired (start_repair.h); returns what was moved, nothing where the
+/// start was clear. Throws StartError, everything left as it was, where cloth crosses or touches cloth, a pinned vertex is inside
+/// an obstacle, or the settings or the shapes leave no repair. The world must have a detector.
+std::vector<StartMove> clear_start(World& world);
+
+}  // namespace percale
