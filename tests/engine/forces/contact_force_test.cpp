@@ -383,17 +383,17 @@ TEST_CASE("In a shorter step the masses make no stiffer contact than in the step
     Touch touch(1);
     touch.add_point(Vec3(0, 1, 0), 0.7 * h);
     touch.step.gravity = Vec3::Zero();
-    const auto stiffness = [&](double dt, double stiffness_dt, double elastic) {
+    const auto stiffness_of = [&](double dt, double stiffness_dt, double elastic) {
         touch.step.dt = dt;
         touch.step.stiffness_dt = stiffness_dt;
         for (const int entry : {0, 3, 5}) touch.set_diagonal(entry, {0.01 + dt * dt * elastic});
         touch.evaluate();
         return touch.terms.largest_stiffness;
     };
-    CHECK(stiffness(1e-3, 0.0, 0.0) == Approx(0.5 * 0.01 / 1e-6));
-    CHECK(stiffness(1e-3, 1e-2, 0.0) == Approx(0.5 * 0.01 / 1e-4));
-    CHECK(stiffness(1e-3, 1e-2, 300.0) == Approx(0.5 * (0.01 / 1e-4 + 300.0)));
-    CHECK(stiffness(1e-2, 1e-3, 300.0) == Approx(0.5 * (0.01 / 1e-4 + 300.0)));
+    CHECK(stiffness_of(1e-3, 0.0, 0.0) == Approx(0.5 * 0.01 / 1e-6));
+    CHECK(stiffness_of(1e-3, 1e-2, 0.0) == Approx(0.5 * 0.01 / 1e-4));
+    CHECK(stiffness_of(1e-3, 1e-2, 300.0) == Approx(0.5 * (0.01 / 1e-4 + 300.0)));
+    CHECK(stiffness_of(1e-2, 1e-3, 300.0) == Approx(0.5 * (0.01 / 1e-4 + 300.0)));
 }
 
 }  // namespace percale::test
