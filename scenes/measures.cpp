@@ -33,24 +33,26 @@ bool worse(const FrameCheck& a, const FrameCheck& b) {
     return a.intersections > b.intersections;
 }
 
+/// Adds to the sums and extremes that frames and steps share; whether this is the worst so far.
+template <class Totals>
+bool add_check(Totals& totals, const FrameCheck& check) {
+    totals.intersections += check.intersections;
+    totals.deepest_penetration = std::max(totals.deepest_penetration, check.deepest_penetration);
+    totals.smallest_distance = std::min(totals.smallest_distance, check.smallest_distance);
+    if (!worse(check, totals.worst)) return false;
+    totals.worst = check;
+    return true;
+}
+
 }  // namespace
 
 void add_frame(Measures& measures, int index, const FrameCheck& check) {
-    measures.intersections += check.intersections;
-    measures.deepest_penetration = std::max(measures.deepest_penetration, check.deepest_penetration);
-    measures.smallest_distance = std::min(measures.smallest_distance, check.smallest_distance);
-    if (!worse(check, measures.worst)) return;
-    measures.worst = check;
-    measures.worst_frame = index;
+    if (add_check(measures, check)) measures.worst_frame = index;
 }
 
 void add_state(StepChecks& checks, int step, double time, const FrameCheck& check) {
     ++checks.states;
-    checks.intersections += check.intersections;
-    checks.deepest_penetration = std::max(checks.deepest_penetration, check.deepest_penetration);
-    checks.smallest_distance = std::min(checks.smallest_distance, check.smallest_distance);
-    if (!worse(check, checks.worst)) return;
-    checks.worst = check;
+    if (!add_check(checks, check)) return;
     checks.worst_step = step;
     checks.worst_time = time;
 }

@@ -10,11 +10,6 @@ constexpr double stick_speed = 1e-3;  // m/s, below it friction between cloths i
 constexpr double share_of_matrix =
     0.5;  // of the step matrix that the contact stiffness takes: softer sinks, stiffer takes Newton longer
 
-double quadratic_form(const DiagonalBlocks& a, int i, const Vec3& n) {
-    return n.x() * (a[0][i] * n.x() + 2.0 * a[1][i] * n.y() + 2.0 * a[2][i] * n.z()) +
-           n.y() * (a[3][i] * n.y() + 2.0 * a[4][i] * n.z()) + a[5][i] * n.z() * n.z();
-}
-
 /// What a_k of a row's vertices makes at the contact: the mean by weight against an obstacle; between cloths, where both sides
 /// give way, 1 / sum w_k^2/a_k.
 template <class Value>
@@ -37,7 +32,7 @@ double inverse_square_dt(const ContactRows& rows, std::size_t row, const Contact
 
 double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
     const Vec3& n = rows.direction[row];
-    const double inertia = at_contact(rows, row, [&](int vertex) { return quadratic_form(*step.diagonal, vertex, n); });
+    const double inertia = at_contact(rows, row, [&](int vertex) { return quadratic_form(step.diagonal->block(vertex), n); });
     const double inert = std::min(inertia, at_contact(rows, row, [&](int vertex) { return (*step.mass)[vertex]; }));
     double mass = 0.0, press = 0.0, squares = 0.0;
     for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
@@ -50,21 +45,6 @@ double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep
     const double static_load = std::max(mass * step.gravity.norm(), press / squares);
     const double of_matrix = inert * inverse_square_dt(rows, row, step) + (inertia - inert) / (step.dt * step.dt);
     return std::max(share_of_matrix * of_matrix, 4.0 * static_load / rows.thickness[row]);
-}
-
-/// Adds factor (I - n n^T - t t^T) to a symmetric block; t may be zero.
-void add_tangent_block(std::array<double, 6>& k, double factor, const Vec3& n, const Vec3& t) {
-    int entry = 0;
-    for (int a = 0; a < 3; ++a) {
-        for (int b = a; b < 3; ++b) k[entry++] += factor * ((a == b ? 1.0 : 0.0) - n[a] * n[b] - t[a] * t[b]);
-    }
-}
-
-void add_normal_block(std::array<double, 6>& k, double factor, const Vec3& n) {
-    int entry = 0;
-    for (int a = 0; a < 3; ++a) {
-        for (int b = a; b < 3; ++b) k[entry++] += factor * n[a] * n[b];
-    }
 }
 
 /// Gives the vertices of a row their share of what presses them to the obstacle. Normals that point apart, of the two sides of a
@@ -117,7 +97,7 @@ Vec3 friction_between_cloths(const ContactRows& rows, std::size_t row, double no
         const int vertex = block.vertex[k];
         slip += block.weight[k] / step.dt * (positions.at(vertex) - step.friction->positions->at(vertex));
     }
-    slip -= n * n.dot(slip);
+    slip = tangential(slip, n);
     const double speed = slip.norm(), mass = at_contact(rows, row, [&](int vertex) { return (*step.mass)[vertex]; });
     // Sliding: friction at its limit cannot stop the point within the step.
     if (speed > stick_speed && speed * mass > step.dt * limit) {
@@ -169,10 +149,7 @@ void add_obstacle_advance(const ContactRows& rows, const ContactTerms& terms, do
     for (const ContactBlock& block : terms.blocks) {
         if (block.row < 0) continue;
         const Vec3& n = rows.direction[block.row];
-        const auto& k = block.k;
-        const double normal_part = n.x() * (k[0] * n.x() + 2.0 * k[1] * n.y() + 2.0 * k[2] * n.z()) +
-                                   n.y() * (k[3] * n.y() + 2.0 * k[4] * n.z()) + k[5] * n.z() * n.z();
-        const Vec3 impulse = normal_part * rate * n.dot(rows.obstacle_displacement[block.row]) * n;
+        const Vec3 impulse = quadratic_form(block.k, n) * rate * n.dot(rows.obstacle_displacement[block.row]) * n;
         for (int j = 0; j < 4 && block.vertex[j] >= 0; ++j) {
             right_side.add(block.vertex[j], free[block.vertex[j]] * block.weight[j] * impulse);
         }

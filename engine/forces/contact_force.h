@@ -6,6 +6,7 @@
 #include "friction.h"
 #include "model/vectors.h"
 #include "percale/contact.h"
+#include "symmetric_block.h"
 
 namespace percale {
 
@@ -27,6 +28,11 @@ struct DiagonalBlocks {
         data.assign(6 * padded, 0.0);
     }
     const double* operator[](int entry) const { return data.data() + entry * padded; }
+    SymmetricBlock block(int i) const {
+        SymmetricBlock k;
+        for (std::size_t entry = 0; entry < 6; ++entry) k[entry] = data[entry * padded + i];
+        return k;
+    }
 };
 
 /// What the contact term needs of the step it is in.
@@ -47,8 +53,8 @@ struct ContactStep {
 struct ContactBlock {
     std::array<int, 4> vertex;  // -1 = unused
     std::array<double, 4> weight;
-    std::array<double, 6> k;  // xx xy xz yy yz zz
-    int row = -1;             // -1: friction of a vertex with all its rows
+    SymmetricBlock k;
+    int row = -1;  // -1: friction of a vertex with all its rows
 };
 
 struct ContactTerms {

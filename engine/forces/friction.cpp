@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "symmetric_block.h"
+
 namespace percale {
 namespace {
 
@@ -67,9 +69,7 @@ void set_slip(const FrictionStart& start, const Vec3& position, double fraction,
         const ObstacleFlow& flow = start.flows[touch.obstacle];
         touch.flow = flow.turn * held + flow.shift;
     }
-    const Vec3 normal = touch.press.normalized();
-    const Vec3 way = position - held - (fraction - start.fraction) * touch.flow;
-    touch.slip = way - normal * normal.dot(way);
+    touch.slip = tangential(position - held - (fraction - start.fraction) * touch.flow, touch.press.normalized());
 }
 
 Vec3 friction_force(const Touch& touch) { return -touch.press.norm() / std::max(touch.slip.norm(), touch.reach) * touch.slip; }

@@ -10,13 +10,6 @@ namespace {
 constexpr double stiffness_share = 1.0;  // of the step matrix: softer takes more rounds, stiffer makes each take longer
 constexpr double recovery_time = 0.05;   // s, in which cloth that starts too near comes back to the thickness
 
-Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - normal * normal.dot(v); }
-
-double quadratic_form(const DiagonalBlocks& a, int i, const Vec3& n) {
-    return n.x() * (a[0][i] * n.x() + 2.0 * a[1][i] * n.y() + 2.0 * a[2][i] * n.z()) +
-           n.y() * (a[3][i] * n.y() + 2.0 * a[4][i] * n.z()) + a[5][i] * n.z() * n.z();
-}
-
 /// One row at one point of the search.
 struct RowState {
     Vec3 normal;
@@ -32,7 +25,7 @@ double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep
     double yielding = 0.0;
     for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
         const double weight = rows.weight[row][k];
-        yielding += weight * weight / quadratic_form(*step.diagonal, rows.vertex[row][k], rows.direction[row]);
+        yielding += weight * weight / quadratic_form(step.diagonal->block(rows.vertex[row][k]), rows.direction[row]);
     }
     return stiffness_share / (step.dt * step.dt * yielding);
 }
@@ -77,8 +70,8 @@ RowState row_state(const ProjectedPoint& point, std::size_t row, double kept_sha
             .friction = rows.friction[row]};
 }
 
-/// The row's force, N, and its matrix, kg; no matrix if it does not push.
-RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, std::array<double, 6>& block) {
+/// The row's force, N, its matrix, kg, added to the block; no matrix if it does not push.
+RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, SymmetricBlock& block) {
     RowForce force{.normal = std::max(0.0, multiplier.normal + row.spring.slope), .stiffness = row.stiffness};
     if (force.normal == 0.0) return force;
     const double damping = row.stiffness * dt, limit = row.friction * force.normal;
@@ -88,14 +81,9 @@ RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, s
     const double share = slides ? limit / size : 1.0;
     force.friction = share * trial;
     const Vec3 along = slides ? Vec3(trial / size) : Vec3(Vec3::Zero());
-    const double across_normal = dt * dt * row.spring.curvature, across_slip = row.friction > 0.0 ? dt * damping * share : 0.0;
-    int entry = 0;
-    for (int a = 0; a < 3; ++a) {
-        for (int b = a; b < 3; ++b) {
-            const double nn = row.normal[a] * row.normal[b];
-            block[entry++] = across_normal * nn + across_slip * ((a == b ? 1.0 : 0.0) - nn - along[a] * along[b]);
-        }
-    }
+    const double normal_part = dt * dt * row.spring.curvature, slip_part = row.friction > 0.0 ? dt * damping * share : 0.0;
+    add_normal_block(block, normal_part, row.normal);
+    add_tangent_block(block, slip_part, row.normal, along);
     return force;
 }
 

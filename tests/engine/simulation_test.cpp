@@ -12,8 +12,6 @@ namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<Vec3> copy(std::span<const Vec3> view) { return {view.begin(), view.end()}; }
-
 /// A sheet 2 cm above a plane at y = 0.
 struct PlaneScene {
     Simulation simulation;

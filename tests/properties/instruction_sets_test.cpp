@@ -17,12 +17,6 @@ struct Scene {
     bool floor = false;
 };
 
-Fabric free_fabric() {
-    Fabric fabric = sheet_fabric();
-    fabric.springs.shear = 0.0;
-    return fabric;
-}
-
 /// A sheet as a grid, or as a free mesh.
 ClothModel sheet(bool grid) {
     TriangleMesh mesh = make_grid(1.0, 1.0, 33, 33);

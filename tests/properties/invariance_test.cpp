@@ -8,14 +8,6 @@
 namespace percale::test {
 namespace {
 
-std::vector<Vec3> copy(std::span<const Vec3> view) { return {view.begin(), view.end()}; }
-
-Fabric free_fabric() {
-    Fabric fabric = sheet_fabric();
-    fabric.springs.shear = 0.0;
-    return fabric;
-}
-
 /// A sheet without its grid, hung from two vertices of the boundary and pushed sideways.
 TriangleMesh free_sheet() {
     TriangleMesh mesh = make_grid(0.6, 0.6, 7, 7);

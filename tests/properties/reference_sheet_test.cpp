@@ -13,8 +13,6 @@ namespace {
 
 constexpr int side = 33;
 
-std::vector<Vec3> copy(std::span<const Vec3> view) { return {view.begin(), view.end()}; }
-
 std::vector<Vec3> percale_sheet(const StepSettings& settings, double time, double* largest_strain = nullptr) {
     Simulation simulation(settings);
     const ClothId cloth = simulation.add_cloth(make_grid(1.0, 1.0, side, side), sheet_fabric());

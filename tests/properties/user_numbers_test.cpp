@@ -8,14 +8,6 @@
 namespace percale::test {
 namespace {
 
-std::vector<Vec3> copy(std::span<const Vec3> view) { return {view.begin(), view.end()}; }
-
-Fabric free_fabric() {
-    Fabric fabric = sheet_fabric();
-    fabric.springs.shear = 0.0;
-    return fabric;
-}
-
 constexpr int grid_vertices = 12;
 
 /// A small grid and then a free sheet, 2 cm above a plane, neither in an order that the engine would choose for the sheet.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,15 @@ inline Fabric sheet_fabric() {
             .springs = {.structural = 1000.0, .shear = 500.0, .bend = 10.0},
             .spring_damping = 0.1};
 }
+
+/// The same for meshes without rows and columns.
+inline Fabric free_fabric() {
+    Fabric fabric = sheet_fabric();
+    fabric.springs.shear = 0.0;
+    return fabric;
+}
+
+inline std::vector<Vec3> copy(std::span<const Vec3> view) { return {view.begin(), view.end()}; }
 
 /// One spring of a hand-made system.
 struct Link {

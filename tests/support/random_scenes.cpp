@@ -25,17 +25,6 @@ struct NamedMesh {
     TriangleMesh mesh;
 };
 
-/// Centred, its longest side 1 m.
-TriangleMesh unit_size(TriangleMesh mesh) {
-    Vec3 low = mesh.vertices[0], high = low;
-    for (const Vec3& x : mesh.vertices) {
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-    }
-    for (Vec3& x : mesh.vertices) x = (x - 0.5 * (low + high)) / (high - low).maxCoeff();
-    return mesh;
-}
-
 /// Small body scans, those that are installed.
 const std::vector<NamedMesh>& scans() {
     static const std::vector<NamedMesh> loaded = [] {

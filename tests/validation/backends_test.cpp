@@ -111,18 +111,6 @@ TEST_CASE("FCL, Bullet and brute force give the same contacts in 500 random stat
     CHECK(found.cut > 250);
 }
 
-/// Centred, its longest side 1 m.
-TriangleMesh scan(const std::filesystem::path& file) {
-    TriangleMesh mesh = scenes::import_mesh(file.string());
-    Vec3 low = mesh.vertices[0], high = low;
-    for (const Vec3& x : mesh.vertices) {
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-    }
-    for (Vec3& x : mesh.vertices) x = (x - 0.5 * (low + high)) / (high - low).maxCoeff();
-    return mesh;
-}
-
 TEST_CASE("FCL, Bullet and brute force give the same contacts on body scans") {
     const std::string name = GENERATE("bunny00.off", "man.off", "armadillo.off", "refined_elephant.off", "fandisk.off");
     const std::filesystem::path file = real_mesh_folder() / name;
@@ -130,7 +118,7 @@ TEST_CASE("FCL, Bullet and brute force give the same contacts on body scans") {
         WARN("skipped: there is no " << file.string() << "; .ci/fetch_meshes.sh fetches it");
         return;
     }
-    const TriangleMesh body = scan(file);
+    const TriangleMesh body = unit_size(scenes::import_mesh(file.string()));
     Random random(920);
     Differences found;
     const TriangleMesh sheet = make_grid(0.6, 0.6, 17, 17);

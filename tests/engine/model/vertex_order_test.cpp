@@ -24,12 +24,6 @@ std::vector<int> counted(std::size_t count) {
     return numbers;
 }
 
-Fabric free_fabric() {
-    Fabric fabric = sheet_fabric();
-    fabric.springs.shear = 0.0;
-    return fabric;
-}
-
 ClothModel ordered_model(const TriangleMesh& mesh) {
     ClothModel model;
     append_cloth(model, mesh, free_fabric(), "cloth");

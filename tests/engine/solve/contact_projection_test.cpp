@@ -4,9 +4,7 @@
 #include <numbers>
 
 #include "engine/solve/newton.h"
-#include "tests/support/catch.h"
-#include "tests/support/cloth_scenes.h"
-#include "tests/support/plane_detector.h"
+#include "tests/support/plane_scenes.h"
 
 namespace percale::test {
 namespace {
@@ -15,38 +13,6 @@ constexpr double h = 0.005;  // the sheet's thickness
 
 StepSettings projected(double time_step = 1.0 / 60.0) {
     return {.time_step = time_step, .contact_response = ContactResponse::projection};
-}
-
-/// A small sheet `height` above a plane that is tilted by `angle` about z, so that its downhill direction is (cos, -sin, 0).
-SolverScene sheet_on_plane(double angle, double friction, double height, const StepSettings& settings) {
-    const Rotation tilt{std::cos(-0.5 * angle), 0.0, 0.0, std::sin(-0.5 * angle)};
-    const Pose pose{.translation = Vec3::Zero(), .rotation = tilt};
-    TriangleMesh grid = make_grid(0.2, 0.2, 4, 4);
-    const Vec3 up = transform(pose, Vec3(0, height, 0));
-    for (Vec3& x : grid.vertices) x = transform(pose, x) + up;
-    SolverScene scene = solver_scene(grid, sheet_fabric(), settings);
-    auto detector = std::make_unique<PlaneDetector>();
-    std::vector<double> zone = scene.model.thickness;
-    for (double& thickness : zone) thickness *= projection_zone;
-    detector->set_cloth(scene.model.triangles, zone);
-    detector->add_obstacle(make_plane(1.0), pose, friction);
-    scene.detector = std::move(detector);
-    scene.plan.contacts = true;
-    return scene;
-}
-
-Vec3 mean_velocity(const SolverScene& scene) {
-    Vec3 sum = Vec3::Zero();
-    for (int i = 0; i < scene.model.vertex_count(); ++i) sum += scene.model.mass[i] * scene.state.velocities.at(i);
-    return sum / scene.model.cloths[0].mass;
-}
-
-void run(SolverScene& scene, int steps) {
-    for (int n = 0; n < steps; ++n) {
-        const NewtonReport report = scene.step_implicit();
-        CAPTURE(n, report.residual, report.newton_iterations);
-        REQUIRE(report.end == NewtonEnd::converged);
-    }
 }
 
 double energy(const SolverScene& scene) {

@@ -120,6 +120,25 @@ TEST_CASE("A plane that drives under free cloth takes it along") {
     CHECK(world.report.energy.work > 0.0);
 }
 
+TEST_CASE("Steps that become shorter do not throw up cloth that rests") {
+    const double thickness = sheet_fabric().thickness;
+    for (const double shorter : {1.0 / 120.0, 1.0 / 1200.0}) {
+        Simulation simulation({}, std::make_unique<PlaneDetector>());
+        simulation.add_obstacle(make_plane(1.0));
+        const ClothId cloth =
+            simulation.add_cloth(make_grid(0.3, 0.3, 5, 5), sheet_fabric(), {.translation = Vec3(0, 1.2 * thickness, 0)});
+        for (int n = 0; n < 60; ++n) REQUIRE(simulation.step().ok());
+        simulation.set_time_step(shorter);
+        double highest = 0.0;
+        for (int n = 0; n < static_cast<int>(0.3 / shorter); ++n) {
+            REQUIRE(simulation.step().ok());
+            for (const Vec3& x : simulation.positions(cloth)) highest = std::max(highest, x.y());
+        }
+        CAPTURE(shorter, highest / thickness);
+        CHECK(highest <= thickness);
+    }
+}
+
 TEST_CASE("Lifting a whole sheet at constant speed takes the work m g h") {
     World world = sheet_world({});
     const double speed = 0.6, rise = speed / 60.0;
