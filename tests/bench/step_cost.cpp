@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <vector>
 
 #include "tests/bench/bench_report.h"
 #include "tests/bench/bench_scenes.h"
@@ -71,12 +72,12 @@ Figures report(const char* scene, int n, percale::Simulation simulation, double 
     return row;
 }
 
-Figures measure(double seconds, const percale::StepSettings& settings) {
+Figures measure(const std::vector<int>& sizes, double seconds, const percale::StepSettings& settings) {
     const percale::TriangleMesh ball = percale::make_sphere(0.25, 4), scan = percale::test::bunny_scan();
     std::printf("%-3s %4s %8s %7s  %7s %8s %6s %6s %7s %6s %8s  %6s %7s %7s\n", "", "N", "ms/step", "U", "refresh", "evaluate",
                 "force", "setup", "solve", "cut", "measure", "newton", "linear", "strain%");
     Figures rows = Figures::array();
-    for (const int n : {33, 65}) {
+    for (const int n : sizes) {
         rows.push_back(report("S1", n, make_sheet_scene(n, nullptr, 0.0, settings), seconds));
         rows.push_back(report("S2", n, make_sheet_scene(n, &ball, 0.6, settings), seconds));
         if (!scan.triangles.empty()) rows.push_back(report("S3", n, make_sheet_scene(n, &scan, 0.6, settings), seconds));
@@ -91,9 +92,11 @@ int main(int argc, char** argv) {
     CLI::App app("What a 1/60 s step costs on three scenes, by stage.", "percale_step_cost");
     double seconds = 2.0;
     app.add_option("seconds", seconds, "seconds simulated")->capture_default_str()->check(CLI::Range(1e-3, 1e4));
+    std::vector<int> sizes{33, 65};
+    app.add_option("--sizes", sizes, "vertices along a side")->capture_default_str()->check(CLI::Range(2, 2049));
     percale::StepSettings settings;
     const std::map<std::string, percale::ContactResponse> responses{{"penalty", percale::ContactResponse::penalty},
                                                                     {"projection", percale::ContactResponse::projection}};
     app.add_option("--response", settings.contact_response, "contact response")->transform(CLI::CheckedTransformer(responses));
-    return percale::test::run_bench(app, argc, argv, [&] { return measure(seconds, settings); });
+    return percale::test::run_bench(app, argc, argv, [&] { return measure(sizes, seconds, settings); });
 }
