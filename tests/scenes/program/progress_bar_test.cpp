@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <optional>
 #include <string>
 
 #include "tests/scenes/program/run_program.h"
@@ -18,10 +19,14 @@ struct TerminalRun {
     std::string text;
 };
 
-/// Runs the program with a terminal as its output.
-TerminalRun run_on_terminal(const TestFolder& folder, const char* option) {
+/// Runs the program with a terminal as its output; nothing where the system has no pseudo-terminals to give.
+std::optional<TerminalRun> run_on_terminal(const TestFolder& folder, const char* option) {
     int terminal = -1;
     const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (child < 0) {
+        WARN("not tested: no pseudo-terminal (is /dev/pts mounted?)");
+        return std::nullopt;
+    }
     if (child == 0) {
         if (chdir(folder.path().c_str()) == 0)
             execl(PERCALE_PROGRAM, PERCALE_PROGRAM, "run", "sheet.toml", "-o", "out", option, nullptr);
@@ -43,22 +48,24 @@ TerminalRun run_on_terminal(const TestFolder& folder, const char* option) {
 TEST_CASE("on a terminal a bar shows the part that is done and the time that is left, and is wiped at the end") {
     const TestFolder folder;
     folder.write("sheet.toml", falling_sheet());
-    const TerminalRun run = run_on_terminal(folder, "--replay-hash");
-    CHECK(run.exit_code == 0);
+    const std::optional<TerminalRun> run = run_on_terminal(folder, "--replay-hash");
+    if (!run) return;
+    CHECK(run->exit_code == 0);
     // The first of ten steps: 10 % of 30 marks are 3.
-    CHECK(run.text.find("[###...........................]  10 %  0.01 of 0.10 s  ETA 0:0") != std::string::npos);
-    const std::size_t wiped = run.text.rfind("\r\033[K");
+    CHECK(run->text.find("[###...........................]  10 %  0.01 of 0.10 s  ETA 0:0") != std::string::npos);
+    const std::size_t wiped = run->text.rfind("\r\033[K");
     REQUIRE(wiped != std::string::npos);
-    CHECK(run.text.find("finished", wiped) != std::string::npos);
-    CHECK(run.text.find("ETA", wiped) == std::string::npos);
+    CHECK(run->text.find("finished", wiped) != std::string::npos);
+    CHECK(run->text.find("ETA", wiped) == std::string::npos);
 }
 
 TEST_CASE("a quiet run draws no bar on a terminal") {
     const TestFolder folder;
     folder.write("sheet.toml", falling_sheet());
-    const TerminalRun run = run_on_terminal(folder, "--quiet");
-    CHECK(run.exit_code == 0);
-    CHECK(run.text.empty());
+    const std::optional<TerminalRun> run = run_on_terminal(folder, "--quiet");
+    if (!run) return;
+    CHECK(run->exit_code == 0);
+    CHECK(run->text.empty());
 }
 
 TEST_CASE("without a terminal there is no bar") {
