@@ -7,6 +7,7 @@
 #include "percale/options.h"
 #include "run_scene.h"
 #include "scene_text.h"
+#include "start_fault.h"
 
 namespace percale::scenes {
 
@@ -68,6 +69,7 @@ std::string plan_text(const BuiltScene& built) {
     for (std::size_t i = 0; i < built.obstacles.size(); ++i)
         text += line("obstacle", built.scene.obstacles[i].name + ", " +
                                      counted(static_cast<long>(built.obstacle_meshes[i].triangles.size()), "triangle"));
+    for (const StartMove& move : built.simulation.start_repair()) text += line("start", start_move_text(move));
     const bool detects = built.scene.has_contact();
     text += line("memory",
                  short_number(1e-6 * plan.memory_bytes) + " MB predicted" + (detects ? ", lists of near pairs on top" : ""));

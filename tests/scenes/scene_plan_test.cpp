@@ -50,6 +50,15 @@ TEST_CASE("motion and events of the file are known before the first step") {
     CHECK_FALSE(skips(built(box + gravity, {{"gravity", "[0, 0, 0]"}}), "energy of gravity"));
 }
 
+TEST_CASE("the plan tells what the start needed") {
+    CHECK(plan_text(built(sheet_on_box())).find("moved out of") == std::string::npos);
+    std::string inside = sheet_on_box();
+    inside.replace(inside.find("0.015"), 5, "-0.01");
+    const std::string text = plan_text(built(inside));
+    CAPTURE(text);
+    CHECK(text.find("start      36 vertices of sheet moved out of box before the start") != std::string::npos);
+}
+
 TEST_CASE("a run lists what its plan lists") {
     BuiltScene scene = built(sheet_on_box() + pin_event);
     const ScenePlan plan = plan_of(scene);
