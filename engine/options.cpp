@@ -14,7 +14,7 @@ constexpr std::string_view solver_words[] = {"auto", "cg", "multigrid", "direct"
 constexpr std::string_view response_words[] = {"penalty", "projection"};
 constexpr std::string_view damping_words[] = {"length_rate", "velocity"};
 constexpr std::string_view start_words[] = {"repair", "refuse"};
-constexpr std::string_view measure_words[] = {"all", "none"};
+constexpr std::string_view measure_words[] = {"all", "none", "ledger"};
 
 constexpr Option<Fabric> fabric_list[] = {
     {.key = "area_density",
@@ -120,7 +120,9 @@ constexpr Option<StepSettings> step_list[] = {
      .set_choice = [](StepSettings& s, int i) { s.damping_form = static_cast<DampingForm>(i); }},
     {.key = "measure",
      .unit = "",
-     .sentence = "What each step reports besides contacts: all = energy, strain and speed; none leaves them out.",
+     .sentence =
+         "What each step reports besides contacts: all = energy, strain and speed; none leaves them out; ledger = all and "
+         "what became of energy.",
      .choices = measure_words,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.measure); },
      .set_choice = [](StepSettings& s, int i) { s.measure = static_cast<StepMeasures>(i); }},

@@ -59,6 +59,9 @@ void add_measures(const StepPlan& plan, std::vector<Skip>& skipped) {
     } else if (!plan.gravity_energy) {
         skipped.push_back({"energy of gravity", "gravity is zero"});
     }
+    if (!plan.ledger) {
+        skipped.push_back({"ledger of energy", std::string("step.measure is ") + (plan.measures ? "all" : "none")});
+    }
     if (plan.rest) skipped.push_back({"steps while all cloth is at rest", "nothing moves until something is changed"});
 }
 
@@ -77,7 +80,8 @@ StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts) {
     plan.still_obstacles = everything;
     plan.gravity_energy = settings.gravity != Vec3::Zero() || facts.changes.gravity || everything;
     plan.keep_work_space = !everything;
-    plan.measures = settings.measure == StepMeasures::all || everything;
+    plan.measures = settings.measure != StepMeasures::none || everything;
+    plan.ledger = settings.measure == StepMeasures::ledger || everything;
     plan.rest = plan.implicit && !everything;
     plan.free_vertices = facts.pinned_vertices < facts.cloth_vertices;
     set_motion(plan, facts.changes);

@@ -24,6 +24,7 @@ struct StepPlan {
     bool gravity_energy = true;   // is measured
     bool keep_work_space = true;  // pattern of the matrix and all sizes stay from step to step
     bool measures = true;         // energy, strain and speed
+    bool ledger = false;          // what becomes of energy
     bool rest = true;             // cloth at rest falls asleep
     bool everything = false;      // nothing is skipped that could be done
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ledger.h"
 #include "scripted_motion.h"
 #include "support/stage_timer.h"
 
@@ -29,9 +30,23 @@ void evaluate_at(World& world, const ClothState& state) {
     evaluate_forces(input, space.forces);
 }
 
-/// Work of moving pins in an explicit step, J: what their kinetic energy gained less the work of the mean of the forces at both
-/// ends.
+/// Work of moving pins in a step of symplectic Euler, J: their impulses M (v - v_n) - dt f times their velocities v, f being the
+/// forces at the start, as the step left them.
+double symplectic_work(const World& world) {
+    const double dt = world.settings.time_step;
+    double work = 0.0;
+    for (int i = 0; i < world.model.vertex_count(); ++i) {
+        if (world.script.free[i] > 0.0) continue;
+        const Vec3 velocity = world.state.velocities.at(i), change = velocity - world.before.velocities.at(i);
+        work += velocity.dot(world.model.mass[i] * change - dt * world.explicit_space.forces.total.at(i));
+    }
+    return work;
+}
+
+/// Work of moving pins in another explicit step, J: what their kinetic energy gained less the work of the mean of the forces at
+/// both ends.
 double explicit_work(World& world) {
+    if (world.settings.scheme == Scheme::symplectic_euler) return symplectic_work(world);
     evaluate_at(world, world.before);
     world.explicit_space.start_forces = world.explicit_space.forces.total;
     evaluate_at(world, world.state);
@@ -61,6 +76,7 @@ void solve_explicit(World& world) {
         step_symplectic_euler(part, world.explicit_space, world.state);
     }
     if (world.plan.pin_work) world.report.energy.work = explicit_work(world);
+    if (world.plan.ledger) account_explicit(world);
 }
 
 /// Work of pins and obstacles during the part just solved, J: a pin's reaction is what its residual lacks, M (v - v_n) - dt f.
@@ -174,11 +190,18 @@ void fail(World& world, NewtonEnd end) {
 
 bool may_halve(const World& world, int depth) { return depth < most_halvings && world.settings.newton_iterations > 1; }
 
+/// Work, and the ledger if it is kept, of the part just solved.
+void account(World& world, StepFraction span) {
+    const double dt = world.settings.time_step * (span.to - span.from);
+    world.report.energy.work += script_work(world, dt);
+    if (world.plan.ledger) account_part(world, dt);
+}
+
 /// Solves a span of the step; false after a failure that halving could not mend.
 bool solve_span(World& world, StepFraction span, int depth) {
     const NewtonReport part = solve_part(world, span);
     if (part.end == NewtonEnd::converged) {
-        world.report.energy.work += script_work(world, world.settings.time_step * (span.to - span.from));
+        account(world, span);
         return true;
     }
     if (may_halve(world, depth)) {
@@ -192,7 +215,7 @@ bool solve_span(World& world, StepFraction span, int depth) {
     }
     if (part.end == NewtonEnd::iterations_used) {
         world.report.status = StepStatus::not_converged;
-        world.report.energy.work += script_work(world, world.settings.time_step * (span.to - span.from));
+        account(world, span);
         return true;
     }
     fail(world, part.end);
@@ -203,6 +226,7 @@ bool solve_span(World& world, StepFraction span, int depth) {
 
 void solve_step(World& world) {
     if (!world.plan.solve) return world.state.velocities.resize(world.model.vertex_count());
+    world.ledger.contact = world.contact_energy;
     if (!world.plan.implicit) return solve_explicit(world);
     if (!world.plan.keep_work_space) {
         const LinearSolver solver = world.newton.solver.in_use();

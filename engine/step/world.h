@@ -36,6 +36,12 @@ struct UserViews {
     std::vector<double> masses;    // kg
 };
 
+/// What the ledger of energy goes by within a step.
+struct LedgerSpace {
+    double contact = 0.0;           // J, energy of contact where the coming part begins
+    Vectors positions, velocities;  // m, m/s, of a state within the step
+};
+
 /// Everything one simulation holds.
 struct World {
     std::unique_ptr<ThreadPool> pool;  // with more than one thread
@@ -60,6 +66,7 @@ struct World {
     std::vector<ObstacleFlow> flows;
     double contact_energy = 0.0;  // J, of the current state
     double contact_dt = 0.0;      // s, that the contact stiffness was last made for
+    LedgerSpace ledger;
     UserViews views;
     StepReport report;
 };

@@ -10,7 +10,7 @@ enum class Scheme { symplectic_euler, rk4, backward_euler };
 enum class LinearSolver { automatic, cg, multigrid, direct };
 enum class ContactResponse { penalty, projection };
 enum class DampingForm { length_rate, velocity };
-enum class StepMeasures { all, none };
+enum class StepMeasures { all, none, ledger };
 enum class StartRule { repair, refuse };
 
 /// How the simulation steps. Ranges and sentences of every field: options.h.
@@ -25,7 +25,8 @@ struct StepSettings {
     /// length_rate: kd (l - l_n)/dt along the current direction, backward Euler only; velocity: kd (v_ij . d).
     DampingForm damping_form = DampingForm::length_rate;
     int threads = 1;  // of one simulation; same bits for any number
-    /// none: a step report has no energy, strain and speed (NaN); Simulation::energy still tells on demand.
+    /// none: a step report has no energy, strain and speed (NaN); Simulation::energy still tells on demand. ledger: it also says
+    /// what became of energy (StepEnergy).
     StepMeasures measure = StepMeasures::all;
     /// repair: cloth that starts through, inside or touching an obstacle is moved out before the first step, as
     /// Simulation::start_repair tells; refuse: such a start is an error.
