@@ -10,11 +10,6 @@ namespace percale {
 /// Every entry is computed from its own forces, none as what the others leave.
 void account_part(World& world, double dt);
 
-/// The same for an explicit step. Symplectic Euler: the Bregman terms are those of forces at the start, so that springs give what
-/// the kinetic term 1/2 |v - v_n|_M^2 takes. Other schemes: material by Simpson's rule, nothing known of the integrator: the
-/// imbalance is the scheme's own energy error.
-void account_explicit(World& world);
-
 /// Writes the imbalance of the accepted step, whose energies are in the report.
 void close_ledger(World& world, const StepEnergy& start);
 

@@ -6,6 +6,7 @@
 
 #include "ledger.h"
 #include "scripted_motion.h"
+#include "span_ledger.h"
 #include "support/stage_timer.h"
 
 namespace percale {
@@ -30,23 +31,9 @@ void evaluate_at(World& world, const ClothState& state) {
     evaluate_forces(input, space.forces);
 }
 
-/// Work of moving pins in a step of symplectic Euler, J: their impulses M (v - v_n) - dt f times their velocities v, f being the
-/// forces at the start, as the step left them.
-double symplectic_work(const World& world) {
-    const double dt = world.settings.time_step;
-    double work = 0.0;
-    for (int i = 0; i < world.model.vertex_count(); ++i) {
-        if (world.script.free[i] > 0.0) continue;
-        const Vec3 velocity = world.state.velocities.at(i), change = velocity - world.before.velocities.at(i);
-        work += velocity.dot(world.model.mass[i] * change - dt * world.explicit_space.forces.total.at(i));
-    }
-    return work;
-}
-
-/// Work of moving pins in another explicit step, J: what their kinetic energy gained less the work of the mean of the forces at
-/// both ends.
+/// Work of moving pins in an explicit step, J: what their kinetic energy gained less the work of the mean of the forces at both
+/// ends.
 double explicit_work(World& world) {
-    if (world.settings.scheme == Scheme::symplectic_euler) return symplectic_work(world);
     evaluate_at(world, world.before);
     world.explicit_space.start_forces = world.explicit_space.forces.total;
     evaluate_at(world, world.state);
@@ -76,7 +63,9 @@ void solve_explicit(World& world) {
         step_symplectic_euler(part, world.explicit_space, world.state);
     }
     if (world.plan.pin_work) world.report.energy.work = explicit_work(world);
-    if (world.plan.ledger) account_explicit(world);
+    if (!world.plan.ledger) return;
+    const ClothState& start = world.before;
+    account_explicit(world, {start.positions, start.velocities, world.settings.time_step}, world.report.energy.work);
 }
 
 /// Work of pins and obstacles during the part just solved, J: a pin's reaction is what its residual lacks, M (v - v_n) - dt f.

@@ -38,8 +38,9 @@ struct UserViews {
 
 /// What the ledger of energy goes by within a step.
 struct LedgerSpace {
-    double contact = 0.0;           // J, energy of contact where the coming part begins
-    Vectors positions, velocities;  // m, m/s, of a state within the step
+    double contact = 0.0;  // J, energy of contact where the coming part begins
+    ClothState stage;      // in which forces are taken; without points
+    Vectors impulse;       // N s, that the forces taken so far give
 };
 
 /// Everything one simulation holds.

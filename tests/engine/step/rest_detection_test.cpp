@@ -1,5 +1,6 @@
 #include "engine/step/rest_detection.h"
 
+#include <cmath>
 #include <functional>
 
 #include "engine/step/step.h"
