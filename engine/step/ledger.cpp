@@ -2,6 +2,7 @@
 
 #include "forces/contact_loss.h"
 #include "forces/spring_loss.h"
+#include "span_ledger.h"
 
 namespace percale {
 namespace {
@@ -52,9 +53,7 @@ void account_contact(World& world, double dt) {
     world.ledger.contact = move.terms.energy + grip_energy(move.terms.touches);
 }
 
-}  // namespace
-
-void account_part(World& world, double dt) {
+void account_backward_euler(World& world, double dt) {
     const NewtonSpace& newton = world.newton;
     const NewtonPoint& end = newton.current;
     const SpringLoss springs = spring_loss(world.model.springs, {.start = newton.start_positions,
@@ -68,6 +67,13 @@ void account_part(World& world, double dt) {
     energy.dissipated_integrator += springs.integrator + velocity_loss(world, newton.start_velocities, end.velocities);
     energy.residual_work += dot(world.compute, end.residual, end.velocities);
     if (world.plan.contacts) account_contact(world, dt);
+}
+
+}  // namespace
+
+void account_implicit(World& world, double dt, double work) {
+    if (world.plan.scheme == Scheme::backward_euler) return account_backward_euler(world, dt);
+    account_stages(world, {world.stages.start.positions, world.stages.start.velocities, dt}, work);
 }
 
 void close_ledger(World& world, const StepEnergy& start) {

@@ -25,11 +25,16 @@ struct Unbalanced {
     double free = 0.0, prescribed = 0.0;
 };
 
-/// Adds what the forces taken so far and the change of velocities mean to the ledger. What the scheme's forces make the work of
-/// pins differ from that reported is the integrator's: `work` is the latter, J, of this span.
-Unbalanced account_span(World& world, const LedgerSpan& span, double work);
+/// Adds what the forces taken so far and the change of velocities mean to the ledger. What the scheme's forces make of the work
+/// of pins is left to the caller: that reported is another, of second order, and the difference is the integrator's.
+Unbalanced account_span(World& world, const LedgerSpan& span);
 
-/// The span ledger of an explicit scheme, whose stages follow from the start.
-void account_explicit(World& world, const LedgerSpan& span, double work);
+/// The account of a step of an explicit scheme, whose stages follow from the start; without the work of pins that is reported.
+void account_explicit(World& world, const LedgerSpan& span);
+
+/// The account of a span that an implicit scheme other than backward Euler just solved; `work` of pins and obstacles, J, is
+/// reported. BDF2 also gives momentum from the step before: the integrator's. In contact (TR-BDF2) all that contact forces take,
+/// friction included, is in dissipated_contact.
+void account_stages(World& world, const LedgerSpan& span, double work);
 
 }  // namespace percale

@@ -23,6 +23,7 @@ Vec3 span(const SolverScene& scene) { return scene.state.positions.at(0) - scene
 
 /// How far n steps of free fall lead, in g dt^2: schemes of first order move with the velocity at one end of the step.
 double fallen(Scheme scheme, int n) {
+    if (scheme == Scheme::forward_euler) return 0.5 * n * (n - 1);
     const bool late = scheme == Scheme::symplectic_euler || scheme == Scheme::backward_euler;
     return late ? 0.5 * n * (n + 1) : 0.5 * n * n;
 }

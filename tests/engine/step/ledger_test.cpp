@@ -11,7 +11,7 @@ namespace percale::test {
 namespace {
 
 StepSettings settings_of(Scheme scheme) {
-    return {.time_step = facts_of(scheme).implicit ? 1.0 / 60.0 : 2e-4, .scheme = scheme, .measure = StepMeasures::ledger};
+    return {.time_step = facts_of(scheme).implicit ? 1.0 / 60.0 : 5e-5, .scheme = scheme, .measure = StepMeasures::ledger};
 }
 
 /// A sheet thrown about, with one corner that is carried along.

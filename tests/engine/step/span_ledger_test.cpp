@@ -23,7 +23,7 @@ World thrown_links(Scheme scheme, double damping) {
     return world;
 }
 
-constexpr Scheme explicit_ones[] = {Scheme::symplectic_euler, Scheme::rk4};
+constexpr Scheme explicit_ones[] = {Scheme::forward_euler, Scheme::symplectic_euler, Scheme::midpoint, Scheme::rk4};
 
 }  // namespace
 
@@ -66,6 +66,44 @@ TEST_CASE("RK4's own loss in a step falls at least with the fifth power of its l
         CAPTURE(dt, energy.dissipated_integrator);
         if (before != 0.0) CHECK(before / std::abs(energy.dissipated_integrator) > 25.0);
         before = std::abs(energy.dissipated_integrator);
+    }
+}
+
+TEST_CASE("An implicit scheme's account of a step is exact, pins that move and steps that adapt included") {
+    for (const Scheme scheme : {Scheme::implicit_midpoint, Scheme::trapezoid, Scheme::bdf2, Scheme::tr_bdf2}) {
+        for (const bool adaptive : {false, true}) {
+            World world = thrown_links(scheme, 0.5);
+            world.settings.time_step = 0.01;
+            world.settings.adaptive = adaptive;
+            world.settings.tolerance = 1e-2;
+            world.script.free[3] = 0.0;
+            world.state.velocities.set(3, Vec3::Zero());
+            int parts = 0;
+            for (int n = 0; n < 20; ++n) {
+                world.script.pin_targets.set(3, world.state.positions.at(3) + 1e-2 * Vec3(1.0, -0.1 * n, 0.3));
+                const StepReport report = step(world);
+                REQUIRE(report.ok());
+                parts = std::max(parts, report.parts);
+                CAPTURE(static_cast<int>(scheme), adaptive, n, report.energy.imbalance);
+                CHECK(report.energy.closure() < 1e-13);
+                CHECK(report.energy.work != 0.0);
+            }
+            CHECK((parts > 1) == adaptive);
+        }
+    }
+}
+
+TEST_CASE("Implicit midpoint and trapezoid take nothing from a linear oscillator") {
+    for (const Scheme scheme : {Scheme::implicit_midpoint, Scheme::trapezoid}) {
+        World world = make_world(linked_masses({1.0, 2.0}, {{0, 1, 1.0, 50.0, 0.0}}), {Vec3(1.2, 0, 0), Vec3::Zero()},
+                                 {.time_step = 0.02,
+                                  .scheme = scheme,
+                                  .newton_tolerance = 1e-12,
+                                  .measure = StepMeasures::ledger,
+                                  .gravity = Vec3::Zero()});
+        double lost = 0.0;
+        for (int n = 0; n < 50; ++n) lost = std::max(lost, std::abs(step(world).energy.dissipated_integrator));
+        CHECK(lost < 1e-12);
     }
 }
 
