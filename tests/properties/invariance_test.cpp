@@ -111,6 +111,25 @@ TEST_CASE("Lengths, times and masses may be measured in other units", "[law]") {
               1e-9);
 }
 
+TEST_CASE("Masses and forces may be measured in other units", "[law]") {
+    const auto sheet = [](Scheme scheme, double scale) {
+        Simulation simulation(tight(scheme));
+        Fabric fabric = free_fabric();
+        fabric.area_density *= scale;
+        fabric.springs.structural *= scale;
+        fabric.springs.bend *= scale;
+        fabric.spring_damping *= scale;
+        const ClothId cloth = simulation.add_cloth(free_sheet(), fabric);
+        simulation.pin(cloth, 0);
+        for (int n = 0; n < steps_of(scheme); ++n) REQUIRE(simulation.step().ok());
+        return copy(simulation.positions(cloth));
+    };
+    for (const Scheme scheme : all_schemes) {
+        check_law("masses and forces in other units, " + word(scheme) + ": largest difference, m",
+                  largest_difference(sheet(scheme, 1.0), sheet(scheme, 3.0)), 1e-9);
+    }
+}
+
 TEST_CASE("Two runs of the same scene have the same bits in every step") {
     for (const bool contact : {false, true}) {
         std::vector<std::uint64_t> hashes[2];
