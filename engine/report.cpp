@@ -1,5 +1,7 @@
 #include "percale/report.h"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace percale {
@@ -42,6 +44,22 @@ std::string failure_text(const StepReport& report) {
 }
 
 }  // namespace
+
+double StepEnergy::closure() const {
+    double largest = 0.0;
+    for (const double entry : {kinetic, gravity, elastic, contact, work, dissipated_material, dissipated_friction,
+                               dissipated_contact, dissipated_integrator, residual_work}) {
+        largest = std::max(largest, std::abs(entry));
+    }
+    return largest > 0.0 ? std::abs(imbalance) / largest : std::abs(imbalance);
+}
+
+void add_step_energy(const StepEnergy& step, StepEnergy& sum) {
+    const StepEnergy before = sum;
+    sum = step;
+    sum.work += before.work;
+    for (const auto entry : ledger_entries) sum.*entry += before.*entry;
+}
 
 const char* status_word(StepStatus status) {
     switch (status) {

@@ -154,9 +154,7 @@ void add_accepted(RunTotals& totals, const StepReport& report) {
     totals.smallest_step_s = std::min(totals.smallest_step_s, report.smallest_dt);
     totals.largest_step_s = std::max(totals.largest_step_s, report.dt);
     totals.largest_residual = std::max(totals.largest_residual, report.residual);
-    const double work = totals.energy.work + report.energy.work;
-    totals.energy = report.energy;
-    totals.energy.work = work;
+    add_step_energy(report.energy, totals.energy);
 }
 
 bool changes_gravity(const Scene& scene) {

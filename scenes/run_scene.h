@@ -40,7 +40,7 @@ struct RunTotals {
     StageTimes stages;               // CPU seconds
     double cpu_s = 0.0;              // CPU seconds of all threads inside steps only
     double wall_s = 0.0;             // whole run, output included
-    StepEnergy energy;               // J, at the end; work is the sum over the run
+    StepEnergy energy;               // J, at the end; what flows is summed over the run
 };
 
 struct RunResult {

@@ -86,10 +86,15 @@ void add_friction(const ContactStep& step, const Vectors& positions, Touch& touc
     terms.obstacle_power += force.dot(touch.flow) * step.obstacle_rate;
 }
 
+struct Rubbing {
+    Vec3 force;    // N
+    double power;  // W, that it takes
+};
+
 /// Friction force between two cloths pressed by `normal_force`, and its matrix added to `block`: against the velocity of one
 /// relative to the other, growing linearly below the stick speed.
-Vec3 friction_between_cloths(const ContactRows& rows, std::size_t row, double normal_force, const ContactStep& step,
-                             const Vectors& positions, ContactBlock& block) {
+Rubbing friction_between_cloths(const ContactRows& rows, std::size_t row, double normal_force, const ContactStep& step,
+                                const Vectors& positions, ContactBlock& block) {
     const Vec3& n = rows.direction[row];
     const double limit = rows.friction[row] * normal_force;
     Vec3 slip = Vec3::Zero();
@@ -102,12 +107,12 @@ Vec3 friction_between_cloths(const ContactRows& rows, std::size_t row, double no
     // Sliding: friction at its limit cannot stop the point within the step.
     if (speed > stick_speed && speed * mass > step.dt * limit) {
         add_tangent_block(block.k, step.dt * limit / speed, n, slip / speed);
-        return -limit / speed * slip;
+        return {-limit / speed * slip, limit * speed};
     }
     const double y = speed / stick_speed;
     const double damping = !step.previous || y < 1.0 ? limit * (2.0 - std::min(y, 1.0)) / stick_speed : limit / speed;
     add_tangent_block(block.k, step.dt * damping, n, Vec3::Zero());
-    return -damping * slip;
+    return {-damping * slip, damping * speed * speed};
 }
 
 }  // namespace
@@ -125,7 +130,7 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
                  ContactTerms& terms) {
     terms.blocks.clear();
     terms.touches.clear(positions.padded_size());
-    terms.energy = terms.largest_stiffness = terms.obstacle_power = 0.0;
+    terms.energy = terms.largest_stiffness = terms.obstacle_power = terms.rubbing_power = 0.0;
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const double stiffness = row_stiffness(rows, row, step);
         const ContactPotential potential = contact_potential(rows.distance[row], rows.thickness[row], stiffness);
@@ -133,7 +138,11 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
         add_normal_block(block.k, step.dt * step.dt * potential.curvature, rows.direction[row]);
         Vec3 force = potential.slope * rows.direction[row];
         const bool rubs = step.friction && rows.friction[row] * potential.slope > 0.0, on_obstacle = rows.obstacle[row] >= 0;
-        if (rubs && !on_obstacle) force += friction_between_cloths(rows, row, potential.slope, step, positions, block);
+        if (rubs && !on_obstacle) {
+            const Rubbing rubbing = friction_between_cloths(rows, row, potential.slope, step, positions, block);
+            force += rubbing.force;
+            terms.rubbing_power += rubbing.power;
+        }
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) forces.add(block.vertex[k], block.weight[k] * force);
         terms.blocks.push_back(block);
         terms.energy += potential.energy;

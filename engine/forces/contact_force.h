@@ -63,6 +63,7 @@ struct ContactTerms {
     double energy = 0.0;             // J, without friction
     double largest_stiffness = 0.0;  // N/m
     double obstacle_power = 0.0;     // W, of the obstacles on the cloth
+    double rubbing_power = 0.0;      // W, that friction between cloths takes
 };
 
 /// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms`. Between cloths the velocity is the relative

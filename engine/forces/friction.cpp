@@ -74,6 +74,15 @@ void set_slip(const FrictionStart& start, const Vec3& position, double fraction,
 
 Vec3 friction_force(const Touch& touch) { return -touch.press.norm() / std::max(touch.slip.norm(), touch.reach) * touch.slip; }
 
+double grip_energy(const Touches& touches) {
+    double energy = 0.0;
+    for (const Touch& touch : touches.all) {
+        const double stretch = std::min(touch.slip.norm(), touch.reach);
+        energy += 0.5 * touch.press.norm() / touch.reach * stretch * stretch;
+    }
+    return energy;
+}
+
 void set_grips(const Touches& touches, std::vector<Grip>& grips) {
     grips.clear();
     for (const Touch& touch : touches.all) {

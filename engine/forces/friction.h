@@ -57,6 +57,9 @@ void set_slip(const FrictionStart& start, const Vec3& position, double fraction,
 /// Coulomb's law with a spring that sticks: -press/reach slip up to the reach, press against the slip beyond.
 Vec3 friction_force(const Touch& touch);
 
+/// Energy of the springs by which touches hold, J.
+double grip_energy(const Touches& touches);
+
 /// The grips that touches leave behind: of a sliding one the point held is dragged along.
 void set_grips(const Touches& touches, std::vector<Grip>& grips);
 

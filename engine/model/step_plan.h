@@ -11,6 +11,7 @@ namespace percale {
 
 /// What a step of this scene needs, decided once when the scene changes. Motion alone is known step by step (set_motion).
 struct StepPlan {
+    Scheme scheme = Scheme::backward_euler;
     bool implicit = true;         // Newton and a matrix; otherwise an explicit update
     bool free_vertices = true;    // there are vertices that are not pinned
     bool solve = true;            // the coming step: a vertex is free, a pin moves, or contact has to be checked
@@ -24,6 +25,7 @@ struct StepPlan {
     bool gravity_energy = true;   // is measured
     bool keep_work_space = true;  // pattern of the matrix and all sizes stay from step to step
     bool measures = true;         // energy, strain and speed
+    bool ledger = false;          // what becomes of energy
     bool rest = true;             // cloth at rest falls asleep
     bool everything = false;      // nothing is skipped that could be done
 };
@@ -37,6 +39,7 @@ struct ClothFacts {
 
 /// What the plan is made from.
 struct SceneFacts {
+    Scheme chosen = Scheme::backward_euler;  // where the settings leave it open
     int cloth_vertices = 0;
     int pinned_vertices = 0;
     int cloth_triangles = 0;

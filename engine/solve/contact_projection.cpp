@@ -120,7 +120,7 @@ void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces)
     const ContactRows& rows = *point.rows;
     ContactTerms& terms = forces.terms;
     terms.blocks.clear();
-    terms.energy = terms.largest_stiffness = terms.obstacle_power = 0.0;
+    terms.energy = terms.largest_stiffness = terms.obstacle_power = terms.rubbing_power = 0.0;
     forces.rows.clear();
     for (std::size_t row = 0; row < rows.size(); ++row) {
         ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}, .row = static_cast<int>(row)};

@@ -46,6 +46,7 @@ void fall_asleep(World& world) {
     world.state.velocities.resize(world.model.vertex_count());
     // Zero, or still NaN where it is not measured.
     world.report.largest_speed *= 0.0;
+    world.report.energy.dissipated_integrator += world.report.energy.kinetic;
     world.report.energy.kinetic *= 0.0;
     const StepReport& last = world.report;
     rest.figures = {};
@@ -60,6 +61,7 @@ void fall_asleep(World& world) {
     rest.figures.largest_speed = last.largest_speed;
     rest.figures.energy = last.energy;
     rest.figures.energy.work *= 0.0;
+    for (const auto entry : ledger_entries) rest.figures.energy.*entry *= 0.0;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "rest_detection.h"
 #include "solve/explicit_update.h"
 #include "solve/newton.h"
+#include "step_control.h"
 
 namespace percale {
 
@@ -36,6 +37,27 @@ struct UserViews {
     std::vector<double> masses;    // kg
 };
 
+/// What implicit schemes other than backward Euler, and adaptive steps, need beside it.
+struct StageSpace {
+    StageBase base;
+    ClothState start, earlier;    // of the span being solved, and one before it; without points
+    double earlier_length = 0.0;  // s, from `earlier` to the present state; 0: nothing is known of it
+    Vectors acceleration;         // m/s^2, at the start of the stage; of BDF2 kept to the next step
+    Vectors scratch;
+    double obstacle_work = 0.0;  // J, of the span
+    double error = 0.0;          // m, estimated, of the spans since it was set to 0
+    ClothState attempt;          // before an adaptive attempt
+    StepControl control;
+};
+
+/// What the ledger of energy goes by within a step.
+struct LedgerSpace {
+    double contact = 0.0;  // J, energy of contact where the coming part begins
+    ClothState stage;      // in which forces are taken; without points
+    ClothState start;      // of a part of an explicit step; likewise
+    Vectors impulse;       // N s, that the forces taken so far give
+};
+
 /// Everything one simulation holds.
 struct World {
     std::unique_ptr<ThreadPool> pool;  // with more than one thread
@@ -55,11 +77,13 @@ struct World {
     // Work space and what the running step found so far.
     NewtonSpace newton;
     ExplicitSpace explicit_space;
+    StageSpace stages;
     ClothState before;  // the state at the start of the running step
     Vectors part_targets;
     std::vector<ObstacleFlow> flows;
     double contact_energy = 0.0;  // J, of the current state
     double contact_dt = 0.0;      // s, that the contact stiffness was last made for
+    LedgerSpace ledger;
     UserViews views;
     StepReport report;
 };

@@ -65,8 +65,17 @@ void put_contact_and_energy(ordered_json& json, const RunTotals& totals) {
     const StepEnergy& e = totals.energy;
     json["contacts_most"] = totals.contacts_most;
     json["contact_stiffness"] = totals.contact_stiffness;
-    json["energy"] = {
-        {"kinetic", e.kinetic}, {"gravity", e.gravity}, {"elastic", e.elastic}, {"contact", e.contact}, {"work", e.work}};
+    json["energy"] = {{"kinetic", e.kinetic},
+                      {"gravity", e.gravity},
+                      {"elastic", e.elastic},
+                      {"contact", e.contact},
+                      {"dissipated_material", e.dissipated_material},
+                      {"dissipated_friction", e.dissipated_friction},
+                      {"dissipated_contact", e.dissipated_contact},
+                      {"dissipated_integrator", e.dissipated_integrator},
+                      {"residual_work", e.residual_work},
+                      {"work", e.work},
+                      {"closure", e.closure()}};
 }
 
 void put_measures(ordered_json& json, const Measures& m) {

@@ -35,6 +35,18 @@ TEST_CASE("Every status has a word of its own") {
     CHECK(words.count("unknown") == 0);
 }
 
+TEST_CASE("A ledger's sum adds what flows and shows the energies of the last step") {
+    const StepEnergy first{.kinetic = 1.0, .work = 2.0, .dissipated_material = 0.5, .imbalance = 0.25};
+    const StepEnergy second{.kinetic = 3.0, .work = 1.0, .dissipated_contact = -1.0, .imbalance = -0.75};
+    StepEnergy sum;
+    add_step_energy(first, sum);
+    add_step_energy(second, sum);
+    CHECK((sum.kinetic == 3.0 && sum.work == 3.0 && sum.imbalance == -0.5));
+    CHECK(sum.dissipated() == -0.5);
+    CHECK(sum.closure() == Approx(0.5 / 3.0));
+    CHECK(StepEnergy{}.closure() == 0.0);
+}
+
 TEST_CASE("A step is good unless pins, obstacles or infinities stopped it") {
     for (const StepStatus status : all_statuses) {
         const bool good = status == StepStatus::ok || status == StepStatus::halved || status == StepStatus::not_converged;

@@ -231,6 +231,23 @@ TEST_CASE("a reference that is missing or of another size is refused before anyt
     CHECK_FALSE(begun);
 }
 
+TEST_CASE("a run's ledger is the sum of its steps and closes") {
+    const Recorded plain = record(scene_of(sheet_on_box()));
+    const Recorded ledger = record(scene_of(sheet_on_box(), {{"step.measure", "ledger"}}));
+    CHECK(ledger.hashes == plain.hashes);
+    CHECK(std::isnan(plain.result.totals.energy.dissipated()));
+    const StepEnergy& energy = ledger.result.totals.energy;
+    double friction = 0.0, integrator = 0.0;
+    for (const StepReport& report : ledger.steps) {
+        friction += report.energy.dissipated_friction;
+        integrator += report.energy.dissipated_integrator;
+    }
+    CHECK(energy.dissipated_friction == friction);
+    CHECK(energy.dissipated_integrator == integrator);
+    CHECK(energy.dissipated_integrator > 0.0);
+    CHECK(energy.closure() < 1e-11);
+}
+
 TEST_CASE("what steps do not measure is left open, and the rest is the same bit for bit") {
     const Recorded all = record(scene_of(sheet_on_box()));
     const Recorded none = record(scene_of(sheet_on_box(), {{"step.measure", "none"}}));

@@ -124,6 +124,14 @@ def prove_no_bending(runner):
     return springs['bend'] == 0 and abs(each[1] / each[0] - 1) < 0.05
 
 
+def prove_no_ledger(runner):
+    """Without step.measure = "ledger" nothing of the ledger runs."""
+    spent = [sum(n for f, n in runner.counted(*options).items() if 'spring_loss' in f or 'account_part' in f)
+             for options in ((), ('--set', 'step.measure="ledger"'))]
+    print(f'ledger of energy: {spent[0]} instructions, {spent[1]} where it is asked for')
+    return spent[0] == 0 and spent[1] > 0
+
+
 def main(program, collision, others):
     if shutil.which('valgrind') is None:
         print('cost proofs skipped: valgrind is not installed')
@@ -132,7 +140,7 @@ def main(program, collision, others):
     with tempfile.TemporaryDirectory() as folder:
         runner = Runner(program, Path(folder))
         proofs = {'no obstacles, no collision': prove_no_collision(runner, functions), 'sleep': prove_sleep(runner),
-                  'no bending': prove_no_bending(runner)}
+                  'no bending': prove_no_bending(runner), 'no ledger': prove_no_ledger(runner)}
     for name, good in proofs.items():
         print(f'{name}: {"proven" if good else "FAILED"}')
     return 0 if all(proofs.values()) else 1

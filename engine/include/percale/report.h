@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -33,13 +34,33 @@ struct StageTimes {
     }
 };
 
-/// Energies in J at the end of the step; the dissipated ones and the work are those of this step.
+/// Energies at the end of a step and what became of energy during it, J. All but the first five entries are NaN unless
+/// StepSettings::measure is `ledger`.
 struct StepEnergy {
-    double kinetic = 0.0, gravity = 0.0, elastic = 0.0, contact = 0.0;
-    double work = 0.0;  // of pins and obstacles on the cloth during this step
+    double kinetic = 0.0, gravity = 0.0, elastic = 0.0;
+    double contact = 0.0;  // of contact and of the springs by which friction holds
+    double work = 0.0;     // of pins and obstacles on the cloth
+
+    double dissipated_material = 0.0;    // by the damping of springs
+    double dissipated_friction = 0.0;    // friction force times slip
+    double dissipated_contact = 0.0;     // contacts, or their stiffness, are not those that the energy was stored in
+    double dissipated_integrator = 0.0;  // by the scheme; negative: gained
+    double residual_work = 0.0;          // given by the forces that the solver left unbalanced
+    double imbalance = 0.0;              // change of total() + dissipated() - residual_work - work
 
     double total() const { return kinetic + gravity + elastic + contact; }
+    double dissipated() const { return dissipated_material + dissipated_friction + dissipated_contact + dissipated_integrator; }
+    /// |imbalance| relative to the largest of the other entries; 0 where all are 0.
+    double closure() const;
 };
+
+/// The entries of the ledger: those that only StepMeasures::ledger fills.
+inline constexpr std::array<double StepEnergy::*, 6> ledger_entries = {
+    &StepEnergy::dissipated_material,   &StepEnergy::dissipated_friction, &StepEnergy::dissipated_contact,
+    &StepEnergy::dissipated_integrator, &StepEnergy::residual_work,       &StepEnergy::imbalance};
+
+/// Adds what flowed in another step (work and the ledger) to `sum`; its energies become those at the end of that step.
+void add_step_energy(const StepEnergy& step, StepEnergy& sum);
 
 /// What one step did. A failed step leaves positions and velocities as they were. Energy, strain and speed are NaN where
 /// StepSettings::measure leaves them out.
@@ -48,6 +69,9 @@ struct StepReport {
     double time = 0.0;         // s, at the end of the step
     double dt = 0.0;           // s
     double smallest_dt = 0.0;  // s, of the parts the step was solved in
+    double largest_dt = 0.0;   // s, likewise
+    int parts = 1;             // accepted lengths that an adaptive step consists of
+    int rejected = 0;          // lengths that it tried and found too inexact
     int newton_iterations = 0;
     int linear_iterations = 0;
     int line_search_cuts = 0;

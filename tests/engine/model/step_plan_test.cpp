@@ -150,6 +150,11 @@ TEST_CASE("Measures are left out where the setting says so") {
     const StepSettings none{.measure = StepMeasures::none};
     CHECK_FALSE(make_step_plan(none, sheet_facts()).measures);
     CHECK(skips(none, sheet_facts(), "energy, strain and speed"));
+    CHECK(skips(none, sheet_facts(), "ledger of energy"));
+    CHECK(skips({}, sheet_facts(), "ledger of energy"));
+    const StepSettings ledger{.measure = StepMeasures::ledger};
+    CHECK((make_step_plan(ledger, sheet_facts()).ledger && make_step_plan(ledger, sheet_facts()).measures));
+    CHECK_FALSE(skips(ledger, sheet_facts(), "ledger of energy"));
     SceneFacts facts = sheet_facts();
     facts.changes.pins = true;
     CHECK_FALSE(make_step_plan(none, facts).pin_work);

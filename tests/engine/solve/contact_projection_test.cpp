@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/solve/newton.h"
+#include "tests/support/laws.h"
 #include "tests/support/plane_scenes.h"
 
 namespace percale::test {
@@ -208,7 +209,7 @@ TEST_CASE("A plane that moves carries projected cloth along and up") {
     CHECK(scene.state.positions.at(5).y() == Approx(start.y() + 120 * way.y()).margin(1e-6));
 }
 
-TEST_CASE("The threshold between sticking and sliding of projected cloth is the tangent of the angle") {
+TEST_CASE("The threshold between sticking and sliding of projected cloth is the tangent of the angle", "[law]") {
     const double angle = std::atan(0.5);
     double sticks = 1.0, slides = 0.1;
     while (sticks - slides > 2e-4) {
@@ -217,8 +218,7 @@ TEST_CASE("The threshold between sticking and sliding of projected cloth is the 
         run(scene, 120);
         (mean_velocity(scene).norm() < 1e-6 ? sticks : slides) = mu;
     }
-    CAPTURE(sticks);
-    CHECK(std::abs(sticks - 0.5) < 1e-3);
+    check_law("slope of 1 : 2, projection: error of the friction coefficient at which it sticks", std::abs(sticks - 0.5), 1e-3);
 }
 
 }  // namespace percale::test

@@ -38,7 +38,7 @@ SolverScene scene_without_jacobians(int iterations) {
 
 }  // namespace
 
-TEST_CASE("With Jacobians of zero and one iteration backward Euler is symplectic Euler, bit for bit") {
+TEST_CASE("With Jacobians of zero and one iteration backward Euler is symplectic Euler, bit for bit", "[law]") {
     SolverScene implicit = scene_without_jacobians(1), explicit_one = scene_without_jacobians(1);
     for (int n = 0; n < 200; ++n) {
         implicit.step_implicit();

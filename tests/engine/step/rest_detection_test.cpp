@@ -1,5 +1,6 @@
 #include "engine/step/rest_detection.h"
 
+#include <cmath>
 #include <functional>
 
 #include "engine/step/step.h"
@@ -60,6 +61,7 @@ TEST_CASE("A sheet that has come to rest sleeps: time passes, nothing moves, not
         CHECK(report.dt == dt);
         CHECK((report.largest_speed == 0.0 && report.energy.kinetic == 0.0 && report.energy.work == 0.0));
         CHECK(report.energy.elastic == energy.elastic);
+        CHECK(std::isnan(report.energy.dissipated()));
     }
     CHECK(sheet.simulation.state_hash() == state);
     CHECK(sheet.detector->refreshes == refreshes);

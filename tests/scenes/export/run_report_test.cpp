@@ -128,8 +128,31 @@ TEST_CASE("what was not computed is left out, and infinity is null") {
     CHECK(json.at("smallest_distance").is_null());
     CHECK(json.at("worst_frame").is_null());
     CHECK_FALSE(json.contains("matches"));
-    CHECK_FALSE(json.at("energy").contains("closure"));
+    CHECK(json.at("energy").at("closure") == 0.0);
     CHECK(json.at("linear_solver") == "none");
+}
+
+TEST_CASE("the report has every entry of the ledger, null where it was not kept") {
+    RunResult result;
+    StepEnergy& energy = result.totals.energy;
+    energy = {.kinetic = 2.0,
+              .work = 4.0,
+              .dissipated_material = 0.5,
+              .dissipated_friction = 0.25,
+              .residual_work = 0.125,
+              .imbalance = 1.0};
+    const ordered_json kept = report_of(built(falling_sheet()), result).at("energy");
+    CHECK(kept.at("dissipated_material") == 0.5);
+    CHECK(kept.at("dissipated_friction") == 0.25);
+    CHECK(kept.at("dissipated_contact") == 0.0);
+    CHECK(kept.at("dissipated_integrator") == 0.0);
+    CHECK(kept.at("residual_work") == 0.125);
+    CHECK(kept.at("closure") == 0.25);
+    for (const auto entry : ledger_entries) energy.*entry = std::numeric_limits<double>::quiet_NaN();
+    const ordered_json unmeasured = report_of(built(falling_sheet()), result).at("energy");
+    CHECK(unmeasured.at("kinetic") == 2.0);
+    CHECK(ordered_json::parse(unmeasured.dump()).at("closure").is_null());
+    CHECK(ordered_json::parse(unmeasured.dump()).at("dissipated_integrator").is_null());
 }
 
 TEST_CASE("a failed run carries its reason") {

@@ -1,0 +1,141 @@
+#include "span_ledger.h"
+
+#include <numbers>
+#include <span>
+
+#include "forces/spring_loss.h"
+
+namespace percale {
+namespace {
+
+/// An explicit scheme's stages: weights b and how far each is ahead of the last one's slopes, in steps.
+struct Tableau {
+    std::span<const double> weights, ahead;
+};
+
+constexpr double one[] = {1.0}, midpoint_weights[] = {0.0, 1.0}, midpoint_ahead[] = {0.5};
+constexpr double rk4_weights[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}, rk4_ahead[] = {0.5, 0.5, 1.0};
+
+Tableau tableau_of(Scheme scheme) {
+    if (scheme == Scheme::rk4) return {rk4_weights, rk4_ahead};
+    if (scheme == Scheme::midpoint) return {midpoint_weights, midpoint_ahead};
+    return {one, {}};
+}
+
+/// world.explicit_space.forces at a state.
+void evaluate(World& world, const LedgerSpan& span, const Vectors& positions, const Vectors& velocities) {
+    ExplicitSpace& space = world.explicit_space;
+    set_step_springs(world.compute, {world.model.adjacency, positions, DampingForm::velocity, span.dt}, space.springs);
+    const ForceInput input{.compute = &world.compute,
+                           .model = &world.model,
+                           .springs = &space.springs,
+                           .positions = &positions,
+                           .velocities = &velocities,
+                           .gravity = world.settings.gravity,
+                           .dt = span.dt,
+                           .with_matrix = false};
+    evaluate_forces(input, space.forces);
+}
+
+/// The stage after the one whose forces were evaluated last.
+void advance_stage(World& world, const LedgerSpan& span, double ahead) {
+    ClothState& stage = world.ledger.stage;
+    for (int i = 0; i < world.model.vertex_count(); ++i) {
+        const Vec3 velocity = stage.velocities.at(i);
+        stage.positions.set(i, span.positions.at(i) + ahead * span.dt * velocity);
+        if (world.script.free[i] == 0.0) continue;
+        const Vec3 acceleration = world.explicit_space.forces.total.at(i) / world.model.mass[i];
+        stage.velocities.set(i, span.velocities.at(i) + ahead * span.dt * acceleration);
+    }
+}
+
+/// The forces that an implicit scheme weighed.
+void take_stages(World& world, const LedgerSpan& span) {
+    constexpr double w = std::numbers::sqrt2 / 4.0;
+    const NewtonPoint& end = world.newton.current;
+    const Scheme scheme = world.plan.scheme;
+    const double at_start = scheme == Scheme::trapezoid ? 0.5 : scheme == Scheme::tr_bdf2 ? w : 0.0;
+    const double at_middle = scheme == Scheme::tr_bdf2 ? w : 0.0;
+    begin_span(world);
+    if (at_start > 0.0) take_forces(world, span, at_start, span.positions, span.velocities);
+    if (at_middle > 0.0) take_forces(world, span, at_middle, world.newton.start_positions, world.newton.start_velocities);
+    take_forces(world, span, 1.0 - at_start - at_middle, end.positions, end.velocities);
+}
+
+/// sum w . r with the residual r of the last stage, J.
+double residual_work(const World& world, const LedgerSpan& span) {
+    return sum_terms(0, world.model.vertex_count(), [&](int i) {
+        const Vec3 mean = (world.state.positions.at(i) - span.positions.at(i)) / span.dt;
+        return mean.dot(world.newton.current.residual.at(i));
+    });
+}
+
+}  // namespace
+
+void begin_span(World& world) { world.ledger.impulse.resize(world.model.vertex_count()); }
+
+void take_forces(World& world, const LedgerSpan& span, double weight, const Vectors& positions, const Vectors& velocities) {
+    const SpringLoss loss = spring_loss(world.model.springs, {.start = span.positions,
+                                                              .end = world.state.positions,
+                                                              .positions = positions,
+                                                              .velocities = velocities,
+                                                              .form = DampingForm::velocity,
+                                                              .dt = span.dt});
+    world.report.energy.dissipated_material += weight * loss.material;
+    world.report.energy.dissipated_integrator += weight * loss.integrator;
+    evaluate(world, span, positions, velocities);
+    add_scaled(world.ledger.impulse, weight * span.dt, world.explicit_space.forces.total);
+}
+
+Unbalanced account_span(World& world, const LedgerSpan& span) {
+    Unbalanced unbalanced;
+    double kinetic = 0.0;
+    for (int i = 0; i < world.model.vertex_count(); ++i) {
+        const Vec3 before = span.velocities.at(i), after = world.state.velocities.at(i);
+        const Vec3 mean = (world.state.positions.at(i) - span.positions.at(i)) / span.dt;
+        const Vec3 momentum = world.model.mass[i] * (after - before);
+        kinetic += (mean - 0.5 * (before + after)).dot(momentum);
+        const double missing = mean.dot(momentum - world.ledger.impulse.at(i));
+        (world.script.free[i] > 0.0 ? unbalanced.free : unbalanced.prescribed) += missing;
+    }
+    world.report.energy.dissipated_integrator += kinetic - unbalanced.prescribed;
+    return unbalanced;
+}
+
+void account_explicit(World& world, const LedgerSpan& span) {
+    ClothState& stage = world.ledger.stage;
+    stage.positions = span.positions;
+    stage.velocities = span.velocities;
+    for (int i = 0; i < world.model.vertex_count(); ++i) {
+        if (world.script.free[i] == 0.0) stage.velocities.set(i, world.state.velocities.at(i));
+    }
+    const Tableau tableau = tableau_of(world.plan.scheme);
+    begin_span(world);
+    for (std::size_t s = 0; s < tableau.weights.size(); ++s) {
+        take_forces(world, span, tableau.weights[s], stage.positions, stage.velocities);
+        if (s < tableau.ahead.size()) advance_stage(world, span, tableau.ahead[s]);
+    }
+    account_span(world, span);
+}
+
+void account_stages(World& world, const LedgerSpan& span, double work) {
+    take_stages(world, span);
+    const Unbalanced unbalanced = account_span(world, span);
+    StepEnergy& energy = world.report.energy;
+    const double residual = residual_work(world, span), obstacles = world.stages.obstacle_work;
+    energy.dissipated_integrator += work - obstacles;
+    if (world.plan.contacts) {
+        const ContactTerms& contact = world.newton.current.forces.contact;
+        const double end = contact.energy + grip_energy(contact.touches);
+        energy.residual_work += residual;
+        energy.dissipated_contact += world.ledger.contact - end - (unbalanced.free - residual) + obstacles;
+        world.ledger.contact = end;
+    } else if (world.plan.scheme == Scheme::bdf2) {
+        energy.residual_work += residual;
+        energy.dissipated_integrator -= unbalanced.free - residual;
+    } else {
+        energy.residual_work += unbalanced.free;
+    }
+}
+
+}  // namespace percale
