@@ -1,6 +1,7 @@
 #include "total_force.h"
 
 #include "body_force.h"
+#include "hinge_force.h"
 
 namespace percale {
 
@@ -11,6 +12,7 @@ void evaluate_forces(const ForceInput& input, Forces& forces) {
     forces.potential = gravity_energy(model.mass, input.gravity, *input.positions);
     forces.potential += evaluate_springs(*input.compute, *input.springs, {*input.positions, *input.velocities, input.dt},
                                          input.with_matrix, forces.total, forces.spring_terms);
+    if (!model.hinges.curved.empty()) forces.potential += add_curved_hinges(model.hinges, *input.positions, forces.total);
 }
 
 void add_contact_forces(const ForceInput& input, const ContactStep& contact_step, Forces& forces) {

@@ -26,10 +26,10 @@ struct Forces {
     SpringTerms spring_terms;
     ContactRows rows;  // set by whoever evaluates contacts; empty without obstacles
     ContactTerms contact;
-    double potential = 0.0;  // J, of springs (with their damping potential), gravity and contact
+    double potential = 0.0;  // J, of springs (with their damping potential), hinges, gravity and contact
 };
 
-/// Gravity and springs; contact is added by add_contact_forces.
+/// Gravity, springs and hinges; contact is added by add_contact_forces.
 void evaluate_forces(const ForceInput& input, Forces& forces);
 
 /// Adds the contact of forces.rows.

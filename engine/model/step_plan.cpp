@@ -73,6 +73,7 @@ StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts) {
                     (facts.obstacles > 0 || meets_cloth(facts) || (everything && facts.detector));
     const bool start_lengths = plan.implicit && (facts.damped || everything);
     plan.damping = start_lengths ? settings.damping_form : DampingForm::velocity;
+    plan.hinges = facts.springs.hinge > 0;
     plan.pins = facts.pinned_vertices > 0 || facts.changes.pins || everything;
     plan.still_obstacles = everything;
     plan.gravity_energy = settings.gravity != Vec3::Zero() || facts.changes.gravity || everything;

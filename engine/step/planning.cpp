@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "forces/hinge_force.h"
 #include "model/plan_costs.h"
 #include "rest_detection.h"
 
@@ -34,6 +35,13 @@ SpringCounts count_springs(const SpringNetwork& springs) {
     return counts;
 }
 
+/// Pins that came or went change the energy of hinges beside them: work of whoever set them.
+void update_clamps(World& world) {
+    const double before = hinge_energy(world.model.hinges, world.state.positions);
+    set_model_clamps(world.script.free, world.model);
+    world.report.energy.work += hinge_energy(world.model.hinges, world.state.positions) - before;
+}
+
 }  // namespace
 
 SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come) {
@@ -50,12 +58,16 @@ SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come) {
     facts.changes = to_come;
     facts.changes.obstacles = to_come.obstacles || obstacles_move(world);
     facts.changes.pins = to_come.pins || pins_move(world);
+    facts.springs.hinge = static_cast<int>(model.hinges.all.size());
     for (const ClothRange& cloth : model.cloths) facts.cloths.push_back({cloth.name, cloth.grid, cloth.fabric});
     return facts;
 }
 
 void update_plan(World& world) {
-    if (world.plan_outdated) world.plan = make_step_plan(world.settings, scene_facts(world));
+    if (world.plan_outdated) {
+        world.plan = make_step_plan(world.settings, scene_facts(world));
+        if (world.plan.hinges) update_clamps(world);
+    }
     world.plan_outdated = false;
     ScriptedChanges now;
     now.obstacles = obstacles_move(world);

@@ -19,9 +19,10 @@ struct ScriptedChanges {
     bool gravity = false;    // changes
 };
 
-/// Springs by kind.
+/// Springs by kind, and hinges.
 struct SpringCounts {
     int structural = 0, shear = 0, bend = 0;
+    int hinge = 0;  // pairs of triangles that resist bending
 
     int total() const { return structural + shear + bend; }
 };
