@@ -36,6 +36,10 @@ void read_option(const TomlNode& table, const Option<Owner>& option, Owner& owne
         *option.flag(owner) = node->text == "true";
     } else if (option.number_or_auto) {
         *option.number_or_auto(owner) = node->is_number() ? std::optional(node->number) : std::nullopt;
+    } else if (option.optional_number) {
+        *option.optional_number(owner) = node->number;
+    } else if (option.optional_pair) {
+        *option.optional_pair(owner) = {node->items[0].number, node->items[1].number};
     } else {
         const auto found = std::find(option.choices.begin(), option.choices.end(), node->text);
         option.set_choice(owner, static_cast<int>(found - option.choices.begin()));
@@ -52,11 +56,36 @@ void read_step(const TomlNode& document, Scene& scene) {
         scene.detector = static_cast<Detector>(choice_index(find_scene_key("step.detector")->choices, detector->text));
 }
 
+void check_exclusive(const TomlNode& table, std::string_view one, std::string_view other) {
+    const TomlNode *first = find_value(table, one), *second = find_value(table, other);
+    if (first != nullptr && second != nullptr)
+        fail_at(second->key_place,
+                "[fabric." + table.key + "]: " + std::string(one) + " and " + std::string(other) + " exclude each other");
+}
+
+Fabric read_fabric(const TomlNode& table) {
+    const bool springs = table.find("springs") != nullptr, moduli = table.find("stretch_stiffness") != nullptr;
+    if (!springs && !moduli)
+        fail_at(table.place, "[fabric." + table.key + "] lacks 'springs' or 'stretch_stiffness': what resists stretching");
+    check_exclusive(table, "springs", "stretch_stiffness");
+    check_exclusive(table, "springs.bend", "bend_stiffness");
+    check_exclusive(table, "spring_damping", "damping_time");
+    Fabric fabric;
+    for (const auto& option : fabric_options()) read_option(table, option, fabric);
+    if (fabric.has_moduli()) fabric.springs = {.structural = 0.0};
+    if (fabric.damping_time) fabric.spring_damping = 0.0;
+    try {
+        check_options(fabric, "[fabric." + table.key + "]");
+    } catch (const SceneError& error) {
+        fail_at(table.place, error.what());
+    }
+    return fabric;
+}
+
 void read_fabrics(const TomlNode& document, Scene& scene) {
     const TomlNode* fabrics = document.find("fabric");
     if (fabrics == nullptr) return;
-    for (const TomlNode& table : fabrics->entries)
-        for (const auto& option : fabric_options()) read_option(table, option, scene.fabrics[table.key]);
+    for (const TomlNode& table : fabrics->entries) scene.fabrics[table.key] = read_fabric(table);
 }
 
 template <class Part>

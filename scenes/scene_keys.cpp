@@ -41,6 +41,11 @@ SceneKey option_key(const std::string& table, const Option<Owner>& option) {
         key.kind = KeyKind::number_or_auto;
         const std::optional<double>& value = *option.number_or_auto(defaults);
         key.default_text = value ? number_text(*value) : "auto";
+    } else if (option.optional_number) {
+        key.kind = KeyKind::number;
+    } else if (option.optional_pair) {
+        key.kind = KeyKind::numbers;
+        key.count = 2;
     } else {
         key.kind = KeyKind::word;
         key.default_text = key.choices.at(static_cast<std::size_t>(option.get_choice(defaults)));
@@ -110,7 +115,7 @@ void add_fabric(Keys& keys) {
     for (const auto& option : fabric_options()) {
         SceneKey key = option_key("fabric", option);
         if (key.path.starts_with("fabric.springs.") && keys.back().path.find(".springs") == std::string::npos)
-            keys.push_back(required(table_key("fabric.springs", "Constants of the springs, whatever their length.")));
+            keys.push_back(table_key("fabric.springs", "Constants of the springs, whatever their length; or stretch_stiffness."));
         if (key.path == "fabric.springs.structural") key = required(with_default(std::move(key), ""));
         keys.push_back(std::move(key));
     }

@@ -17,9 +17,17 @@ ordered_json option_value(Owner& owner, const Option<Owner>& option) {
     if (option.number) return *option.number(owner);
     if (option.integer) return *option.integer(owner);
     if (option.flag) return *option.flag(owner);
+    if (option.optional_number) return **option.optional_number(owner);
+    if (option.optional_pair) return **option.optional_pair(owner);
     if (option.get_choice) return std::string(option.choices[static_cast<std::size_t>(option.get_choice(owner))]);
     const std::optional<double>& value = *option.number_or_auto(owner);
     return value ? ordered_json(*value) : ordered_json("auto");
+}
+
+template <class Owner>
+bool is_left_out(Owner& owner, const Option<Owner>& option) {
+    return (option.optional_number && !option.optional_number(owner)->has_value()) ||
+           (option.optional_pair && !option.optional_pair(owner)->has_value());
 }
 
 /// Puts an option under its dotted key: springs.shear becomes an object in an object.
@@ -27,6 +35,7 @@ template <class Owner>
 ordered_json options_object(Owner owner, std::span<const Option<Owner>> options) {
     ordered_json json = ordered_json::object();
     for (const Option<Owner>& option : options) {
+        if (is_left_out(owner, option)) continue;
         std::string key(option.key);
         for (char& letter : key)
             if (letter == '.') letter = '/';
