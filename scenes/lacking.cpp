@@ -23,7 +23,6 @@ constexpr Lacking lacking[] = {
     {.path = "step.tolerance"},
     {.path = "fabric.preset"},
     {.path = "cloth.pattern"},
-    {.path = "event.wind"},
     {.path = "event.detach"},
 };
 

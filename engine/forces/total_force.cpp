@@ -13,6 +13,10 @@ void evaluate_forces(const ForceInput& input, Forces& forces) {
     forces.potential += evaluate_springs(*input.compute, *input.springs, {*input.positions, *input.velocities, input.dt},
                                          input.with_matrix, forces.total, forces.spring_terms);
     if (!model.hinges.curved.empty()) forces.potential += add_curved_hinges(model.hinges, *input.positions, forces.total);
+    if (!input.wind || !input.wind->blows) return;
+    add_wind(model, *input.wind, *input.velocities, input.dt, forces.total, forces.wind);
+    forces.potential += forces.wind.potential;
+    set_wind_blocks(forces.wind, forces.contact);
 }
 
 void add_contact_forces(const ForceInput& input, const ContactStep& contact_step, Forces& forces) {

@@ -136,6 +136,15 @@ void copy_bending(const SpringNetwork& network, Adjacency& adjacency) {
     for_places(network, adjacency, [&](std::size_t place, int spring) { adjacency.bending[place] = network.bending[spring]; });
 }
 
+void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjacency) {
+    adjacency.rest_length[adjacency.place[spring]] = network.rest_length[spring];
+    if (adjacency.bands.count > 0) return;
+    const int other = network.second[spring], slice = other / slice_lanes;
+    for (int e = adjacency.start[slice] + other % slice_lanes; e < adjacency.start[slice + 1]; e += slice_lanes) {
+        if (adjacency.spring[e] == spring) adjacency.rest_length[e] = network.rest_length[spring];
+    }
+}
+
 std::size_t Adjacency::value_count() const {
     return bands.count > 0 ? 4 * bands.count * (bands.guard + bands.padded) : 4 * other.size();
 }

@@ -49,6 +49,9 @@ enum class SpringLayout { best, slices };
 /// Takes network.bending anew, of the network that the adjacency was made for.
 void copy_bending(const SpringNetwork& network, Adjacency& adjacency);
 
+/// Takes the rest length of one spring anew.
+void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjacency);
+
 Adjacency make_adjacency(const SpringNetwork& network, int vertex_count, SpringLayout layout = SpringLayout::best);
 
 }  // namespace percale

@@ -24,7 +24,7 @@ Side side_of(const Vec3& a, const Vec3& edge, const Vec3& opposite) {
     return {area, 2.0 * area / edge.norm(), edge.dot(opposite - a) / edge.squaredNorm()};
 }
 
-/// Angle between the normals, positive where the opposite vertices lie behind each other's triangle.
+/// Angle between the normals e x (x2 - x0) and (x3 - x0) x e, positive where the opposite vertices lie behind them.
 double rest_angle(const std::array<Vec3, 4>& x) {
     const Vec3 edge = x[1] - x[0], first = edge.cross(x[2] - x[0]), second = (x[3] - x[0]).cross(edge);
     const double angle = std::atan2(first.cross(second).dot(edge.normalized()), first.dot(second));

@@ -18,9 +18,10 @@ struct Hinge {
     std::array<int, 4> vertex;     // -1 = unused, of weight 0
     std::array<double, 4> weight;  // w, 1/m
     double stiffness;              // c, N m
-    double rest_angle = 0.0;       // rad, between triangles: stores 1/2 c (theta - rest_angle)^2; positive where the normals part
-    bool folds = true;             // not a cell's twist
-    double clamp = 1.0;            // factor of c: 2 beside a clamp (set_clamps)
+    double rest_angle =
+        0.0;            // rad, between triangles: stores 1/2 c (theta - rest_angle)^2; its sign follows the order of the vertices
+    bool folds = true;  // not a cell's twist
+    double clamp = 1.0;                                  // factor of c: 2 beside a clamp (set_clamps)
     std::array<int, 6> pair = {-1, -1, -1, -1, -1, -1};  // springs 01 02 03 12 13 23 of the network; -1 = none
 };
 

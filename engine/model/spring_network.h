@@ -10,7 +10,8 @@
 namespace percale {
 
 /// hinge: two vertices of a hinge that no spring joins; without stiffness, all it has is `bending`.
-enum class SpringKind : std::uint8_t { structural, shear, bend, hinge };
+/// seam: sewn together, without a length of its own.
+enum class SpringKind : std::uint8_t { structural, shear, bend, hinge, seam };
 
 /// All springs of a simulation, a structure of arrays.
 struct SpringNetwork {

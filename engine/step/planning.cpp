@@ -25,12 +25,18 @@ bool obstacles_move(const World& world) {
                        [](const ObstacleState& obstacle) { return obstacle.start != obstacle.end; });
 }
 
+bool seams_close(const World& world) {
+    return std::any_of(world.script.seams.begin(), world.script.seams.end(),
+                       [&](const Seam& seam) { return seam.closes_after(world.time - world.settings.time_step); });
+}
+
 SpringCounts count_springs(const SpringNetwork& springs) {
     SpringCounts counts;
     for (const SpringKind kind : springs.kind) {
         if (kind == SpringKind::structural) ++counts.structural;
         if (kind == SpringKind::shear) ++counts.shear;
         if (kind == SpringKind::bend) ++counts.bend;
+        if (kind == SpringKind::seam) ++counts.seam;
     }
     return counts;
 }
@@ -73,6 +79,7 @@ void update_plan(World& world) {
     now.obstacles = obstacles_move(world);
     now.pins = world.plan.pins && pins_move(world);
     set_motion(world.plan, now);
+    world.plan.seams_close = seams_close(world);
 }
 
 void scene_changed(World& world) {
