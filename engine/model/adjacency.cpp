@@ -27,7 +27,8 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
                      .stiffness = {},
                      .rest_length = {},
                      .damping = {},
-                     .damped = false};
+                     .damped = false,
+                     .membrane = {}};
     const std::size_t entries = result.start.back();
     result.other.resize(entries);
     result.spring.assign(entries, spring_count);
@@ -121,6 +122,21 @@ Adjacency make_adjacency(const SpringNetwork& network, int vertex_count, SpringL
     if (result.bands.count > 0) place_in_bands(network, result);
     copy_constants(network, result);
     return result;
+}
+
+void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std::vector<MembraneTriangle>& triangles) {
+    std::vector<bool> is_edge(adjacency.other.size(), false);
+    for (std::size_t e = 0; e < is_edge.size(); ++e) {
+        const int spring = adjacency.spring[e];
+        is_edge[e] = spring < network.size() &&
+                     (network.kind[spring] == SpringKind::structural || network.kind[spring] == SpringKind::shear);
+    }
+    adjacency.membrane = make_membrane_entries(triangles, {adjacency.start, adjacency.other, is_edge});
+}
+
+double Adjacency::strength(int k) const {
+    const double alone = stiffness[place[k]];
+    return membrane.empty() ? alone : alone + 4.0 * membrane.numbers[0][place[k]] * membrane.numbers[1][place[k]];
 }
 
 std::size_t Adjacency::value_count() const {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kernels/compute.h"
+#include "membrane_entries.h"
 #include "spring_network.h"
 #include "support/aligned.h"
 #include "vectors.h"
@@ -22,6 +23,7 @@ struct Adjacency {
     std::vector<int> place;        // of each spring, in the lists below: its place in the bands, or the entry at its first vertex
     AlignedVector<double> stiffness, rest_length, damping;  // N/m, m, N s/m of each place
     bool damped = false;                                    // any spring has damping
+    MembraneEntries membrane;                               // empty without triangles
 
     /// How many numbers the blocks a, w of all places take, and where those of a spring stand, `apart` from each other.
     std::size_t value_count() const;
@@ -29,6 +31,8 @@ struct Adjacency {
         std::size_t first, apart;
     };
     ValuePlace value_place(int k) const;
+    /// What a spring resists with when it alone becomes longer, its triangles included, N/m.
+    double strength(int k) const;
     /// The size of a vector as kernels want it (pack_points).
     std::size_t point_count() const;
 
@@ -42,6 +46,9 @@ void pack_points(const Compute& compute, const Adjacency& adjacency, const Vecto
 
 /// How the numbers of all springs are laid out.
 enum class SpringLayout { best, slices };
+
+/// Membranes are laid out beside the springs of their edges, which must be there, in slices.
+void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std::vector<MembraneTriangle>& triangles);
 
 Adjacency make_adjacency(const SpringNetwork& network, int vertex_count, SpringLayout layout = SpringLayout::best);
 

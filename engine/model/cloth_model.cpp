@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lumped_mass.h"
+#include "percale/error.h"
 #include "percale/options.h"
 
 namespace percale {
@@ -20,8 +21,13 @@ void put_in_order(const ClothRange& cloth, std::vector<T>& list) {
 void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fabric, const std::string& name) {
     check_mesh(rest, name, true);
     check_options(fabric, name);
+    if (fabric.bend_stiffness) throw SceneError(name + ": bend_stiffness is not possible yet; give springs.bend");
     const int first = model.vertex_count();
-    append_springs(model.springs, rest, fabric, first, name);
+    if (fabric.has_moduli()) {
+        append_membrane(model.springs, model.membrane, rest, fabric, first, name);
+    } else {
+        append_springs(model.springs, rest, fabric, first, name);
+    }
     ClothRange range{.name = name, .first = first, .count = static_cast<int>(rest.vertices.size())};
     range.grid = rest.is_grid();
     range.fabric = fabric;
@@ -46,13 +52,19 @@ void order_last_cloth(ClothModel& model) {
     renumber_springs(model.springs, first_spring, cloth.first, cloth.order);
     put_in_order(cloth, model.mass);
     put_in_order(cloth, model.rest);
-    for (Triangle& t : model.triangles) {
-        if (t[0] < cloth.first) continue;
+    const auto renumber = [&](Triangle& t) {
+        if (t[0] < cloth.first) return;
         for (int& vertex : t) vertex = cloth.index_of(vertex - cloth.first);
-    }
+    };
+    for (Triangle& t : model.triangles) renumber(t);
+    for (MembraneTriangle& t : model.membrane) renumber(t.vertex);
 }
 
-void finish_model(ClothModel& model) { model.adjacency = make_adjacency(model.springs, model.vertex_count()); }
+void finish_model(ClothModel& model) {
+    const SpringLayout layout = model.membrane.empty() ? SpringLayout::best : SpringLayout::slices;
+    model.adjacency = make_adjacency(model.springs, model.vertex_count(), layout);
+    if (!model.membrane.empty()) add_membrane(model.adjacency, model.springs, model.membrane);
+}
 
 void update_points(ClothState& state) { copy_out(state.positions, state.points); }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "adjacency.h"
+#include "membrane.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
 #include "spring_network.h"
@@ -35,6 +36,7 @@ struct ClothModel {
     std::vector<Vec3> rest;           // m, positions without strain
     std::vector<Triangle> triangles;  // in the user's order, whatever that of the vertices
     SpringNetwork springs;
+    std::vector<MembraneTriangle> membrane;
     Adjacency adjacency;
 
     int vertex_count() const { return static_cast<int>(mass.size()); }
