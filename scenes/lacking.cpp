@@ -21,7 +21,6 @@ constexpr Lacking lacking[] = {
     {.path = "step.time_step", .words = time_steps},
     {.path = "output.frames", .words = frame_formats},
     {.path = "step.tolerance"},
-    {.path = "fabric.preset"},
     {.path = "cloth.pattern"},
     {.path = "event.detach"},
 };

@@ -10,6 +10,7 @@
 #include "nearest_name.h"
 #include "overrides.h"
 #include "percale/error.h"
+#include "percale/fabric_presets.h"
 #include "percale/options.h"
 #include "scene_check.h"
 #include "scene_keys.h"
@@ -64,13 +65,17 @@ void check_exclusive(const TomlNode& table, std::string_view one, std::string_vi
 }
 
 Fabric read_fabric(const TomlNode& table) {
-    const bool springs = table.find("springs") != nullptr, moduli = table.find("stretch_stiffness") != nullptr;
-    if (!springs && !moduli)
-        fail_at(table.place, "[fabric." + table.key + "] lacks 'springs' or 'stretch_stiffness': what resists stretching");
+    const TomlNode* preset = table.find("preset");
+    const bool stretches = table.find("springs") != nullptr || table.find("stretch_stiffness") != nullptr;
+    if (!stretches && preset == nullptr)
+        fail_at(table.place,
+                "[fabric." + table.key + "] lacks 'springs', 'stretch_stiffness' or 'preset': what resists stretching");
+    check_exclusive(table, "springs", "preset");
     check_exclusive(table, "springs", "stretch_stiffness");
     check_exclusive(table, "springs.bend", "bend_stiffness");
     check_exclusive(table, "spring_damping", "damping_time");
-    Fabric fabric;
+    Fabric fabric = preset != nullptr ? fabric_preset(preset->text) : Fabric{};
+    if (table.find("spring_damping") != nullptr) fabric.damping_time.reset();
     for (const auto& option : fabric_options()) read_option(table, option, fabric);
     if (fabric.has_moduli()) fabric.springs = {.structural = 0.0};
     if (fabric.damping_time) fabric.spring_damping = 0.0;

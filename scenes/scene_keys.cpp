@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "expectations.h"
+#include "percale/fabric_presets.h"
 #include "percale/options.h"
 #include "scene_text.h"
 
@@ -112,10 +113,17 @@ void add_step(Keys& keys) {
 
 void add_fabric(Keys& keys) {
     keys.push_back(table_key("fabric", "What cloth is made of; one table [fabric.NAME] for each fabric.", KeyKind::named_tables));
+    std::vector<std::string> presets;
+    for (const FabricPreset& preset : fabric_presets()) presets.emplace_back(preset.name);
+    keys.push_back(
+        word_key("fabric.preset", std::move(presets),
+                 "A fabric to start from, which single keys override; instead of springs. percale explain presets lists "
+                 "them with their numbers."));
     for (const auto& option : fabric_options()) {
         SceneKey key = option_key("fabric", option);
         if (key.path.starts_with("fabric.springs.") && keys.back().path.find(".springs") == std::string::npos)
-            keys.push_back(table_key("fabric.springs", "Constants of the springs, whatever their length; or stretch_stiffness."));
+            keys.push_back(table_key("fabric.springs",
+                                     "Constants of the springs, whatever their length; or stretch_stiffness, or a preset."));
         if (key.path == "fabric.springs.structural") key = required(with_default(std::move(key), ""));
         keys.push_back(std::move(key));
     }

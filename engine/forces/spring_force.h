@@ -38,6 +38,7 @@ void set_step_springs(const Compute& compute, const SpringStart& start, StepSpri
 struct SpringTerms {
     /// kg: -dt^2 Jq - dt Jv between the two vertices of each spring, made positive definite, is a I + w w^T (spring_block).
     AlignedVector<float> values;
+    AlignedVector<float> corners;  // what couples the edges of membrane triangles (CornerFillPass); empty without
     AlignedVector<double> points, motion, scratch;
 };
 

@@ -28,7 +28,8 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
                      .rest_length = {},
                      .damping = {},
                      .bending = {},
-                     .damped = false};
+                     .damped = false,
+                     .membrane = {}};
     const std::size_t entries = result.start.back();
     result.other.resize(entries);
     result.spring.assign(entries, spring_count);
@@ -143,6 +144,21 @@ void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjace
     for (int e = adjacency.start[slice] + other % slice_lanes; e < adjacency.start[slice + 1]; e += slice_lanes) {
         if (adjacency.spring[e] == spring) adjacency.rest_length[e] = network.rest_length[spring];
     }
+}
+
+void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std::vector<MembraneTriangle>& triangles) {
+    std::vector<bool> is_edge(adjacency.other.size(), false);
+    for (std::size_t e = 0; e < is_edge.size(); ++e) {
+        const int spring = adjacency.spring[e];
+        is_edge[e] = spring < network.size() &&
+                     (network.kind[spring] == SpringKind::structural || network.kind[spring] == SpringKind::shear);
+    }
+    adjacency.membrane = make_membrane_entries(triangles, {adjacency.start, adjacency.other, is_edge});
+}
+
+double Adjacency::strength(int k) const {
+    const double alone = stiffness[place[k]];
+    return membrane.empty() ? alone : alone + 4.0 * membrane.numbers[0][place[k]] * membrane.numbers[1][place[k]];
 }
 
 std::size_t Adjacency::value_count() const {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kernels/compute.h"
+#include "membrane_entries.h"
 #include "spring_network.h"
 #include "support/aligned.h"
 #include "vectors.h"
@@ -23,6 +24,7 @@ struct Adjacency {
     AlignedVector<double> stiffness, rest_length, damping;  // N/m, m, N s/m of each place
     AlignedVector<double> bending;                          // N/m of each place; empty without hinges
     bool damped = false;                                    // any spring has damping
+    MembraneEntries membrane;                               // empty without triangles
 
     /// How many numbers the blocks a, w of all places take, and where those of a spring stand, `apart` from each other.
     std::size_t value_count() const;
@@ -30,6 +32,8 @@ struct Adjacency {
         std::size_t first, apart;
     };
     ValuePlace value_place(int k) const;
+    /// What a spring resists with when it alone becomes longer, its triangles included, N/m.
+    double strength(int k) const;
     /// The size of a vector as kernels want it (pack_points).
     std::size_t point_count() const;
 
@@ -51,6 +55,9 @@ void copy_bending(const SpringNetwork& network, Adjacency& adjacency);
 
 /// Takes the rest length of one spring anew.
 void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjacency);
+
+/// Membranes are laid out beside the springs of their edges, which must be there, in slices.
+void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std::vector<MembraneTriangle>& triangles);
 
 Adjacency make_adjacency(const SpringNetwork& network, int vertex_count, SpringLayout layout = SpringLayout::best);
 

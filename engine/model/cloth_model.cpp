@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lumped_mass.h"
+#include "percale/error.h"
 #include "percale/options.h"
 
 namespace percale {
@@ -27,7 +28,11 @@ void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fab
     check_mesh(rest, name, true);
     check_options(fabric, name);
     const int first = model.vertex_count();
-    append_springs(model.springs, rest, fabric, first, name);
+    if (fabric.has_moduli()) {
+        append_membrane(model.springs, model.membrane, rest, fabric, first, name);
+    } else {
+        append_springs(model.springs, rest, fabric, first, name);
+    }
     ClothRange range{.name = name, .first = first, .count = static_cast<int>(rest.vertices.size())};
     range.grid = rest.is_grid();
     range.columns = rest.is_grid() ? rest.grid_columns : 0;
@@ -51,10 +56,12 @@ void order_last_cloth(ClothModel& model) {
     renumber_springs(model.springs, first_spring, cloth.first, cloth.order);
     put_in_order(cloth, model.mass);
     put_in_order(cloth, model.rest);
-    for (Triangle& t : model.triangles) {
-        if (t[0] < cloth.first) continue;
+    const auto renumber = [&](Triangle& t) {
+        if (t[0] < cloth.first) return;
         for (int& vertex : t) vertex = cloth.index_of(vertex - cloth.first);
-    }
+    };
+    for (Triangle& t : model.triangles) renumber(t);
+    for (MembraneTriangle& t : model.membrane) renumber(t.vertex);
 }
 
 void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness) {
@@ -72,7 +79,9 @@ void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness) {
 
 void finish_model(ClothModel& model) {
     set_pair_bending(model.hinges, model.springs);
-    model.adjacency = make_adjacency(model.springs, model.vertex_count());
+    const SpringLayout layout = model.membrane.empty() ? SpringLayout::best : SpringLayout::slices;
+    model.adjacency = make_adjacency(model.springs, model.vertex_count(), layout);
+    if (!model.membrane.empty()) add_membrane(model.adjacency, model.springs, model.membrane);
 }
 
 void set_model_clamps(std::span<const double> free, ClothModel& model) {

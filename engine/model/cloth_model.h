@@ -5,6 +5,7 @@
 
 #include "adjacency.h"
 #include "hinges.h"
+#include "membrane.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
 #include "spring_network.h"
@@ -38,6 +39,7 @@ struct ClothModel {
     std::vector<Triangle> triangles;  // in the user's order, whatever that of the vertices
     SpringNetwork springs;
     Hinges hinges;
+    std::vector<MembraneTriangle> membrane;
     Adjacency adjacency;
 
     int vertex_count() const { return static_cast<int>(mass.size()); }

@@ -90,7 +90,6 @@ void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabr
         throw SceneError(name + ": springs.shear = " + std::to_string(fabric.springs.shear) +
                          " N/m, but a free mesh has no shear springs; its edges already resist shear, leave springs.shear out");
     }
-    if (fabric.has_moduli()) throw SceneError(name + ": stretch_stiffness is not possible yet; give springs");
     const int before = network.size();
     SpringWriter writer(network, rest, fabric, first_vertex, name);
     rest.is_grid() ? add_grid(writer, rest) : add_free(writer, rest);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "percale/fabric_presets.h"
 #include "scene_texts.h"
 #include "test_folder.h"
 #include "tests/support/catch.h"
@@ -104,7 +105,7 @@ TEST_CASE("a fabric must say its springs; the rest is as in the struct") {
     CHECK(plain.springs.bend == 0.0);
     CHECK(plain.area_density == Fabric{}.area_density);
     CHECK(plain.spring_damping == Fabric{}.spring_damping);
-    const std::string lacks = "t:8:1: [fabric.plain] lacks 'springs' or 'stretch_stiffness': ";
+    const std::string lacks = "t:8:1: [fabric.plain] lacks 'springs', 'stretch_stiffness' or 'preset': ";
     CHECK(fault(small_scene() + "[fabric.plain]\n").starts_with(lacks));
     CHECK(fault(small_scene() + "[fabric.plain]\nthickness = 0.01\n").starts_with(lacks));
     CHECK(fault(small_scene() + "[fabric.plain]\nbend_stiffness = 0.01\n").starts_with(lacks));
@@ -128,6 +129,27 @@ TEST_CASE("a fabric of moduli is read, and has no springs of its own") {
         scene_with("", "[fabric.f]\nstretch_stiffness = [20, 20]\nmembrane = \"van_gelder\"\n").fabrics.at("f");
     CHECK(van_gelder.membrane == Membrane::van_gelder);
     CHECK(van_gelder.spring_damping == Fabric{}.spring_damping);
+}
+
+TEST_CASE("single keys override a preset, and damping of one kind the other") {
+    const auto fabric = [](const std::string& keys) {
+        return scene_with("", "[fabric.f]\npreset = \"ponte\"\n" + keys).fabrics.at("f");
+    };
+    const Fabric& ponte = fabric_preset("ponte");
+    const Fabric plain = fabric(""), heavy = fabric("area_density = 1.5\nstretch_stiffness = [7, 8]\n");
+    CHECK(plain.stretch_stiffness == ponte.stretch_stiffness);
+    CHECK(plain.damping_time == ponte.damping_time);
+    CHECK(plain.springs.structural == 0.0);
+    CHECK(heavy.area_density == 1.5);
+    CHECK(heavy.stretch_stiffness == std::array{7.0, 8.0});
+    CHECK(heavy.shear_stiffness == ponte.shear_stiffness);
+    const Fabric damped = fabric("spring_damping = 0.4\n");
+    CHECK(damped.spring_damping == 0.4);
+    CHECK_FALSE(damped.damping_time.has_value());
+    CHECK(fault(small_scene() + "[fabric.f]\npreset = \"cottn\"\n")
+              .starts_with("t:9:10: fabric.f.preset has no choice 'cottn'; did you mean 'cotton'? valid: cotton, "));
+    CHECK(fault(small_scene() + "[fabric.f]\nsprings = { structural = 5 }\npreset = \"ponte\"\n") ==
+          "t:10:1: [fabric.f]: springs and preset exclude each other");
 }
 
 TEST_CASE("keys of a fabric that exclude each other are refused at the second") {
