@@ -16,6 +16,7 @@ constexpr std::string_view response_words[] = {"penalty", "projection"};
 constexpr std::string_view damping_words[] = {"length_rate", "velocity"};
 constexpr std::string_view start_words[] = {"repair", "refuse"};
 constexpr std::string_view measure_words[] = {"all", "none", "ledger"};
+constexpr std::string_view membrane_words[] = {"triangle_springs", "van_gelder"};
 
 constexpr Option<Fabric> fabric_list[] = {
     {.key = "area_density",
@@ -64,6 +65,58 @@ constexpr Option<Fabric> fabric_list[] = {
      .lowest = 0.0,
      .highest = 1e6,
      .number = [](Fabric& f) { return &f.spring_damping; }},
+    {.key = "damping_time",
+     .unit = "s",
+     .sentence = "Damping of each spring over its stiffness; instead of spring_damping.",
+     .lowest = 0.0,
+     .highest = 10.0,
+     .optional_number = [](Fabric& f) { return &f.damping_time; }},
+    {.key = "stretch_stiffness",
+     .unit = "N/m",
+     .sentence =
+         "Force per width and strain of a strip pulled along warp and along weft (Young's modulus times thickness); instead "
+         "of springs. Warp and weft are the x and z axes of a grid.",
+     .lowest = 1e-2,
+     .highest = 1e9,
+     .optional_pair = [](Fabric& f) { return &f.stretch_stiffness; }},
+    {.key = "shear_stiffness",
+     .unit = "N/m",
+     .sentence = "Shear force per width and angle; without it that of isotropic cloth, from stretch_stiffness and poisson_ratio.",
+     .lowest = 1e-2,
+     .highest = 1e9,
+     .optional_number = [](Fabric& f) { return &f.shear_stiffness; }},
+    {.key = "poisson_ratio",
+     .unit = "",
+     .sentence = "How much cloth of a given stretch_stiffness narrows when pulled; the geometric mean of warp and weft.",
+     .lowest = -0.9,
+     .highest = 0.9,
+     .number = [](Fabric& f) { return &f.poisson_ratio; }},
+    {.key = "membrane",
+     .unit = "",
+     .sentence =
+         "What carries a given stretch_stiffness: triangle_springs = springs on the squared lengths of a triangle's edges, "
+         "exact for every modulus; van_gelder = plain springs, isotropic only, 1.2 times too stiff on grids.",
+     .choices = membrane_words,
+     .get_choice = [](const Fabric& f) { return static_cast<int>(f.membrane); },
+     .set_choice = [](Fabric& f, int i) { f.membrane = static_cast<Membrane>(i); }},
+    {.key = "bend_stiffness",
+     .unit = "N m",
+     .sentence = "Moment per width and curvature; instead of springs.bend.",
+     .lowest = 0.0,
+     .highest = 1e3,
+     .optional_number = [](Fabric& f) { return &f.bend_stiffness; }},
+    {.key = "drag_normal",
+     .unit = "",
+     .sentence = "Drag coefficient against air that meets the surface (wind); a flat plate has 1.1 to 2.",
+     .lowest = 0.0,
+     .highest = 10.0,
+     .number = [](Fabric& f) { return &f.drag_normal; }},
+    {.key = "drag_tangential",
+     .unit = "",
+     .sentence = "Drag coefficient against air that passes along the surface (wind).",
+     .lowest = 0.0,
+     .highest = 10.0,
+     .number = [](Fabric& f) { return &f.drag_tangential; }},
 };
 
 constexpr Option<StepSettings> step_list[] = {
@@ -149,6 +202,12 @@ constexpr Option<StepSettings> step_list[] = {
      .unit = "",
      .sentence = "Whether work that the scene does not need is left out (percale plan lists it); false runs everything.",
      .flag = [](StepSettings& s) { return &s.skip; }},
+    {.key = "air_density",
+     .unit = "kg/m^3",
+     .sentence = "Density of the air that wind moves; without a wind event there is no air.",
+     .lowest = 0.0,
+     .highest = 1e4,
+     .number = [](StepSettings& s) { return &s.air_density; }},
 };
 
 void check_number(std::string_view owner, std::string_view key, std::string_view unit, double value, double low, double high) {
@@ -168,7 +227,41 @@ void check_fields(Owner owner, std::string_view name, std::span<const Option<Own
         if (option.number) check(*option.number(owner));
         if (option.integer) check(*option.integer(owner));
         if (option.number_or_auto && option.number_or_auto(owner)->has_value()) check(**option.number_or_auto(owner));
+        if (option.optional_number && option.optional_number(owner)->has_value()) check(**option.optional_number(owner));
+        if (option.optional_pair && option.optional_pair(owner)->has_value()) {
+            for (const double value : **option.optional_pair(owner)) check(value);
+        }
     }
+}
+
+bool same(const SpringConstants& a, const SpringConstants& b) {
+    return a.structural == b.structural && a.shear == b.shear && a.bend == b.bend;
+}
+
+/// Springs and damping left as they are by default, or none at all, do not contradict moduli.
+void check_exclusions(const Fabric& fabric, const std::string& name) {
+    const Fabric defaults;
+    const bool own_springs = !same(fabric.springs, defaults.springs) && !same(fabric.springs, {.structural = 0.0});
+    if (fabric.has_moduli() && own_springs) throw SceneError(name + ": springs and stretch_stiffness exclude each other");
+    if (fabric.bend_stiffness && !fabric.has_moduli() && fabric.springs.bend != 0.0) {
+        throw SceneError(name + ": springs.bend and bend_stiffness exclude each other");
+    }
+    const bool own_damping = fabric.spring_damping != defaults.spring_damping && fabric.spring_damping != 0.0;
+    if (fabric.damping_time && own_damping) throw SceneError(name + ": spring_damping and damping_time exclude each other");
+}
+
+void check_moduli(const Fabric& fabric, const std::string& name) {
+    if (!fabric.has_moduli()) {
+        if (fabric.shear_stiffness) throw SceneError(name + ": shear_stiffness needs stretch_stiffness");
+        if (fabric.poisson_ratio != 0.0) throw SceneError(name + ": poisson_ratio needs stretch_stiffness");
+        return;
+    }
+    if (fabric.membrane != Membrane::van_gelder) return;
+    const std::string only = name + ": membrane = van_gelder is isotropic, ";
+    const auto [warp, weft] = *fabric.stretch_stiffness;
+    if (warp != weft) throw SceneError(only + "stretch_stiffness must be the same along warp and weft");
+    if (fabric.shear_stiffness) throw SceneError(only + "it takes no shear_stiffness");
+    if (fabric.poisson_ratio != 0.0) throw SceneError(only + "it takes no poisson_ratio: the mesh decides it");
 }
 
 }  // namespace
@@ -178,11 +271,15 @@ std::span<const Option<StepSettings>> step_options() { return step_list; }
 
 void check_options(const Fabric& fabric, std::string_view owner_name) {
     check_fields<Fabric>(fabric, owner_name, fabric_options());
+    check_exclusions(fabric, std::string(owner_name));
+    check_moduli(fabric, std::string(owner_name));
 }
 
 void check_options(const StepSettings& settings, std::string_view owner_name) {
     check_fields<StepSettings>(settings, owner_name, step_options());
     for (int axis = 0; axis < 3; ++axis) check_number(owner_name, "gravity", "m/s^2", settings.gravity[axis], -1e4, 1e4);
+    if (!settings.wind) return;
+    for (int axis = 0; axis < 3; ++axis) check_number(owner_name, "wind", "m/s", (*settings.wind)[axis], -1e3, 1e3);
 }
 
 }  // namespace percale

@@ -4,6 +4,7 @@
 
 #include "nearest_name.h"
 #include "percale/error.h"
+#include "percale/fabric_presets.h"
 #include "scene_keys.h"
 #include "scene_text.h"
 
@@ -67,14 +68,14 @@ std::vector<std::string> topic_paths(const std::string& topic) {
 }
 
 [[noreturn]] void fail_topic(const std::string& topic) {
-    std::vector<std::string> names;
+    std::vector<std::string> names = {"presets"};
     for (const SceneKey& key : scene_keys()) {
         names.push_back(key.path);
         names.push_back(key.path.substr(key.path.rfind('.') + 1));
     }
     const std::string nearest = did_you_mean(topic, names);
-    throw SceneError("explain: no topic '" + topic + "'" + (nearest.empty() ? ";" : nearest) +
-                     " topics: " + joined(keys_inside("")) + ", or any key of these such as cloth.pin");
+    throw SceneError("explain: no topic '" + topic + "'" + (nearest.empty() ? ";" : nearest) + " topics: presets, " +
+                     joined(keys_inside("")) + ", or any key of these such as cloth.pin");
 }
 
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
@@ -84,9 +85,30 @@ std::string markdown_row(const SceneKey& key) {
     return "| `" + below_heading(key.path) + "` | " + value_text(key) + " | " + fallback + " | " + key.sentence + " |\n";
 }
 
+void print_preset(std::ostream& out, const FabricPreset& preset) {
+    const Fabric& fabric = preset.fabric;
+    const auto [warp, weft] = *fabric.stretch_stiffness;
+    out << "  " << preset.name << ": area_density " << number_text(fabric.area_density) << " kg/m^2, stretch_stiffness ["
+        << number_text(warp) << ", " << number_text(weft) << "] N/m, shear_stiffness " << number_text(*fabric.shear_stiffness)
+        << " N/m, bend_stiffness " << number_text(*fabric.bend_stiffness) << " N m\n";
+}
+
+// One block for each source, in the order of the list.
+void explain_presets(std::ostream& out) {
+    std::string_view source;
+    for (const FabricPreset& preset : fabric_presets()) {
+        if (preset.source != source) out << (source.empty() ? "" : "\n") << preset.source << "\n";
+        source = preset.source;
+        print_preset(out, preset);
+    }
+    out << "\nAll: damping_time " << number_text(*fabric_presets()[0].fabric.damping_time)
+        << " s, thickness and friction as without a preset. Used as [fabric.NAME] preset = \"cotton\".\n";
+}
+
 }  // namespace
 
 void explain(std::ostream& out, const std::string& topic) {
+    if (topic == "presets") return explain_presets(out);
     const std::vector<std::string> paths = topic_paths(topic);
     if (paths.empty()) fail_topic(topic);
     std::string last_heading;

@@ -16,13 +16,7 @@ constexpr std::string_view frame_formats[] = {"ply", "glb", "pc2", "mdd", "vtp"}
 
 constexpr Lacking lacking[] = {
     {.path = "output.frames", .words = frame_formats},
-    {.path = "fabric.preset"},
-    {.path = "fabric.stretch_stiffness"},
-    {.path = "fabric.shear_stiffness"},
-    {.path = "fabric.bend_stiffness"},
-    {.path = "fabric.damping_time"},
     {.path = "cloth.pattern"},
-    {.path = "event.wind"},
     {.path = "event.detach"},
 };
 

@@ -10,6 +10,7 @@
 #include "nearest_name.h"
 #include "overrides.h"
 #include "percale/error.h"
+#include "percale/fabric_presets.h"
 #include "percale/options.h"
 #include "scene_check.h"
 #include "scene_keys.h"
@@ -37,6 +38,10 @@ void read_option(const TomlNode& table, const Option<Owner>& option, Owner& owne
         *option.flag(owner) = node->text == "true";
     } else if (option.number_or_auto) {
         *option.number_or_auto(owner) = node->is_number() ? std::optional(node->number) : std::nullopt;
+    } else if (option.optional_number) {
+        *option.optional_number(owner) = node->number;
+    } else if (option.optional_pair) {
+        *option.optional_pair(owner) = {node->items[0].number, node->items[1].number};
     } else {
         const auto found = std::find(option.choices.begin(), option.choices.end(), node->text);
         option.set_choice(owner, static_cast<int>(found - option.choices.begin()));
@@ -53,11 +58,40 @@ void read_step(const TomlNode& document, Scene& scene) {
         scene.detector = static_cast<Detector>(choice_index(find_scene_key("step.detector")->choices, detector->text));
 }
 
+void check_exclusive(const TomlNode& table, std::string_view one, std::string_view other) {
+    const TomlNode *first = find_value(table, one), *second = find_value(table, other);
+    if (first != nullptr && second != nullptr)
+        fail_at(second->key_place,
+                "[fabric." + table.key + "]: " + std::string(one) + " and " + std::string(other) + " exclude each other");
+}
+
+Fabric read_fabric(const TomlNode& table) {
+    const TomlNode* preset = table.find("preset");
+    const bool stretches = table.find("springs") != nullptr || table.find("stretch_stiffness") != nullptr;
+    if (!stretches && preset == nullptr)
+        fail_at(table.place,
+                "[fabric." + table.key + "] lacks 'springs', 'stretch_stiffness' or 'preset': what resists stretching");
+    check_exclusive(table, "springs", "preset");
+    check_exclusive(table, "springs", "stretch_stiffness");
+    check_exclusive(table, "springs.bend", "bend_stiffness");
+    check_exclusive(table, "spring_damping", "damping_time");
+    Fabric fabric = preset != nullptr ? fabric_preset(preset->text) : Fabric{};
+    if (table.find("spring_damping") != nullptr) fabric.damping_time.reset();
+    for (const auto& option : fabric_options()) read_option(table, option, fabric);
+    if (fabric.has_moduli()) fabric.springs = {.structural = 0.0};
+    if (fabric.damping_time) fabric.spring_damping = 0.0;
+    try {
+        check_options(fabric, "[fabric." + table.key + "]");
+    } catch (const SceneError& error) {
+        fail_at(table.place, error.what());
+    }
+    return fabric;
+}
+
 void read_fabrics(const TomlNode& document, Scene& scene) {
     const TomlNode* fabrics = document.find("fabric");
     if (fabrics == nullptr) return;
-    for (const TomlNode& table : fabrics->entries)
-        for (const auto& option : fabric_options()) read_option(table, option, scene.fabrics[table.key]);
+    for (const TomlNode& table : fabrics->entries) scene.fabrics[table.key] = read_fabric(table);
 }
 
 template <class Part>
@@ -105,10 +139,15 @@ void check_references(const Scene& scene) {
         if (!scene.fabrics.contains(cloth.fabric))
             fail_at(cloth.place,
                     "cloth '" + cloth.name + "': no fabric '" + cloth.fabric + "'" + suggestion(cloth.fabric, fabrics));
+    const auto check_cloth = [&](const std::string& name, const SourcePlace& place, const std::string& what) {
+        if (std::find(cloths.begin(), cloths.end(), name) == cloths.end())
+            fail_at(place, what + ": no cloth '" + name + "'" + suggestion(name, cloths));
+    };
+    for (const SeamSpec& seam : scene.seams)
+        for (const std::string& name : seam.cloths) check_cloth(name, seam.place, "seam");
     for (const EventSpec& event : scene.events) {
         const std::string name = cloth_of(event);
-        if (!name.empty() && std::find(cloths.begin(), cloths.end(), name) == cloths.end())
-            fail_at(event.place, "event: no cloth '" + name + "'" + suggestion(name, cloths));
+        if (!name.empty()) check_cloth(name, event.place, "event");
     }
 }
 
@@ -122,6 +161,7 @@ Scene scene_of(const TomlNode& document, const std::string& name) {
     read_fabrics(document, scene);
     read_list(document, "cloth", read_cloth, scene.cloths);
     read_list(document, "obstacle", read_obstacle, scene.obstacles);
+    read_list(document, "seam", read_seam, scene.seams);
     read_list(document, "event", read_event, scene.events);
     if (const TomlNode* expect = document.find("expect")) scene.expectations = read_expectations(*expect);
     read_output(document, scene.output);

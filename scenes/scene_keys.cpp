@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "expectations.h"
+#include "percale/fabric_presets.h"
 #include "percale/options.h"
 #include "scene_text.h"
 
@@ -41,6 +42,11 @@ SceneKey option_key(const std::string& table, const Option<Owner>& option) {
         key.kind = KeyKind::number_or_auto;
         const std::optional<double>& value = *option.number_or_auto(defaults);
         key.default_text = value ? number_text(*value) : "auto";
+    } else if (option.optional_number) {
+        key.kind = KeyKind::number;
+    } else if (option.optional_pair) {
+        key.kind = KeyKind::numbers;
+        key.count = 2;
     } else {
         key.kind = KeyKind::word;
         key.default_text = key.choices.at(static_cast<std::size_t>(option.get_choice(defaults)));
@@ -107,10 +113,17 @@ void add_step(Keys& keys) {
 
 void add_fabric(Keys& keys) {
     keys.push_back(table_key("fabric", "What cloth is made of; one table [fabric.NAME] for each fabric.", KeyKind::named_tables));
+    std::vector<std::string> presets;
+    for (const FabricPreset& preset : fabric_presets()) presets.emplace_back(preset.name);
+    keys.push_back(
+        word_key("fabric.preset", std::move(presets),
+                 "A fabric to start from, which single keys override; instead of springs. percale explain presets lists "
+                 "them with their numbers."));
     for (const auto& option : fabric_options()) {
         SceneKey key = option_key("fabric", option);
         if (key.path.starts_with("fabric.springs.") && keys.back().path.find(".springs") == std::string::npos)
-            keys.push_back(required(table_key("fabric.springs", "Constants of the springs, whatever their length.")));
+            keys.push_back(table_key("fabric.springs",
+                                     "Constants of the springs, whatever their length; or stretch_stiffness, or a preset."));
         if (key.path == "fabric.springs.structural") key = required(with_default(std::move(key), ""));
         keys.push_back(std::move(key));
     }
@@ -230,7 +243,7 @@ void add_pin_event(Keys& keys, const std::string& path, const std::string& sente
 void add_event(Keys& keys) {
     keys.push_back(table_key("event",
                              "Something that happens once, before the first step at or after its time: exactly one of pin, "
-                             "unpin, move, gravity.",
+                             "unpin, move, gravity, wind.",
                              KeyKind::table_list));
     keys.push_back(required(number_key("event.time", "s", 0.0, longest, "When; after the end of the scene it does not happen.")));
     add_pin_event(keys, "event.pin", "Holds vertices where they are then.");
@@ -239,6 +252,30 @@ void add_event(Keys& keys) {
     keys.push_back(required(numbers_key("event.move.to", 3, "m", farthest, "How far from where they are then.")));
     keys.push_back(required(number_key("event.move.over", "s", 1e-6, longest, "How long it takes.")));
     keys.push_back(numbers_key("event.gravity", 3, "m/s^2", 1e4, "Gravity from then on."));
+    keys.push_back(
+        numbers_key("event.wind", 3, "m/s", 1e3,
+                    "Velocity of the air from then on. Before the first wind there is no air; [0, 0, 0] stands still."));
+}
+
+void add_seam(Keys& keys) {
+    const SeamSpec defaults;
+    keys.push_back(table_key("seam", "Sews vertices together, pair by pair; [[seam]] once for each.", KeyKind::table_list));
+    SceneKey cloths{
+        .path = "seam.cloths", .kind = KeyKind::names, .sentence = "NAMEs of the two cloths; twice the same is one with itself."};
+    cloths.count = 2;
+    keys.push_back(required(std::move(cloths)));
+    SceneKey pairs{.path = "seam.vertices",
+                   .kind = KeyKind::pairs,
+                   .sentence = "Pairs [i, j], i a vertex of the first cloth, j one of the second."};
+    pairs.lowest = 0;
+    pairs.highest = 2147483647;
+    keys.push_back(required(std::move(pairs)));
+    keys.push_back(
+        with_default(number_key("seam.over", "s", 0.0, longest, "How long closing takes, from the start of the scene on."),
+                     number_text(defaults.over)));
+    keys.push_back(with_default(
+        number_key("seam.stiffness", "N/m", 1e-3, 1e9, "Constant of the spring that draws a pair together and then holds it."),
+        number_text(defaults.stiffness)));
 }
 
 void add_expect(Keys& keys) {
@@ -268,6 +305,7 @@ Keys all_keys() {
     add_fabric(keys);
     add_cloth(keys);
     add_obstacle(keys);
+    add_seam(keys);
     add_event(keys);
     add_expect(keys);
     add_output(keys);
@@ -320,6 +358,10 @@ std::string kind_text(const SceneKey& key) {
             return "two corners [[x, y, z], [x, y, z]]";
         case KeyKind::vertices:
             return "a list of vertex indices, { box = [[x, y, z], [x, y, z]] } or \"boundary\"";
+        case KeyKind::names:
+            return "a list of " + std::to_string(key.count) + " names";
+        case KeyKind::pairs:
+            return "a list of pairs [i, j] of vertex indices";
         case KeyKind::limit:
             return "a number, { below = a }, { above = a } or { between = [a, b] }";
         case KeyKind::table:

@@ -23,6 +23,8 @@ namespace {
 
 #include "vector_kernel.inl"
 
+#include "membrane_kernel.inl"
+
 #include "band_kernel.inl"
 
 #include "layout_kernel.inl"
@@ -58,6 +60,11 @@ const Kernels baseline_kernels
        .fine_diagonal = fine_diagonal,
        .coarse_diagonal = coarse_diagonal,
        .galerkin = galerkin,
+       .membrane = membrane,
+       .fill_corners = fill_corners,
+       .multiply_corners = multiply_corners,
+       .multiply_float_corners = multiply_float_corners,
+       .corner_diagonal = corner_diagonal,
        .invert = invert,
        .dense_multiply = dense_multiply};
 

@@ -50,6 +50,7 @@ struct EntryPattern {
 struct SpringEntries {
     EntryPattern pattern;
     const double *stiffness, *rest_length, *damping;  // N/m, m, N s/m
+    const double* bending = nullptr;                  // N/m, b of the pair, of either sign; null: none
 };
 
 /// Springs with damping as a length rate: k = ks + kd/dt, l = (ks l0 + kd l_n/dt)/k.
@@ -61,7 +62,7 @@ struct StartPass {
     double *stiffness, *rest;  // results
 };
 
-/// One evaluation of all springs: T = k (l - l_rest) + c (v_ij . d), force -T d.
+/// One evaluation of all springs: T = k (l - l_rest) + c (v_ij . d), force -T d - b x.
 struct SpringPass {
     SpringEntries springs;
     ConstAxes positions, velocities;  // m, m/s
@@ -133,6 +134,66 @@ struct GalerkinPass {
     float* coarse;
 };
 
+/// The edges of membrane triangles, at the entries of their springs. With the length l of an edge and those of the edges from its
+/// two ends to the vertex opposite in each of its (at most two) triangles, near_k from the own vertex and far_k from the other:
+/// half its pull is t/2 = n1 l^2 + (n2 near_0^2 + n3 far_0^2) + (n4 near_1^2 + n5 far_1^2) - n6, and s = l^2 - n0.
+struct MembraneEdges {
+    const int* opposite[2];
+    const double* numbers[7];  // n0 m^2, n1 ... n5 N/m^3, n6 N/m
+};
+
+/// The triangles as their vertices see them, in slices. From the own vertex edge p goes to the first of the others and q to the
+/// second; r between these. `coupling` has K_pq, K_pr, K_qr in N/m^3, slice_lanes each, for every slice_lanes corners.
+struct MembraneCorners {
+    const int* start;
+    const int* other[2];
+    const double* coupling;
+};
+
+/// One evaluation of all edges, after that of the springs: the force on the own vertex is -t x.
+struct MembranePass {
+    EntryPattern pattern;  // in slices
+    MembraneEdges edges;
+    ConstAxes positions;   // m
+    const double* points;  // the same as x y z 0 a vertex
+    double dt;             // s
+    Axes forces;           // N, added to
+    float* values;         // SpringPass::values, added to; null without matrix
+};
+
+/// Floats a corner.
+constexpr int corner_values = 12;
+
+/// p, q, r in m, then 4 dt^2 times the coupling: corner_values floats, slice_lanes each, for every slice_lanes corners.
+struct CornerFillPass {
+    MembraneCorners corners;
+    ConstAxes positions;
+    const double* points;
+    double dt;
+    float* values;
+};
+
+/// The part of the matrix that couples different edges of triangles.
+struct CornerProduct {
+    MembraneCorners corners;
+    const float* values;
+};
+
+/// A product in double precision that is to be added to y at free vertices.
+struct WideProduct {
+    ConstAxes x;
+    const double* points;  // x as x y z 0 a vertex
+    const double* free;
+    Axes y;
+};
+
+/// Diagonal blocks to be added to, and their inverses; six arrays each.
+struct DiagonalSums {
+    double* diagonal;
+    float* inverse;
+    std::size_t padded;
+};
+
 /// The kernels of one instruction set. All of them give the same bits.
 struct Kernels {
     InstructionSet set;
@@ -158,6 +219,11 @@ struct Kernels {
     void (*fine_diagonal)(const DiagonalPass& pass, Slices range);
     void (*coarse_diagonal)(const DiagonalPass& pass, Slices range);
     void (*galerkin)(const GalerkinPass& pass, int first, int last);
+    double (*membrane)(const MembranePass& pass, Slices range);  // returns their energy, J
+    void (*fill_corners)(const CornerFillPass& pass, Slices range);
+    double (*multiply_corners)(const CornerProduct& pass, const WideProduct& product, Slices range);  // returns what x . y gains
+    void (*multiply_float_corners)(const CornerProduct& pass, const FloatPass& product, Slices range);
+    void (*corner_diagonal)(const CornerProduct& pass, const DiagonalSums& sums, Slices range);
     void (*invert)(double* matrix, int size, int stride);  // symmetric positive definite, in place
     void (*dense_multiply)(const float* matrix, int size, int stride, const float* x, float* y);
 };

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kernels/compute.h"
+#include "membrane_entries.h"
 #include "spring_network.h"
 #include "support/aligned.h"
 #include "vectors.h"
@@ -21,7 +22,9 @@ struct Adjacency {
     BandPattern bands;             // count = 0 unless the springs lie in few bands, as on a single grid
     std::vector<int> place;        // of each spring, in the lists below: its place in the bands, or the entry at its first vertex
     AlignedVector<double> stiffness, rest_length, damping;  // N/m, m, N s/m of each place
+    AlignedVector<double> bending;                          // N/m of each place; empty without hinges
     bool damped = false;                                    // any spring has damping
+    MembraneEntries membrane;                               // empty without triangles
 
     /// How many numbers the blocks a, w of all places take, and where those of a spring stand, `apart` from each other.
     std::size_t value_count() const;
@@ -29,12 +32,16 @@ struct Adjacency {
         std::size_t first, apart;
     };
     ValuePlace value_place(int k) const;
+    /// What a spring resists with when it alone becomes longer, its triangles included, N/m.
+    double strength(int k) const;
     /// The size of a vector as kernels want it (pack_points).
     std::size_t point_count() const;
 
     int slices() const { return static_cast<int>(start.size()) - 1; }
     EntryPattern pattern() const { return {start.data(), other.data(), bands.count > 0 ? &bands : nullptr}; }
-    SpringEntries springs() const { return {pattern(), stiffness.data(), rest_length.data(), damping.data()}; }
+    SpringEntries springs() const {
+        return {pattern(), stiffness.data(), rest_length.data(), damping.data(), bending.empty() ? nullptr : bending.data()};
+    }
 };
 
 /// A copy of vectors as the kernels want it for these springs: x y z 0 of every vertex, or with bands three guarded arrays.
@@ -42,6 +49,15 @@ void pack_points(const Compute& compute, const Adjacency& adjacency, const Vecto
 
 /// How the numbers of all springs are laid out.
 enum class SpringLayout { best, slices };
+
+/// Takes network.bending anew, of the network that the adjacency was made for.
+void copy_bending(const SpringNetwork& network, Adjacency& adjacency);
+
+/// Takes the rest length of one spring anew.
+void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjacency);
+
+/// Membranes are laid out beside the springs of their edges, which must be there, in slices.
+void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std::vector<MembraneTriangle>& triangles);
 
 Adjacency make_adjacency(const SpringNetwork& network, int vertex_count, SpringLayout layout = SpringLayout::best);
 

@@ -29,7 +29,7 @@ public:
         network_.second.push_back(first_vertex_ + b);
         network_.rest_length.push_back(length);
         network_.stiffness.push_back(stiffness);
-        network_.damping.push_back(fabric_.spring_damping);
+        network_.damping.push_back(fabric_.damping_time ? *fabric_.damping_time * stiffness : fabric_.spring_damping);
         network_.kind.push_back(kind);
     }
 
@@ -94,6 +94,13 @@ void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabr
     SpringWriter writer(network, rest, fabric, first_vertex, name);
     rest.is_grid() ? add_grid(writer, rest) : add_free(writer, rest);
     if (network.size() == before) throw SceneError(name + ": the fabric has no springs; springs.structural must be above 0 N/m");
+}
+
+void append_pair(int first, int second, SpringNetwork& network) {
+    network.first.push_back(first);
+    network.second.push_back(second);
+    for (auto* constants : {&network.rest_length, &network.stiffness, &network.damping}) constants->push_back(0.0);
+    network.kind.push_back(SpringKind::hinge);
 }
 
 std::vector<int> springs_at_vertices(const SpringNetwork& network, int from, int first_vertex, int vertex_count) {

@@ -53,6 +53,15 @@ void add_solver(const StepPlan& plan, std::string_view scheme, std::vector<Skip>
     if (!plan.solve) skipped.push_back({"the whole solve", "no vertex is free to move"});
 }
 
+void add_forces(const StepPlan& plan, const SceneFacts& facts, std::vector<Skip>& skipped) {
+    for (const ClothFacts& cloth : facts.cloths) {
+        if (cloth.fabric.bend_stiffness.value_or(0.0) == 0.0)
+            skipped.push_back({"hinges of " + cloth.name, "bend_stiffness is not set or 0 N m"});
+    }
+    if (!plan.wind && !facts.changes.wind) skipped.push_back({"drag of the air", "no wind was ever set"});
+    if (facts.springs.seam == 0) skipped.push_back({"closing of seams", "the scene has no seam"});
+}
+
 void add_measures(const StepPlan& plan, std::vector<Skip>& skipped) {
     if (!plan.measures) {
         skipped.push_back({"energy, strain and speed of each step", "step.measure is none"});
@@ -77,6 +86,8 @@ StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts) {
                     (facts.obstacles > 0 || meets_cloth(facts) || (everything && facts.detector));
     const bool start_lengths = plan.scheme == Scheme::backward_euler && (facts.damped || everything);
     plan.damping = start_lengths ? settings.damping_form : DampingForm::velocity;
+    plan.hinges = facts.springs.hinge > 0;
+    plan.wind = settings.wind.has_value();
     plan.pins = facts.pinned_vertices > 0 || facts.changes.pins || everything;
     plan.still_obstacles = everything;
     plan.gravity_energy = settings.gravity != Vec3::Zero() || facts.changes.gravity || everything;
@@ -104,6 +115,7 @@ std::vector<Skip> skipped_by(const StepPlan& plan, const StepSettings& settings,
     if (plan.scheme == Scheme::backward_euler && plan.damping != settings.damping_form) {
         skipped.push_back({"start lengths of springs in each step", "spring_damping is 0 N s/m"});
     }
+    add_forces(plan, facts, skipped);
     add_solver(plan, facts_of(plan.scheme).word, skipped);
     add_measures(plan, skipped);
     return skipped;

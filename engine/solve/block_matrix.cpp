@@ -28,6 +28,10 @@ double add_contact_product(const BlockMatrix& matrix, const Vectors& x, Vectors&
     return sum;
 }
 
+CornerProduct corner_product(const BlockMatrix& matrix, const SpringTerms& springs) {
+    return {matrix.pattern->membrane.corners(), springs.corners.data()};
+}
+
 /// sum |weight|: the factor that makes |w_k| K at each vertex an upper bound of the row.
 double bound_factor(const ContactBlock& block) {
     const bool between_cloths = std::any_of(block.weight.begin(), block.weight.end(), [](double w) { return w < 0.0; });
@@ -107,6 +111,11 @@ void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, Diagon
                             .inverse = inverse.data(),
                             .padded = matrix.padded()};
     for_chunks(*matrix.compute, matrix.slices(), [&](Slices range) { matrix.compute->kernels->fine_diagonal(pass, range); });
+    if (springs.corners.empty()) return;
+    const CornerProduct corners = corner_product(matrix, springs);
+    const DiagonalSums sums{diagonal.data.data(), inverse.data(), matrix.padded()};
+    for_chunks(*matrix.compute, matrix.slices(),
+               [&](Slices range) { matrix.compute->kernels->corner_diagonal(corners, sums, range); });
 }
 
 void fill_matrix(const SpringTerms& springs, std::span<const ContactBlock> contacts, BlockMatrix& matrix) {
@@ -122,9 +131,15 @@ double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<doubl
     pack_points(compute, *matrix.pattern, x, points);
     const BlockPass pass{
         .pattern = matrix.pattern->pattern(), .values = matrix.springs->values.data(), .ground = matrix.mass.data()};
-    const double sum = sum_chunks(compute, matrix.slices(), [&](Slices range) {
+    double sum = sum_chunks(compute, matrix.slices(), [&](Slices range) {
         return compute.kernels->multiply(pass, x.axes(), points.data(), matrix.free.data(), y.axes(), range);
     });
+    if (!matrix.springs->corners.empty()) {
+        const CornerProduct corners = corner_product(matrix, *matrix.springs);
+        const WideProduct product{.x = x.axes(), .points = points.data(), .free = matrix.free.data(), .y = y.axes()};
+        sum += sum_chunks(compute, matrix.slices(),
+                          [&](Slices range) { return compute.kernels->multiply_corners(corners, product, range); });
+    }
     return sum + add_contact_product(matrix, x, y);
 }
 

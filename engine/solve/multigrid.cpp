@@ -76,7 +76,7 @@ Multigrid::Multigrid(const Compute& compute, const Adjacency& pattern, std::span
                 if (spring >= seen.size() || seen[spring]) continue;
                 seen[spring] = true;
                 graph.pairs.push_back({s * slice_lanes + lane, pattern.other[e]});
-                graph.strength.push_back(pattern.stiffness[pattern.place[spring]]);
+                graph.strength.push_back(pattern.strength(static_cast<int>(spring)));
                 pair_value_.push_back(pattern.value_place(static_cast<int>(spring)));
             }
         }
@@ -135,6 +135,7 @@ void Multigrid::copy_guarded(const BandPattern& bands, const AlignedVector<float
 void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {
     Level& fine = levels_[0];
     fine.values = matrix.springs->values.data();
+    fine.corners = matrix.springs->corners.empty() ? nullptr : matrix.springs->corners.data();
     std::transform(matrix.mass.begin(), matrix.mass.end(), fine.ground.begin(), [](double m) { return static_cast<float>(m); });
     fine.inverse = matrix.inverse;
     contacts_ = matrix.contacts;
@@ -341,6 +342,9 @@ void Multigrid::multiply_level(int k, const AlignedVector<float>& x, const float
                          .right = right};
     const auto kernel = k == 0 ? compute_.kernels->multiply_fine : compute_.kernels->multiply_coarse;
     for_chunks(compute_, level.slices, [&](Slices range) { kernel(pass, range); });
+    if (!level.corners) return;
+    const CornerProduct corners{adjacency_.membrane.corners(), level.corners};
+    for_chunks(compute_, level.slices, [&](Slices range) { compute_.kernels->multiply_float_corners(corners, pass, range); });
 }
 
 /// r = b - A x.

@@ -8,7 +8,8 @@
 namespace percale {
 
 /// One V-cycle as a preconditioner, in single precision: a sweep of damped block Jacobi before and after each coarse
-/// correction; dense at the bottom. Symmetric and positive definite.
+/// correction; dense at the bottom. Symmetric and positive definite. Coarser levels take the triangles of membranes as the
+/// springs on their edges alone, which is within a factor of about three.
 ///
 /// Contacts and prescribed vertices leave the hierarchy as it is. The transfers are filtered at such vertices: by 0 where the
 /// motion is prescribed, by S = d (d I + K)^-1 where contact adds K to a vertex whose own block has the size d along K; coarser
@@ -42,6 +43,7 @@ private:
         int slices = 0;
         std::size_t padded = 0;
         const float* values = nullptr;
+        const float* corners = nullptr;   // of membranes, at the finest level
         AlignedVector<float> own_values;  // of coarser levels
         AlignedVector<float> blocks;      // eight numbers a pair (six used), one zero block more
         AlignedVector<float> ground;      // the mass alone (finest), or six arrays

@@ -22,6 +22,7 @@ void evaluate_at(World& world, const ClothState& state) {
                            .positions = &state.positions,
                            .velocities = &state.velocities,
                            .gravity = world.settings.gravity,
+                           .wind = set_wind_at(world, state.positions),
                            .dt = world.settings.time_step,
                            .with_matrix = false};
     evaluate_forces(input, space.forces);
@@ -34,7 +35,8 @@ void make_step(World& world, StepFraction span) {
                             .settings = &world.settings,
                             .targets = &world.part_targets,
                             .free = &world.script.free,
-                            .dt = world.settings.time_step * (span.to - span.from)};
+                            .dt = world.settings.time_step * (span.to - span.from),
+                            .wind = set_wind_at(world, world.state.positions)};
     step_explicit(world.plan.scheme, part, world.explicit_space, world.state);
 }
 
@@ -51,8 +53,6 @@ void make_kept_step(World& world, StepFraction span) {
 /// A whole step and two half ones: what they differ by over 2^order - 1 is the error of the latter.
 void make_two_steps(World& world, StepFraction span) {
     StageSpace& stages = world.stages;
-    stages.start.positions = world.state.positions;
-    stages.start.velocities = world.state.velocities;
     make_step(world, span);
     stages.scratch = world.state.positions;
     world.state.positions = stages.start.positions;
@@ -68,10 +68,13 @@ void make_two_steps(World& world, StepFraction span) {
 
 void solve_explicit_span(World& world, StepFraction span) {
     StageTimer timer(world.report.stages.force);
+    ClothState& start = world.stages.start;
+    start.positions = world.state.positions;
+    start.velocities = world.state.velocities;
+    set_part_seams(world, span);
     world.settings.adaptive ? make_two_steps(world, span) : make_kept_step(world, span);
-    if (!world.plan.pin_work) return;
-    const double work = pin_work(world, world.settings.adaptive ? world.stages.start : world.before);
-    world.report.energy.work += work;
+    const double work = script_work(world, start, world.settings.time_step * (span.to - span.from));
+    world.report.energy.work += world.seam_work + work;
     if (world.plan.ledger) world.report.energy.dissipated_integrator += work;  // account_explicit
 }
 
@@ -85,11 +88,15 @@ void set_accelerations(World& world, const ClothState& state, Vectors& accelerat
     }
 }
 
-double pin_work(World& world, const ClothState& start) {
+double script_work(World& world, const ClothState& start, double length) {
+    if (!world.plan.pin_work && !(world.plan.wind && world.plan.measures)) return 0.0;
     evaluate_at(world, start);
     world.explicit_space.start_forces = world.explicit_space.forces.total;
+    double power = world.explicit_space.forces.wind.power;
     evaluate_at(world, world.state);
-    double work = 0.0;
+    power += world.explicit_space.forces.wind.power;
+    double work = 0.5 * length * power;
+    if (!world.plan.pin_work) return work;
     for (int i = 0; i < world.model.vertex_count(); ++i) {
         if (world.script.free[i] > 0.0) continue;
         const Vec3 force = 0.5 * (world.explicit_space.start_forces.at(i) + world.explicit_space.forces.total.at(i));

@@ -11,8 +11,8 @@ void solve_explicit_span(World& world, StepFraction span);
 /// f/m without contact, m/s^2; 0 at prescribed vertices.
 void set_accelerations(World& world, const ClothState& state, Vectors& accelerations);
 
-/// Work of moving pins between a state and the present one, J: what their kinetic energy gained less the work of the mean of the
-/// forces (without contact) at both ends.
-double pin_work(World& world, const ClothState& start);
+/// Work of moving pins and of the wind between a state and the present one, `length` in s later, J. Pins: what their kinetic
+/// energy gained less the work of the mean of the forces (without contact) at both ends; wind: the mean of its powers there.
+double script_work(World& world, const ClothState& start, double length);
 
 }  // namespace percale

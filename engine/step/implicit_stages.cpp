@@ -56,6 +56,7 @@ NewtonReport solve_stage(World& world, const Stage& stage) {
                             .contact_dt = world.contact_dt,
                             .span = span,
                             .flows = world.flows,
+                            .wind = set_wind_at(world, world.state.positions),
                             .options = {}};
     const NewtonReport report = solve_implicit(part, world.newton, world.state, world.report.stages);
     add_figures(report, world.report);
@@ -219,10 +220,12 @@ NewtonReport solve_by_scheme(World& world, StepFraction span, bool go_on) {
     }
 }
 
-/// Work of pins and obstacles in a part of backward Euler, J: a pin's reaction is what its residual lacks, M (v - v_n) - dt f.
+/// Work of pins, obstacles and wind in a part of backward Euler, J: a pin's reaction is what its residual lacks, M (v - v_n) -
+/// dt f.
 double backward_euler_work(World& world, double dt) {
     const NewtonPoint& end = world.newton.current;
     double work = world.plan.contacts ? dt * end.forces.contact.obstacle_power : 0.0;
+    work += dt * end.forces.wind.power;
     if (!world.plan.pin_work) return work;
     for (int i = 0; i < world.model.vertex_count(); ++i) {
         if (world.script.free[i] > 0.0) continue;
@@ -237,6 +240,7 @@ double backward_euler_work(World& world, double dt) {
 
 NewtonEnd solve_implicit_span(World& world, StepFraction span, bool go_on) {
     if (world.plan.scheme != Scheme::backward_euler) save_start(world);
+    set_part_seams(world, span);
     world.stages.obstacle_work = 0.0;
     return solve_by_scheme(world, span, go_on).end;
 }
@@ -250,10 +254,9 @@ void restore_span_start(World& world) {
 }
 
 double span_work(World& world, StepFraction span) {
-    if (world.plan.scheme == Scheme::backward_euler) {
-        return backward_euler_work(world, world.settings.time_step * (span.to - span.from));
-    }
-    return world.stages.obstacle_work + (world.plan.pin_work ? pin_work(world, world.stages.start) : 0.0);
+    const double length = world.settings.time_step * (span.to - span.from);
+    if (world.plan.scheme == Scheme::backward_euler) return world.seam_work + backward_euler_work(world, length);
+    return world.seam_work + world.stages.obstacle_work + script_work(world, world.stages.start, length);
 }
 
 }  // namespace percale

@@ -12,7 +12,7 @@ NewtonEnd solve_implicit_span(World& world, StepFraction span, bool go_on);
 /// The state as it was before solve_implicit_span.
 void restore_span_start(World& world);
 
-/// Work of pins and obstacles during the span just solved, J.
+/// Work of pins, obstacles, wind and closing seams during the span just solved, J.
 double span_work(World& world, StepFraction span);
 
 }  // namespace percale

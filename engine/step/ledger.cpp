@@ -2,6 +2,8 @@
 
 #include "forces/contact_loss.h"
 #include "forces/spring_loss.h"
+#include "measure.h"
+#include "shape_loss.h"
 #include "span_ledger.h"
 
 namespace percale {
@@ -65,20 +67,26 @@ void account_backward_euler(World& world, double dt) {
     StepEnergy& energy = world.report.energy;
     energy.dissipated_material += springs.material;
     energy.dissipated_integrator += springs.integrator + velocity_loss(world, newton.start_velocities, end.velocities);
+    energy.dissipated_integrator += shape_loss(world, {newton.start_positions, end.positions, end.positions});
     energy.residual_work += dot(world.compute, end.residual, end.velocities);
     if (world.plan.contacts) account_contact(world, dt);
 }
 
 }  // namespace
 
+void begin_ledger(World& world) {
+    world.ledger.contact = world.contact_energy;
+    world.ledger.start_energy = current_energy(world).total() - world.report.energy.work;
+}
+
 void account_implicit(World& world, double dt, double work) {
     if (world.plan.scheme == Scheme::backward_euler) return account_backward_euler(world, dt);
     account_stages(world, {world.stages.start.positions, world.stages.start.velocities, dt}, work);
 }
 
-void close_ledger(World& world, const StepEnergy& start) {
+void close_ledger(World& world) {
     StepEnergy& end = world.report.energy;
-    end.imbalance = end.total() - start.total() + end.dissipated() - end.residual_work - end.work;
+    end.imbalance = end.total() - world.ledger.start_energy + end.dissipated() - end.residual_work - end.work;
 }
 
 }  // namespace percale

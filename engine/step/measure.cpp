@@ -6,6 +6,7 @@
 
 #include "forces/body_force.h"
 #include "ledger.h"
+#include "shape_loss.h"
 #include "support/hash.h"
 #include "support/stage_timer.h"
 
@@ -31,12 +32,13 @@ double largest_speed(const World& world) {
 
 namespace {
 
-StepEnergy energy_of(const World& world, const ClothState& state, bool with_gravity) {
+StepEnergy energy_of(const World& world, bool with_gravity) {
+    const ClothState& state = world.state;
     StepEnergy energy;
     energy.kinetic = 0.5 * sum_terms(0, world.model.vertex_count(),
                                      [&](int i) { return world.model.mass[i] * square_at(state.velocities, i); });
     if (with_gravity) energy.gravity = gravity_energy(world.model.mass, world.settings.gravity, state.positions);
-    energy.elastic = elastic_energy(world.model.springs, state.positions);
+    energy.elastic = shape_energy(world.model, state.positions);
     energy.contact = world.contact_energy;
     return energy;
 }
@@ -55,13 +57,13 @@ void leave_out(StepReport& report) {
 
 }  // namespace
 
-StepEnergy current_energy(const World& world) { return energy_of(world, world.state, true); }
+StepEnergy current_energy(const World& world) { return energy_of(world, true); }
 
 void measure_kept(World& world) {
     StepReport& report = world.report;
     report.smallest_distance = std::numeric_limits<double>::infinity();
     if (!world.plan.measures) return leave_out(report);
-    report.energy = energy_of(world, world.state, world.plan.gravity_energy);
+    report.energy = energy_of(world, world.plan.gravity_energy);
     if (!world.plan.ledger) leave_out_ledger(report.energy);
     report.largest_strain = largest_strain(world.model.springs, world.state.positions);
     report.largest_speed = largest_speed(world);
@@ -72,14 +74,13 @@ namespace {
 /// State measures, and the flows that the solve has counted.
 void measure_state(World& world) {
     const StepEnergy flows = world.report.energy;
-    const StepEnergy start = world.plan.ledger ? energy_of(world, world.before, world.plan.gravity_energy) : StepEnergy{};
     const ContactTerms& contact = world.newton.current.forces.contact;
     world.contact_energy = world.plan.contacts ? contact.energy + grip_energy(contact.touches) : 0.0;
     measure_kept(world);
     if (world.plan.measures) world.report.energy.work = flows.work;
     if (!world.plan.ledger) return;
     for (const auto entry : ledger_entries) world.report.energy.*entry = flows.*entry;
-    close_ledger(world, start);
+    close_ledger(world);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ bool solve_span(World& world, StepFraction span, int depth) {
         world.report.largest_dt = std::max(world.report.largest_dt, length);
         const double work = span_work(world, span);
         world.report.energy.work += work;
-        if (world.plan.ledger) account_implicit(world, length, work);
+        if (world.plan.ledger) account_implicit(world, length, work - world.seam_work);
         if (end != NewtonEnd::converged) world.report.status = StepStatus::not_converged;
         return true;
     }
@@ -158,7 +158,7 @@ bool cover_adaptively(World& world) {
 
 void solve_step(World& world) {
     if (!world.plan.solve) return world.state.velocities.resize(world.model.vertex_count());
-    world.ledger.contact = world.contact_energy;
+    if (world.plan.ledger) begin_ledger(world);
     if (world.plan.implicit && !world.plan.keep_work_space) {
         const LinearSolver solver = world.newton.solver.in_use();
         ContactProjection projection = std::move(world.newton.projection);

@@ -4,6 +4,8 @@
 #include <span>
 
 #include "forces/spring_loss.h"
+#include "scripted_motion.h"
+#include "shape_loss.h"
 
 namespace percale {
 namespace {
@@ -32,9 +34,20 @@ void evaluate(World& world, const LedgerSpan& span, const Vectors& positions, co
                            .positions = &positions,
                            .velocities = &velocities,
                            .gravity = world.settings.gravity,
+                           .wind = set_wind_at(world, positions),
                            .dt = span.dt,
                            .with_matrix = false};
     evaluate_forces(input, space.forces);
+}
+
+/// Of the air, as world.wind has it, on cloth that moves over the span while the drag stays what these velocities make it, J.
+double wind_work(World& world, const LedgerSpan& span, const Vectors& velocities) {
+    if (!world.plan.wind) return 0.0;
+    Vectors& drag = world.ledger.forces;
+    drag.resize(world.model.vertex_count());
+    add_wind(world.model, world.wind, velocities, span.dt, drag, world.explicit_space.forces.wind);
+    return sum_terms(0, world.model.vertex_count(),
+                     [&](int i) { return drag.at(i).dot(world.state.positions.at(i) - span.positions.at(i)); });
 }
 
 /// The stage after the one whose forces were evaluated last.
@@ -82,8 +95,10 @@ void take_forces(World& world, const LedgerSpan& span, double weight, const Vect
                                                               .form = DampingForm::velocity,
                                                               .dt = span.dt});
     world.report.energy.dissipated_material += weight * loss.material;
-    world.report.energy.dissipated_integrator += weight * loss.integrator;
+    const double shapes = shape_loss(world, {span.positions, world.state.positions, positions});
+    world.report.energy.dissipated_integrator += weight * (loss.integrator + shapes);
     evaluate(world, span, positions, velocities);
+    world.report.energy.dissipated_integrator -= weight * wind_work(world, span, velocities);
     add_scaled(world.ledger.impulse, weight * span.dt, world.explicit_space.forces.total);
 }
 

@@ -26,10 +26,11 @@ struct Unbalanced {
 };
 
 /// Adds what the forces taken so far and the change of velocities mean to the ledger. What the scheme's forces make of the work
-/// of pins is left to the caller: that reported is another, of second order, and the difference is the integrator's.
+/// of pins and wind is left to the caller: that reported is another, of second order, and the difference is the integrator's.
 Unbalanced account_span(World& world, const LedgerSpan& span);
 
-/// The account of a step of an explicit scheme, whose stages follow from the start; without the work of pins that is reported.
+/// The account of a step of an explicit scheme, whose stages follow from the start; without the work of pins and wind that is
+/// reported.
 void account_explicit(World& world, const LedgerSpan& span);
 
 /// The account of a span that an implicit scheme other than backward Euler just solved; `work` of pins and obstacles, J, is

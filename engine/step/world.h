@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/cloth_model.h"
+#include "model/seams.h"
 #include "model/step_plan.h"
 #include "percale/contact.h"
 #include "percale/report.h"
@@ -28,6 +29,7 @@ struct Script {
     AlignedVector<double> free;  // 1, or 0 where pinned and in the padding
     Vectors pin_targets;         // m, at the end of the coming step; meaningful where pinned
     std::vector<ObstacleState> obstacles;
+    std::vector<Seam> seams;
 };
 
 /// What callers see, one entry a vertex in the user's order. Positions and masses are kept only if some cloth has another order.
@@ -52,10 +54,12 @@ struct StageSpace {
 
 /// What the ledger of energy goes by within a step.
 struct LedgerSpace {
-    double contact = 0.0;  // J, energy of contact where the coming part begins
-    ClothState stage;      // in which forces are taken; without points
-    ClothState start;      // of a part of an explicit step; likewise
-    Vectors impulse;       // N s, that the forces taken so far give
+    double start_energy = 0.0;  // J, in all, when the step began
+    double contact = 0.0;       // J, energy of contact where the coming part begins
+    ClothState stage;           // in which forces are taken; without points
+    ClothState start;           // of a part of an explicit step; likewise
+    Vectors impulse;            // N s, that the forces taken so far give
+    Vectors still, forces;      // work space
 };
 
 /// Everything one simulation holds.
@@ -81,6 +85,8 @@ struct World {
     ClothState before;  // the state at the start of the running step
     Vectors part_targets;
     std::vector<ObstacleFlow> flows;
+    StepWind wind;
+    double seam_work = 0.0;       // J, of closing seams in the part being solved
     double contact_energy = 0.0;  // J, of the current state
     double contact_dt = 0.0;      // s, that the contact stiffness was last made for
     LedgerSpace ledger;

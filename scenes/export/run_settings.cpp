@@ -18,9 +18,17 @@ ordered_json option_value(Owner& owner, const Option<Owner>& option) {
     if (option.number) return *option.number(owner);
     if (option.integer) return *option.integer(owner);
     if (option.flag) return *option.flag(owner);
+    if (option.optional_number) return **option.optional_number(owner);
+    if (option.optional_pair) return **option.optional_pair(owner);
     if (option.get_choice) return std::string(option.choices[static_cast<std::size_t>(option.get_choice(owner))]);
     const std::optional<double>& value = *option.number_or_auto(owner);
     return value ? ordered_json(*value) : ordered_json("auto");
+}
+
+template <class Owner>
+bool is_left_out(Owner& owner, const Option<Owner>& option) {
+    return (option.optional_number && !option.optional_number(owner)->has_value()) ||
+           (option.optional_pair && !option.optional_pair(owner)->has_value());
 }
 
 /// Puts an option under its dotted key: springs.shear becomes an object in an object.
@@ -28,6 +36,7 @@ template <class Owner>
 ordered_json options_object(Owner owner, std::span<const Option<Owner>> options) {
     ordered_json json = ordered_json::object();
     for (const Option<Owner>& option : options) {
+        if (is_left_out(owner, option)) continue;
         std::string key(option.key);
         for (char& letter : key)
             if (letter == '.') letter = '/';
@@ -102,6 +111,10 @@ ordered_json obstacle_object(const ObstacleSpec& obstacle) {
     return json;
 }
 
+ordered_json seam_object(const SeamSpec& seam) {
+    return {{"cloths", seam.cloths}, {"vertices", seam.vertices}, {"over", seam.over}, {"stiffness", seam.stiffness}};
+}
+
 struct EventObject {
     ordered_json operator()(const PinEvent& e) const {
         return {{"pin", {{"cloth", e.cloth}, {"vertices", selection_object(e.vertices)}}}};
@@ -112,6 +125,7 @@ struct EventObject {
     ordered_json operator()(const MoveEvent& e) const {
         return {{"move", {{"cloth", e.cloth}, {"vertices", selection_object(e.vertices)}, {"to", list(e.to)}, {"over", e.over}}}};
     }
+    ordered_json operator()(const WindEvent& e) const { return {{"wind", list(e.wind)}}; }
     ordered_json operator()(const GravityEvent& e) const { return {{"gravity", list(e.gravity)}}; }
 };
 
@@ -140,6 +154,8 @@ std::string settings_text(const Scene& scene) {
     for (const ClothSpec& cloth : scene.cloths) json["cloth"].push_back(cloth_object(cloth));
     json["obstacle"] = ordered_json::array();
     for (const ObstacleSpec& obstacle : scene.obstacles) json["obstacle"].push_back(obstacle_object(obstacle));
+    json["seam"] = ordered_json::array();
+    for (const SeamSpec& seam : scene.seams) json["seam"].push_back(seam_object(seam));
     json["event"] = ordered_json::array();
     for (const EventSpec& event : scene.events) json["event"].push_back(event_object(event));
     json["output"] = {{"frames", scene.output.frames == FrameFormat::obj ? "obj" : "none"}, {"fps", scene.output.fps}};

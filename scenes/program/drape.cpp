@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -6,9 +7,11 @@
 #include <memory>
 
 #include "measures.h"
+#include "nearest_name.h"
 #include "obj_file.h"
 #include "percale/certify.h"
 #include "percale/error.h"
+#include "percale/fabric_presets.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
@@ -33,6 +36,7 @@ struct DrapeOptions {
     std::array<double, 3> move = {0.0, 0.0, 0.0};  // m
     // A felt with enough bending springs and damping that free hems come to rest within the limit.
     Fabric fabric{.springs = {.structural = 1000.0, .bend = 5.0}, .spring_damping = 2.0};
+    std::string preset;  // "" for the felt
     double friction = 0.4;
     double seconds = 20.0;  // s, limit
     bool quiet = false;
@@ -159,6 +163,22 @@ int drape_garment(const DrapeOptions& options) {
     return verdict(options, drape, check);
 }
 
+/// The preset as it is on a mesh that does not say where warp is, with what else the command line says.
+Fabric fabric_from_preset(const CLI::App& command, const DrapeOptions& options) {
+    std::vector<std::string> names;
+    for (const FabricPreset& preset : fabric_presets()) names.emplace_back(preset.name);
+    if (std::find(names.begin(), names.end(), options.preset) == names.end())
+        throw SceneError("--fabric: no fabric preset '" + options.preset + "'" + suggestion(options.preset, names));
+    Fabric fabric = isotropic(fabric_preset(options.preset));
+    const auto given = [&](const std::string& option) { return command.get_option(option)->count() > 0; };
+    if (given("--thickness")) fabric.thickness = options.fabric.thickness;
+    if (given("--area-density")) fabric.area_density = options.fabric.area_density;
+    if (!given("--damping")) return fabric;
+    fabric.damping_time.reset();
+    fabric.spring_damping = options.fabric.spring_damping;
+    return fabric;
+}
+
 void add_options(CLI::App& command, DrapeOptions& options) {
     command.add_option("GARMENT", options.garment, "Garment mesh, outside the body")->required();
     command.add_option("BODY", options.body, "Body mesh")->required();
@@ -169,11 +189,20 @@ void add_options(CLI::App& command, DrapeOptions& options) {
     command.add_option("--move", options.move, "Move the garment before it starts, m")
         ->type_name("X Y Z")
         ->allow_extra_args(false);
+    CLI::Option* preset =
+        command
+            .add_option(
+                "--fabric", options.preset,
+                "Fabric preset, its moduli the same in all directions (percale explain presets; default: a felt of springs)")
+            ->type_name("NAME");
     command.add_option("--thickness", options.fabric.thickness, "Gap kept from the body, m (default 0.005)")->type_name("M");
     command.add_option("--area-density", options.fabric.area_density, "kg/m^2 (default 0.2)")->type_name("D");
     command.add_option("--structural", options.fabric.springs.structural, "Spring constant of edges, N/m (default 1000)")
-        ->type_name("K");
-    command.add_option("--bend", options.fabric.springs.bend, "Spring constant across edges, N/m (default 5)")->type_name("K");
+        ->type_name("K")
+        ->excludes(preset);
+    command.add_option("--bend", options.fabric.springs.bend, "Spring constant across edges, N/m (default 5)")
+        ->type_name("K")
+        ->excludes(preset);
     command.add_option("--damping", options.fabric.spring_damping, "Damping of each spring, N s/m (default 2)")->type_name("C");
     command.add_option("--friction", options.friction, "Coulomb coefficient (default 0.4)")->type_name("MU");
     command.add_option("--seconds", options.seconds, "Simulated time at most, s (default 20)")->type_name("S");
@@ -187,7 +216,12 @@ void add_drape_command(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("drape", "Let a garment settle on a body until it is at rest");
     command->footer("Example: percale drape data/meshes/poncho.obj data/meshes/mannequin.obj --move 0 1.53 0 -o draped.obj");
     add_options(*command, *options);
-    command->callback([options, &action] { action = [options] { return drape_garment(*options); }; });
+    command->callback([options, command, &action] {
+        action = [options, command] {
+            if (!options->preset.empty()) options->fabric = fabric_from_preset(*command, *options);
+            return drape_garment(*options);
+        };
+    });
 }
 
 }  // namespace percale::program

@@ -19,7 +19,8 @@ void check_descriptions(std::span<const Option<Owner>> options) {
         CHECK(option.sentence.size() > 10);
         CHECK(option.sentence.back() == '.');
         const int fields = (option.number != nullptr) + (option.integer != nullptr) + (option.number_or_auto != nullptr) +
-                           (option.flag != nullptr) + (option.get_choice != nullptr);
+                           (option.flag != nullptr) + (option.optional_number != nullptr) + (option.optional_pair != nullptr) +
+                           (option.get_choice != nullptr);
         CHECK(fields == 1);
         CHECK((option.get_choice != nullptr) == (option.set_choice != nullptr));
         CHECK((option.get_choice != nullptr) == !option.choices.empty());
@@ -27,13 +28,27 @@ void check_descriptions(std::span<const Option<Owner>> options) {
     }
 }
 
+/// An owner in which any single field may be set.
+template <class Owner>
+Owner owner_for(const Option<Owner>&) {
+    return {};
+}
+template <>
+Fabric owner_for(const Option<Fabric>& option) {
+    Fabric fabric;
+    if (option.key == "shear_stiffness" || option.key == "poisson_ratio") fabric.stretch_stiffness = {100.0, 100.0};
+    return fabric;
+}
+
 /// The message for one field set to a value; empty if it is allowed.
 template <class Owner>
 std::string refusal(const Option<Owner>& option, double value) {
-    Owner owner;
+    Owner owner = owner_for(option);
     if (option.number) *option.number(owner) = value;
     if (option.integer) *option.integer(owner) = static_cast<int>(value);
     if (option.number_or_auto) *option.number_or_auto(owner) = value;
+    if (option.optional_number) *option.optional_number(owner) = value;
+    if (option.optional_pair) *option.optional_pair(owner) = {1.0, value};
     return scene_error([&] { check_options(owner, "silk"); });
 }
 
@@ -79,6 +94,27 @@ TEST_CASE("A refusal names owner, key, value, unit and range") {
     settings.newton_iterations = 0;
     CHECK(scene_error([&] { check_options(settings, "settings"); }) ==
           "settings: newton_iterations = 0 is outside the allowed range 1 ... 1000");
+}
+
+TEST_CASE("Fields of a fabric that exclude or need each other are refused, defaults contradict nothing") {
+    const auto refused = [](const Fabric& fabric) { return scene_error([&] { check_options(fabric, "silk"); }); };
+    CHECK(refused({.stretch_stiffness = {{2000.0, 1500.0}}, .shear_stiffness = 100.0, .bend_stiffness = 1e-5}) == "");
+    CHECK(refused({.springs = {.structural = 0.0}, .stretch_stiffness = {{2.0, 1.0}}}) == "");
+    CHECK(refused({.spring_damping = 0.0, .damping_time = 0.01}) == "");
+    CHECK(
+        mentions(refused({.springs = {.structural = 5.0}, .stretch_stiffness = {{2.0, 1.0}}}), {"springs", "stretch_stiffness"}));
+    CHECK(mentions(refused({.springs = {.bend = 5.0}, .bend_stiffness = 1e-5}), {"silk", "springs.bend", "bend_stiffness"}));
+    CHECK(mentions(refused({.spring_damping = 0.2, .damping_time = 0.01}), {"spring_damping", "damping_time"}));
+    CHECK(mentions(refused({.shear_stiffness = 5.0}), {"shear_stiffness needs stretch_stiffness"}));
+    CHECK(mentions(refused({.poisson_ratio = 0.2}), {"poisson_ratio needs stretch_stiffness"}));
+    Fabric plain{.stretch_stiffness = {{2.0, 2.0}}, .membrane = Membrane::van_gelder};
+    CHECK(refused(plain) == "");
+    plain.poisson_ratio = 0.3;
+    CHECK(mentions(refused(plain), {"van_gelder", "poisson_ratio"}));
+    plain = {.stretch_stiffness = {{2.0, 2.0}}, .shear_stiffness = 1.0, .membrane = Membrane::van_gelder};
+    CHECK(mentions(refused(plain), {"van_gelder", "shear_stiffness"}));
+    plain = {.stretch_stiffness = {{2.0, 1.0}}, .membrane = Membrane::van_gelder};
+    CHECK(mentions(refused(plain), {"van_gelder", "stretch_stiffness"}));
 }
 
 TEST_CASE("Gravity must be finite and at most ten thousand m/s^2 along each axis") {

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "percale/fabric_presets.h"
 #include "scene_texts.h"
 #include "scenes/scene_keys.h"
 #include "tests/support/catch.h"
@@ -44,6 +45,17 @@ TEST_CASE("a key is explained with kind, range, unit and default") {
     CHECK(explained("step.detector").starts_with("[step]\n  detector: one of fcl, bullet, brute_force, none; default fcl\n"));
     CHECK(contains(explained("cloth.name"), "name: a text; required\n"));
     CHECK(explained("title").starts_with("  title: a text; default \"\"\n"));
+}
+
+TEST_CASE("presets are listed with their numbers under where these come from") {
+    const std::string text = explained("presets");
+    for (const percale::FabricPreset& preset : percale::fabric_presets()) {
+        CAPTURE(preset.name);
+        CHECK(contains(text, "\n  " + std::string(preset.name) + ": area_density "));
+        CHECK(text.find(preset.source) < text.find("\n  " + std::string(preset.name) + ": "));
+    }
+    CHECK(contains(text, "  ponte: area_density 0.284 kg/m^2, stretch_stiffness [31, 44] N/m, shear_stiffness 32 N/m, "));
+    CHECK(contains(error_of([] { explained("presetss"); }), "did you mean 'presets'?"));
 }
 
 TEST_CASE("a topic takes in what lies below it and nothing else") {

@@ -26,9 +26,10 @@ TEST_CASE("a correct document has no fault") { CHECK(fault(small_scene()) == no_
 
 TEST_CASE("an unknown key is refused with its place, its table and the nearest valid key") {
     CHECK(fault("[fabric.sheet]\nsprngs = 3\n") ==
-          "t:2:1: unknown key 'sprngs' in [fabric.sheet]; did you mean 'springs'? valid: area_density, thickness, self_contact, "
-          "friction, springs, "
-          "spring_damping");
+          "t:2:1: unknown key 'sprngs' in [fabric.sheet]; did you mean 'springs'? valid: preset, area_density, thickness, "
+          "self_contact, "
+          "friction, springs, spring_damping, damping_time, stretch_stiffness, shear_stiffness, poisson_ratio, membrane, "
+          "bend_stiffness");
     CHECK(
         fault("duraton = 3\n").starts_with("t:1:1: unknown key 'duraton' in the scene; did you mean 'duration'? valid: title, "));
     CHECK(fault_after("[stepp]\n").starts_with("t:8:2: unknown key 'stepp' in the scene; did you mean 'step'?"));
@@ -92,18 +93,21 @@ TEST_CASE("the ends of every option's range are allowed and what lies beyond is 
     const auto try_value = [](const std::string& table, const std::string& key, double value) {
         return fault_after("[" + table + "]\n" + key + " = " + number_text(value) + "\n");
     };
-    const auto try_fabric = [&](const std::string& key, double value) {
+    const auto try_fabric = [&](const std::string& key, const std::string& value) {
         const std::string springs = key == "springs.structural" ? "" : "springs.structural = 1\n";
-        return fault_after("[fabric.other]\n" + springs + key + " = " + number_text(value) + "\n");
+        return fault_after("[fabric.other]\n" + springs + key + " = " + value + "\n");
     };
     for (const auto& option : fabric_options()) {
-        if (option.flag) continue;
+        if (option.flag || !option.choices.empty()) continue;
         const std::string key(option.key);
         CAPTURE(key);
-        CHECK(try_fabric(key, option.lowest) == no_fault);
-        CHECK(try_fabric(key, option.highest) == no_fault);
-        CHECK(try_fabric(key, option.highest * 1.01).find("is out of range") != std::string::npos);
-        CHECK(try_fabric(key, option.lowest - 1.0).find("is out of range") != std::string::npos);
+        const auto text = [&](double value) {
+            return option.optional_pair ? "[1, " + number_text(value) + "]" : number_text(value);
+        };
+        CHECK(try_fabric(key, text(option.lowest)) == no_fault);
+        CHECK(try_fabric(key, text(option.highest)) == no_fault);
+        CHECK(try_fabric(key, text(option.highest * 1.01)).find("is out of range") != std::string::npos);
+        CHECK(try_fabric(key, text(option.lowest - 1.0)).find("is out of range") != std::string::npos);
     }
     for (const auto& option : step_options()) {
         if (!option.choices.empty() || option.flag) continue;
@@ -124,9 +128,8 @@ TEST_CASE("an unknown word is refused with the nearest choice") {
 TEST_CASE("what this build lacks is told as such, not as a slip") {
     CHECK(fault("[step]\nscheme = \"bdf2\"\n") ==
           "t:2:10: this build lacks the choice 'bdf2' of step.scheme; it takes one of symplectic_euler, rk4, backward_euler");
-    CHECK(fault("[fabric.sheet]\npreset = \"cotton\"\n") ==
-          "t:2:1: this build lacks the key 'preset' of [fabric.sheet]; valid: area_density, thickness, self_contact, friction, "
-          "springs, spring_damping");
+    CHECK(fault("[[cloth]]\nname = \"a\"\npattern = \"shirt.json\"\n")
+              .starts_with("t:3:1: this build lacks the key 'pattern' of [cloth.a]; valid: name, "));
     CHECK(fault_after("[[event]]\ntime = 1\nwind = [1, 0, 0]\n")
               .starts_with("t:10:1: this build lacks the key 'wind' of [event.0]; valid: time, "));
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "percale/fabric_presets.h"
 #include "scene_texts.h"
 #include "test_folder.h"
 #include "tests/support/catch.h"
@@ -104,10 +105,64 @@ TEST_CASE("a fabric must say its springs; the rest is as in the struct") {
     CHECK(plain.springs.bend == 0.0);
     CHECK(plain.area_density == Fabric{}.area_density);
     CHECK(plain.spring_damping == Fabric{}.spring_damping);
-    CHECK(fault(small_scene() + "[fabric.plain]\n").starts_with("t:8:1: [fabric.plain] lacks 'springs': "));
-    CHECK(fault(small_scene() + "[fabric.plain]\nthickness = 0.01\n").starts_with("t:8:1: [fabric.plain] lacks 'springs': "));
+    const std::string lacks = "t:8:1: [fabric.plain] lacks 'springs', 'stretch_stiffness' or 'preset': ";
+    CHECK(fault(small_scene() + "[fabric.plain]\n").starts_with(lacks));
+    CHECK(fault(small_scene() + "[fabric.plain]\nthickness = 0.01\n").starts_with(lacks));
+    CHECK(fault(small_scene() + "[fabric.plain]\nbend_stiffness = 0.01\n").starts_with(lacks));
     CHECK(fault(small_scene() + "[fabric.plain]\nsprings = { shear = 5 }\n")
               .starts_with("t:9:11: [fabric.plain.springs] lacks 'structural': "));
+}
+
+TEST_CASE("a fabric of moduli is read, and has no springs of its own") {
+    const Scene scene = scene_with("",
+                                   "[fabric.denim]\nstretch_stiffness = [2000, 1500]\nshear_stiffness = 100\npoisson_ratio = "
+                                   "0.2\nmembrane = \"triangle_springs\"\ndamping_time = 0.01\nbend_stiffness = 2e-5\n");
+    const Fabric& denim = scene.fabrics.at("denim");
+    CHECK(denim.stretch_stiffness == std::array{2000.0, 1500.0});
+    CHECK(denim.shear_stiffness == 100.0);
+    CHECK(denim.poisson_ratio == 0.2);
+    CHECK(denim.damping_time == 0.01);
+    CHECK(denim.bend_stiffness == 2e-5);
+    CHECK(denim.springs.structural == 0.0);
+    CHECK(denim.spring_damping == 0.0);
+    const Fabric& van_gelder =
+        scene_with("", "[fabric.f]\nstretch_stiffness = [20, 20]\nmembrane = \"van_gelder\"\n").fabrics.at("f");
+    CHECK(van_gelder.membrane == Membrane::van_gelder);
+    CHECK(van_gelder.spring_damping == Fabric{}.spring_damping);
+}
+
+TEST_CASE("single keys override a preset, and damping of one kind the other") {
+    const auto fabric = [](const std::string& keys) {
+        return scene_with("", "[fabric.f]\npreset = \"ponte\"\n" + keys).fabrics.at("f");
+    };
+    const Fabric& ponte = fabric_preset("ponte");
+    const Fabric plain = fabric(""), heavy = fabric("area_density = 1.5\nstretch_stiffness = [7, 8]\n");
+    CHECK(plain.stretch_stiffness == ponte.stretch_stiffness);
+    CHECK(plain.damping_time == ponte.damping_time);
+    CHECK(plain.springs.structural == 0.0);
+    CHECK(heavy.area_density == 1.5);
+    CHECK(heavy.stretch_stiffness == std::array{7.0, 8.0});
+    CHECK(heavy.shear_stiffness == ponte.shear_stiffness);
+    const Fabric damped = fabric("spring_damping = 0.4\n");
+    CHECK(damped.spring_damping == 0.4);
+    CHECK_FALSE(damped.damping_time.has_value());
+    CHECK(fault(small_scene() + "[fabric.f]\npreset = \"cottn\"\n")
+              .starts_with("t:9:10: fabric.f.preset has no choice 'cottn'; did you mean 'cotton'? valid: cotton, "));
+    CHECK(fault(small_scene() + "[fabric.f]\nsprings = { structural = 5 }\npreset = \"ponte\"\n") ==
+          "t:10:1: [fabric.f]: springs and preset exclude each other");
+}
+
+TEST_CASE("keys of a fabric that exclude each other are refused at the second") {
+    const auto refusal = [](const std::string& keys) { return fault(small_scene() + "[fabric.f]\n" + keys); };
+    const std::string springs = "springs = { structural = 5 }\n", moduli = "stretch_stiffness = [5, 5]\n";
+    CHECK(refusal(springs + moduli) == "t:10:1: [fabric.f]: springs and stretch_stiffness exclude each other");
+    CHECK(refusal("springs = { structural = 5, bend = 1 }\nbend_stiffness = 1e-5\n") ==
+          "t:10:1: [fabric.f]: springs.bend and bend_stiffness exclude each other");
+    CHECK(refusal(moduli + "damping_time = 0.1\nspring_damping = 0.1\n") ==
+          "t:10:1: [fabric.f]: spring_damping and damping_time exclude each other");
+    CHECK(refusal(springs + "shear_stiffness = 5\n") == "t:8:1: [fabric.f]: shear_stiffness needs stretch_stiffness");
+    CHECK(refusal("stretch_stiffness = [5, 6]\nmembrane = \"van_gelder\"\n") ==
+          "t:8:1: [fabric.f]: membrane = van_gelder is isotropic, stretch_stiffness must be the same along warp and weft");
 }
 
 TEST_CASE("events are put in the order of their times, equal times in that of the file") {

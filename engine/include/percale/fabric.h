@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 namespace percale {
 
 /// Spring constants in N/m of each spring, whatever its length.
@@ -9,14 +12,31 @@ struct SpringConstants {
     double bend = 0.0;           // two apart along rows and columns; across each inner edge of a free mesh
 };
 
-/// What a cloth is made of. Ranges and sentences of every field: options.h.
+/// What a membrane of given moduli is made of.
+enum class Membrane {
+    triangle_springs,  // biquadratic springs in triangles: exact, warp and weft may differ
+    van_gelder,        // plain springs on edges: isotropic, 1.2 times too stiff on grids
+};
+
+/// What a cloth is made of: raw springs, or moduli if stretch_stiffness is set. Ranges and sentences of every field: options.h.
 struct Fabric {
-    double area_density = 0.2;    // kg/m^2
-    double thickness = 0.005;     // m, gap kept from obstacles, measured from the middle surface
-    bool self_contact = false;    // it meets itself and all other cloth of which this is true
-    double friction = 0.3;        // Coulomb coefficient against such cloth
-    SpringConstants springs;      // N/m
-    double spring_damping = 0.1;  // N s/m of each spring, along the spring only
+    double area_density = 0.2;     // kg/m^2
+    double thickness = 0.005;      // m, gap kept from obstacles, measured from the middle surface
+    bool self_contact = false;     // it meets itself and all other cloth of which this is true
+    double friction = 0.3;         // Coulomb coefficient against such cloth
+    SpringConstants springs = {};  // N/m; unused with stretch_stiffness
+    double spring_damping = 0.1;   // N s/m of each spring, along the spring only; unused with damping_time
+
+    std::optional<double> damping_time = {};                      // s, damping of each spring over its stiffness
+    std::optional<std::array<double, 2>> stretch_stiffness = {};  // N/m, warp and weft
+    std::optional<double> shear_stiffness = {};                   // N/m; unset: that of isotropic cloth
+    double poisson_ratio = 0.0;                                   // sqrt(nu_12 nu_21)
+    Membrane membrane = Membrane::triangle_springs;
+    std::optional<double> bend_stiffness = {};  // N m
+    double drag_normal = 1.2;                   // C_n, against air that meets the surface; of both sides together
+    double drag_tangential = 0.05;              // C_t, against air that passes along it
+
+    bool has_moduli() const { return stretch_stiffness.has_value(); }
 };
 
 }  // namespace percale

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
@@ -26,15 +27,19 @@ struct Option {
     bool* (*automatic)(Owner&) = nullptr;  // beside `number`: the word "auto" sets it and leaves the number as it is
     int* (*integer)(Owner&) = nullptr;
     bool* (*flag)(Owner&) = nullptr;
-    std::optional<double>* (*number_or_auto)(Owner&) = nullptr;  // the word "auto" stands for empty
-    int (*get_choice)(const Owner&) = nullptr;                   // index into choices
+    std::optional<double>* (*number_or_auto)(Owner&) = nullptr;                // the word "auto" stands for empty
+    std::optional<double>* (*optional_number)(Owner&) = nullptr;               // may be left out
+    std::optional<std::array<double, 2>>* (*optional_pair)(Owner&) = nullptr;  // likewise, each in the range
+    int (*get_choice)(const Owner&) = nullptr;                                 // index into choices
     void (*set_choice)(Owner&, int) = nullptr;
 };
 
 std::span<const Option<Fabric>> fabric_options();
 std::span<const Option<StepSettings>> step_options();
 
-/// Throw SceneError naming `owner_name`, the key, the value and the allowed range.
+/// Throw SceneError naming `owner_name`, the key, the value and the allowed range; for a fabric also where two keys exclude each
+/// other: springs (other than its default or none) and stretch_stiffness, springs.bend and bend_stiffness, spring_damping and
+/// damping_time.
 void check_options(const Fabric& fabric, std::string_view owner_name);
 void check_options(const StepSettings& settings, std::string_view owner_name);
 

@@ -4,6 +4,7 @@
 #include "percale/contact.h"
 #include "percale/error.h"
 #include "percale/fabric.h"
+#include "percale/fabric_presets.h"
 #include "percale/mesh.h"
 #include "percale/options.h"
 #include "percale/plan.h"

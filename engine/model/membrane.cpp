@@ -1,0 +1,143 @@
+#include "membrane.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "percale/error.h"
+#include "topology.h"
+
+namespace percale {
+namespace {
+
+double mean_modulus(const Fabric& fabric) {
+    const auto [warp, weft] = *fabric.stretch_stiffness;
+    return std::sqrt(warp * weft);
+}
+
+double isotropic_shear(const Fabric& fabric) { return mean_modulus(fabric) / (2.0 * (1.0 + fabric.poisson_ratio)); }
+
+double area(const TriangleMesh& mesh, const Triangle& t) {
+    return 0.5 * (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm();
+}
+
+/// The direction of warp in a triangle: along the row of a grid that it has an edge of; any edge of a free mesh.
+Vec3 warp_direction(const TriangleMesh& mesh, const Triangle& t) {
+    for (int e = 0; mesh.is_grid() && e < 3; ++e) {
+        const auto [a, b] = std::minmax(t[e], t[(e + 1) % 3]);
+        if (b - a == 1) return (mesh.vertices[b] - mesh.vertices[a]).normalized();
+    }
+    return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).normalized();
+}
+
+std::array<Eigen::Vector2d, 3> corners_in_plane(const TriangleMesh& mesh, const Triangle& t) {
+    const Vec3 origin = mesh.vertices[t[0]], first = mesh.vertices[t[1]] - origin, second = mesh.vertices[t[2]] - origin;
+    const Vec3 x = warp_direction(mesh, t), y = first.cross(second).normalized().cross(x);
+    return {Eigen::Vector2d::Zero(), Eigen::Vector2d(first.dot(x), first.dot(y)), Eigen::Vector2d(second.dot(x), second.dot(y))};
+}
+
+MembraneTriangle membrane_triangle(const TriangleMesh& mesh, const Triangle& t, const Eigen::Matrix3d& law) {
+    MembraneTriangle triangle{.vertex = t, .stiffness = triangle_stiffness(corners_in_plane(mesh, t), law), .rest_square = {}};
+    for (int e = 0; e < 3; ++e) {
+        triangle.rest_square[e] = (mesh.vertices[t[(e + 1) % 3]] - mesh.vertices[t[(e + 2) % 3]]).squaredNorm();
+    }
+    return triangle;
+}
+
+/// The place of the edge between two vertices among mesh_edges.
+std::size_t edge_between(const std::vector<MeshEdge>& edges, int a, int b) {
+    const std::array<int, 2> key = {std::min(a, b), std::max(a, b)};
+    const auto found = std::lower_bound(edges.begin(), edges.end(), key,
+                                        [](const MeshEdge& e, const std::array<int, 2>& k) { return e.vertex < k; });
+    return static_cast<std::size_t>(found - edges.begin());
+}
+
+/// Of every edge, in N/m: what it resists with when it alone becomes longer.
+struct EdgeStiffness {
+    std::vector<double> triangle_springs, van_gelder;
+};
+
+EdgeStiffness edge_stiffness(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges, const Fabric& fabric) {
+    EdgeStiffness result{std::vector<double>(edges.size(), 0.0), std::vector<double>(edges.size(), 0.0)};
+    const Eigen::Matrix3d law = stress_law(fabric);
+    for (const Triangle& t : mesh.triangles) {
+        const MembraneTriangle triangle = membrane_triangle(mesh, t, law);
+        for (int e = 0; e < 3; ++e) {
+            const std::size_t edge = edge_between(edges, t[(e + 1) % 3], t[(e + 2) % 3]);
+            result.triangle_springs[edge] += 4.0 * triangle.rest_square[e] * triangle.stiffness(e, e);
+            result.van_gelder[edge] += mean_modulus(fabric) * area(mesh, t) / triangle.rest_square[e];
+        }
+    }
+    return result;
+}
+
+void check_frame(const TriangleMesh& mesh, const Fabric& fabric, const std::string& name) {
+    if (mesh.is_grid() || is_isotropic(fabric)) return;
+    throw SceneError(
+        name + ": warp and weft differ, or shear_stiffness is not that of isotropic cloth (" +
+        std::to_string(isotropic_shear(fabric)) +
+        " N/m), but a free mesh does not say where warp is; give two equal numbers and that shear_stiffness or none");
+}
+
+SpringKind kind_of(const TriangleMesh& mesh, const MeshEdge& edge) {
+    const int apart = edge.vertex[1] - edge.vertex[0];
+    const bool diagonal = mesh.is_grid() && apart != 1 && apart != mesh.grid_columns;
+    return diagonal ? SpringKind::shear : SpringKind::structural;
+}
+
+}  // namespace
+
+Eigen::Matrix3d stress_law(const Fabric& fabric) {
+    const auto [warp, weft] = *fabric.stretch_stiffness;
+    const double nu = fabric.poisson_ratio, scale = 1.0 / (1.0 - nu * nu), across = scale * nu * mean_modulus(fabric);
+    Eigen::Matrix3d law;
+    law << scale * warp, across, 0.0,  //
+        across, scale * weft, 0.0,     //
+        0.0, 0.0, fabric.shear_stiffness.value_or(isotropic_shear(fabric));
+    return law;
+}
+
+bool is_isotropic(const Fabric& fabric) {
+    const auto [warp, weft] = *fabric.stretch_stiffness;
+    const double shear = isotropic_shear(fabric);
+    return warp == weft && std::abs(fabric.shear_stiffness.value_or(shear) - shear) <= 1e-3 * shear;
+}
+
+Eigen::Matrix3d triangle_stiffness(const std::array<Eigen::Vector2d, 3>& corner, const Eigen::Matrix3d& law) {
+    Eigen::Matrix3d squares_by_strain;  // s = B (E_xx, E_yy, 2 E_xy), from s_e = 2 D_e.E D_e with the rest edge D_e
+    for (int e = 0; e < 3; ++e) {
+        const Eigen::Vector2d d = corner[(e + 2) % 3] - corner[(e + 1) % 3];
+        squares_by_strain.row(e) << 2.0 * d.x() * d.x(), 2.0 * d.y() * d.y(), 2.0 * d.x() * d.y();
+    }
+    const Eigen::Vector2d a = corner[1] - corner[0], b = corner[2] - corner[0];
+    const double triangle_area = 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
+    const Eigen::Matrix3d strain = squares_by_strain.inverse();
+    const Eigen::Matrix3d stiffness = triangle_area * strain.transpose() * law * strain;
+    return 0.5 * (stiffness + stiffness.transpose());
+}
+
+void append_membrane(SpringNetwork& network, std::vector<MembraneTriangle>& triangles, const TriangleMesh& rest,
+                     const Fabric& fabric, int first_vertex, const std::string& name) {
+    check_frame(rest, fabric, name);
+    const std::vector<MeshEdge> edges = mesh_edges(rest.triangles);
+    const EdgeStiffness stiffness = edge_stiffness(rest, edges, fabric);
+    const bool plain = fabric.membrane == Membrane::van_gelder;
+    const std::vector<double>& own = plain ? stiffness.van_gelder : stiffness.triangle_springs;
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        const auto [a, b] = edges[k].vertex;
+        network.first.push_back(first_vertex + a);
+        network.second.push_back(first_vertex + b);
+        network.rest_length.push_back((rest.vertices[a] - rest.vertices[b]).norm());
+        network.stiffness.push_back(plain ? own[k] : 0.0);
+        network.damping.push_back(fabric.damping_time ? *fabric.damping_time * own[k] : fabric.spring_damping);
+        network.kind.push_back(kind_of(rest, edges[k]));
+    }
+    if (plain) return;
+    const Eigen::Matrix3d law = stress_law(fabric);
+    for (const Triangle& t : rest.triangles) {
+        triangles.push_back(membrane_triangle(rest, t, law));
+        for (int& vertex : triangles.back().vertex) vertex += first_vertex;
+    }
+}
+
+}  // namespace percale

@@ -1,0 +1,90 @@
+// Moduli of springs and membranes, as energies of uniform strains tell them.
+
+#include <cmath>
+
+#include "tests/support/catch.h"
+#include "tests/support/membrane_cases.h"
+
+namespace percale::test {
+namespace {
+
+constexpr double small = 1e-6;
+
+/// Energy of the springs at one inner vertex of a grid of unit cells under a small strain, over its area.
+double lattice_density(const ClothModel& model, int vertex, const std::vector<Vec3>& places) {
+    double energy = 0.0;
+    for (int k = 0; k < model.springs.size(); ++k) {
+        const int i = model.springs.first[k], j = model.springs.second[k];
+        if (i != vertex && j != vertex) continue;
+        const double stretch = (places[i] - places[j]).norm() - model.springs.rest_length[k];
+        energy += 0.25 * model.springs.stiffness[k] * stretch * stretch;
+    }
+    return energy;
+}
+
+/// A strain's energy density as C: e.C e/2.
+struct Moduli {
+    double c11, c12, c66;
+};
+
+template <class Density>
+Moduli measured(Density density) {
+    const auto doubled = [&](double xx, double xy, double zx, double zz) {
+        Eigen::Matrix2d gradient;
+        gradient << 1.0 + small * xx, small * xy, small * zx, 1.0 + small * zz;
+        return 2.0 * density(gradient) / (small * small);
+    };
+    const double c11 = doubled(1.0, 0.0, 0.0, 0.0), c22 = doubled(0.0, 0.0, 0.0, 1.0);
+    return {c11, 0.5 * (doubled(1.0, 0.0, 0.0, 1.0) - c11 - c22), doubled(0.0, 0.5, 0.5, 0.0)};
+}
+
+Moduli lattice_moduli(const Fabric& fabric) {
+    const TriangleMesh grid = make_grid(6.0, 6.0, 7, 7);
+    const ClothModel model = cloth_model(grid, fabric);
+    return measured(
+        [&](const Eigen::Matrix2d& gradient) { return lattice_density(model, 24, deformed(grid.vertices, gradient)); });
+}
+
+/// The mean over a sheet without its outermost edges' share: edges there have one triangle.
+Moduli sheet_moduli(const Fabric& fabric) {
+    const TriangleMesh grid = make_grid(1.0, 1.0, 9, 9);
+    const ClothModel model = cloth_model(grid, fabric);
+    return measured([&](const Eigen::Matrix2d& gradient) {
+        const Vectors places = to_vectors(deformed(grid.vertices, gradient));
+        return elastic_energy(model.springs, places) + membrane_energy(model.membrane, places);
+    });
+}
+
+double young(const Moduli& m) { return m.c11 - m.c12 * m.c12 / m.c11; }
+
+}  // namespace
+
+TEST_CASE("Square grid of springs: C11 = ks + kd + 4 kb, C12 = C66 = kd; isotropic where kd = (ks + 4 kb)/2") {
+    for (const SpringConstants springs : {SpringConstants{1000.0, 500.0, 10.0}, {70.0, 30.0, 0.0}, {50.0, 35.0, 5.0}}) {
+        const Moduli m = lattice_moduli({.springs = springs});
+        CHECK(m.c11 == Approx(springs.structural + springs.shear + 4.0 * springs.bend).epsilon(1e-5));
+        CHECK(m.c12 == Approx(springs.shear).epsilon(1e-4));
+        CHECK(m.c66 == Approx(springs.shear).epsilon(1e-5));
+    }
+    const Moduli isotropic = lattice_moduli({.springs = {.structural = 50.0, .shear = 35.0, .bend = 5.0}});
+    CHECK(isotropic.c11 - isotropic.c12 == Approx(2.0 * isotropic.c66).epsilon(1e-4));
+}
+
+TEST_CASE("Triangle springs have the stretch and shear moduli that were asked for, whatever Poisson's ratio") {
+    for (const double nu : {-0.4, 0.0, 0.3, 0.7}) {
+        const Moduli m = sheet_moduli(moduli_fabric(80.0, 80.0, 11.0, nu));
+        CHECK(young(m) == Approx(80.0).epsilon(1e-4));
+        CHECK(m.c12 / m.c11 == Approx(nu).margin(1e-4));
+        CHECK(m.c66 == Approx(11.0).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("Van Gelder's springs on a grid of alternating diagonals are 1.20 times too stiff, with Poisson's ratio 0.2") {
+    Fabric fabric = moduli_fabric(80.0, 80.0, {}, 0.0);
+    fabric.membrane = Membrane::van_gelder;
+    const Moduli m = sheet_moduli(fabric);
+    CHECK(young(m) == Approx(1.2 * 80.0).epsilon(1e-4));
+    CHECK(m.c12 / m.c11 == Approx(0.2).epsilon(1e-4));
+}
+
+}  // namespace percale::test
