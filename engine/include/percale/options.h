@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "percale/fabric.h"
@@ -36,6 +37,9 @@ struct Option {
 
 std::span<const Option<Fabric>> fabric_options();
 std::span<const Option<StepSettings>> step_options();
+
+/// The schemes, one line each: order, kind, contact, cost and stability.
+std::string scheme_table_text();
 
 /// Throw SceneError naming `owner_name`, the key, the value and the allowed range; for a fabric also where two keys exclude each
 /// other: springs (other than its default or none) and stretch_stiffness, springs.bend and bend_stiffness, spring_damping and
