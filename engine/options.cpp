@@ -176,6 +176,12 @@ constexpr Option<StepSettings> step_list[] = {
      .unit = "",
      .sentence = "Whether work that the scene does not need is left out (percale plan lists it); false runs everything.",
      .flag = [](StepSettings& s) { return &s.skip; }},
+    {.key = "check_derivatives",
+     .unit = "",
+     .sentence =
+         "Whether every force is compared with its energy and its matrix by differences after each step, which fails where "
+         "they do not fit; slow.",
+     .flag = [](StepSettings& s) { return &s.check_derivatives; }},
 };
 
 void check_number(std::string_view owner, std::string_view key, std::string_view unit, double value, double low, double high) {

@@ -161,6 +161,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     ClothModel model = world.model;
     append_cloth(model, rest, fabric, name);
     order_last_cloth(model);
+    if (fabric.bend_stiffness) throw SceneError(name + ": bend_stiffness is not possible yet; leave it out");
     finish_model(model);
     world.model = std::move(model);
     world.newton.solver.forget_model();

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "lumped_mass.h"
-#include "percale/error.h"
 #include "percale/options.h"
 
 namespace percale {
@@ -21,7 +20,6 @@ void put_in_order(const ClothRange& cloth, std::vector<T>& list) {
 void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fabric, const std::string& name) {
     check_mesh(rest, name, true);
     check_options(fabric, name);
-    if (fabric.bend_stiffness) throw SceneError(name + ": bend_stiffness is not possible yet; give springs.bend");
     const int first = model.vertex_count();
     if (fabric.has_moduli()) {
         append_membrane(model.springs, model.membrane, rest, fabric, first, name);
