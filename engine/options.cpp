@@ -104,6 +104,18 @@ constexpr Option<Fabric> fabric_list[] = {
      .lowest = 0.0,
      .highest = 1e3,
      .optional_number = [](Fabric& f) { return &f.bend_stiffness; }},
+    {.key = "drag_normal",
+     .unit = "",
+     .sentence = "Drag coefficient against air that meets the surface (wind); a flat plate has 1.1 to 2.",
+     .lowest = 0.0,
+     .highest = 10.0,
+     .number = [](Fabric& f) { return &f.drag_normal; }},
+    {.key = "drag_tangential",
+     .unit = "",
+     .sentence = "Drag coefficient against air that passes along the surface (wind).",
+     .lowest = 0.0,
+     .highest = 10.0,
+     .number = [](Fabric& f) { return &f.drag_tangential; }},
 };
 
 constexpr Option<StepSettings> step_list[] = {
@@ -176,6 +188,12 @@ constexpr Option<StepSettings> step_list[] = {
      .unit = "",
      .sentence = "Whether work that the scene does not need is left out (percale plan lists it); false runs everything.",
      .flag = [](StepSettings& s) { return &s.skip; }},
+    {.key = "air_density",
+     .unit = "kg/m^3",
+     .sentence = "Density of the air that wind moves; without a wind event there is no air.",
+     .lowest = 0.0,
+     .highest = 1e4,
+     .number = [](StepSettings& s) { return &s.air_density; }},
     {.key = "check_derivatives",
      .unit = "",
      .sentence =
@@ -252,6 +270,8 @@ void check_options(const Fabric& fabric, std::string_view owner_name) {
 void check_options(const StepSettings& settings, std::string_view owner_name) {
     check_fields<StepSettings>(settings, owner_name, step_options());
     for (int axis = 0; axis < 3; ++axis) check_number(owner_name, "gravity", "m/s^2", settings.gravity[axis], -1e4, 1e4);
+    if (!settings.wind) return;
+    for (int axis = 0; axis < 3; ++axis) check_number(owner_name, "wind", "m/s", (*settings.wind)[axis], -1e3, 1e3);
 }
 
 }  // namespace percale

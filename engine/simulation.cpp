@@ -44,6 +44,12 @@ Pose normalised(Pose pose) {
     return pose;
 }
 
+void check_range(double value, double lowest, double highest, const std::string& what, const std::string& unit) {
+    if (value >= lowest && value <= highest) return;
+    throw SceneError(what + " = " + number_text(value) + " " + unit + " is outside the allowed range " + number_text(lowest) +
+                     " ... " + number_text(highest));
+}
+
 void check_finite(const Vec3& value, const std::string& what) {
     if (!value.allFinite()) throw SceneError(what + " is not finite");
 }
@@ -80,7 +86,8 @@ struct Simulation::Implementation {
     }
 
     void change(const StepSettings& settings) {
-        if (settings.gravity != world.settings.gravity || settings.time_step != world.settings.time_step) scene_changed(world);
+        const bool same_air = settings.wind == world.settings.wind, same_gravity = settings.gravity == world.settings.gravity;
+        if (!same_air || !same_gravity || settings.time_step != world.settings.time_step) scene_changed(world);
         world.settings = settings;
     }
 
@@ -161,7 +168,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     ClothModel model = world.model;
     append_cloth(model, rest, fabric, name);
     order_last_cloth(model);
-    if (fabric.bend_stiffness) throw SceneError(name + ": bend_stiffness is not possible yet; leave it out");
+    if (fabric.bend_stiffness.value_or(0.0) > 0.0) append_hinges_of_last_cloth(model, *fabric.bend_stiffness);
     finish_model(model);
     world.model = std::move(model);
     world.newton.solver.forget_model();
@@ -249,6 +256,36 @@ void Simulation::set_gravity(const Vec3& gravity) {
     settings.gravity = gravity;
     check_options(settings, "set_gravity");
     implementation_->change(settings);
+}
+
+void Simulation::set_wind(const Vec3& velocity) {
+    StepSettings settings = implementation_->world.settings;
+    settings.wind = velocity;
+    check_options(settings, "set_wind");
+    implementation_->change(settings);
+}
+
+void Simulation::add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices,
+                          const SeamSettings& settings) {
+    World& world = implementation_->world;
+    check_range(settings.over, 0.0, 1e6, settings.name + ": over", "s");
+    check_range(settings.stiffness, 1e-3, 1e9, settings.name + ": stiffness", "N/m");
+    if (vertices.empty()) throw SceneError(settings.name + ": no vertices, a seam joins at least one pair");
+    std::vector<std::array<int, 2>> pairs;
+    for (const auto& [one, other] : vertices) {
+        pairs.push_back({implementation_->vertex(first, one), implementation_->vertex(second, other)});
+        if (pairs.back()[0] != pairs.back()[1]) continue;
+        throw SceneError(settings.name + ": vertex " + std::to_string(one) + " of " + implementation_->cloth(first).name +
+                         " is sewn to itself");
+    }
+    ClothModel model = world.model;
+    Seam seam{.length = {}, .from = world.time, .over = settings.over};
+    append_seam(pairs, settings.stiffness, world.state.positions, seam, model);
+    finish_model(model);
+    world.model = std::move(model);
+    world.script.seams.push_back(std::move(seam));
+    world.newton.solver.forget_model();
+    scene_changed(world);
 }
 
 void Simulation::set_time_step(double time_step) {

@@ -62,6 +62,7 @@ private:
     }
 
     What read(const GravityEvent& event) { return ScriptedGravity{event.gravity}; }
+    What read(const WindEvent& event) { return ScriptedWind{event.wind}; }
 
     const Scene& scene_;
     std::span<const TriangleMesh> meshes_;

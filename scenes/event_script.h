@@ -26,9 +26,12 @@ struct ScriptedMove {
 struct ScriptedGravity {
     Vec3 gravity = Vec3::Zero();  // m/s^2
 };
+struct ScriptedWind {
+    Vec3 wind = Vec3::Zero();  // m/s
+};
 struct ScriptedEvent {
     double time = 0.0;  // s
-    std::variant<ScriptedPin, ScriptedUnpin, ScriptedMove, ScriptedGravity> what;
+    std::variant<ScriptedPin, ScriptedUnpin, ScriptedMove, ScriptedGravity, ScriptedWind> what;
 };
 
 /// The events of a scene in their order, against its rest meshes (in world coordinates, in the order of scene.cloths). Throws

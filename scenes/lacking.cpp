@@ -22,7 +22,6 @@ constexpr Lacking lacking[] = {
     {.path = "output.frames", .words = frame_formats},
     {.path = "step.tolerance"},
     {.path = "cloth.pattern"},
-    {.path = "event.wind"},
     {.path = "event.detach"},
 };
 

@@ -91,6 +91,15 @@ struct ObstacleSpec {
     SourcePlace place;
 };
 
+/// Pairs of vertices sewn together; closing begins with the scene.
+struct SeamSpec {
+    std::array<std::string, 2> cloths;
+    std::vector<std::array<int, 2>> vertices;  // of the first and of the second cloth
+    double over = 1.0;                         // s
+    double stiffness = 1000.0;                 // N/m
+    SourcePlace place;
+};
+
 struct PinEvent {
     std::string cloth;
     VertexSelection vertices;
@@ -108,9 +117,12 @@ struct MoveEvent {
 struct GravityEvent {
     Vec3 gravity = Vec3::Zero();
 };
+struct WindEvent {
+    Vec3 wind = Vec3::Zero();  // m/s
+};
 struct EventSpec {
     double time = 0.0;  // s
-    std::variant<PinEvent, UnpinEvent, MoveEvent, GravityEvent> what;
+    std::variant<PinEvent, UnpinEvent, MoveEvent, GravityEvent, WindEvent> what;
     SourcePlace place;
 };
 
@@ -145,6 +157,7 @@ struct Scene {
     std::map<std::string, Fabric> fabrics;
     std::vector<ClothSpec> cloths;
     std::vector<ObstacleSpec> obstacles;
+    std::vector<SeamSpec> seams;
     std::vector<EventSpec> events;  // ascending times
     std::vector<Expectation> expectations;
     OutputSpec output;

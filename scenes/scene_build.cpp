@@ -123,6 +123,21 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     built.obstacle_meshes.push_back(std::move(mesh));
 }
 
+ClothId cloth_named(const BuiltScene& built, const std::string& name) {
+    for (std::size_t i = 0; i < built.scene.cloths.size(); ++i)
+        if (built.scene.cloths[i].name == name) return built.cloths[i];
+    throw SceneError("no cloth '" + name + "'");
+}
+
+void add_seam(BuiltScene& built, const SeamSpec& seam) {
+    try {
+        const ClothId first = cloth_named(built, seam.cloths[0]), second = cloth_named(built, seam.cloths[1]);
+        built.simulation.add_seam(first, second, seam.vertices, {.over = seam.over, .stiffness = seam.stiffness});
+    } catch (const SceneError& error) {
+        fail_at(seam.place, error.what());
+    }
+}
+
 // Cloths have the same numbers in the scene and in the simulation; triangles are counted through all of them.
 const SourcePlace& place_of_triangle(const BuiltScene& built, int triangle) {
     std::size_t cloth = 0, end = built.cloth_meshes[0].triangles.size();
@@ -171,6 +186,7 @@ BuiltScene build_scene(const Scene& scene) {
         pin_cloth(built, cloth);
     }
     for (const ObstacleSpec& obstacle : scene.obstacles) at_place_of(obstacle, [&] { add_obstacle(built, obstacle); });
+    for (const SeamSpec& seam : scene.seams) add_seam(built, seam);
     script_events(scene, built.cloth_meshes);
     check_start(built);
     return built;

@@ -79,6 +79,22 @@ void check_vertices(const TomlNode& node, const SceneKey& key, const Spot& spot)
     for (const TomlNode& item : node.items) check_number(item, index, spot.shown, true);
 }
 
+void check_names(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind != TomlKind::list || static_cast<int>(node.items.size()) != key.count) fail_kind(node, key, shown);
+    for (const TomlNode& item : node.items)
+        if (item.kind != TomlKind::text) fail_kind(item, key, shown);
+}
+
+void check_pairs(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind != TomlKind::list || node.items.empty()) fail_kind(node, key, shown);
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const TomlNode& pair = node.items[i];
+        const std::string place = shown + "[" + std::to_string(i) + "]";
+        if (pair.kind != TomlKind::list || pair.items.size() != 2) fail_kind(pair, key, place);
+        for (std::size_t k = 0; k < 2; ++k) check_number(pair.items[k], key, place + "[" + std::to_string(k) + "]", true);
+    }
+}
+
 void check_between(const TomlNode& node, const SceneKey& key, const std::string& shown) {
     SceneKey both = key;
     both.kind = KeyKind::numbers;
@@ -160,6 +176,10 @@ void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot) {
             return check_box(node, key, spot.shown);
         case KeyKind::vertices:
             return check_vertices(node, key, spot);
+        case KeyKind::names:
+            return check_names(node, key, spot.shown);
+        case KeyKind::pairs:
+            return check_pairs(node, key, spot.shown);
         case KeyKind::limit:
             return check_limit(node, key, spot);
         case KeyKind::table:

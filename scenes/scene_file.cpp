@@ -138,10 +138,15 @@ void check_references(const Scene& scene) {
         if (!scene.fabrics.contains(cloth.fabric))
             fail_at(cloth.place,
                     "cloth '" + cloth.name + "': no fabric '" + cloth.fabric + "'" + suggestion(cloth.fabric, fabrics));
+    const auto check_cloth = [&](const std::string& name, const SourcePlace& place, const std::string& what) {
+        if (std::find(cloths.begin(), cloths.end(), name) == cloths.end())
+            fail_at(place, what + ": no cloth '" + name + "'" + suggestion(name, cloths));
+    };
+    for (const SeamSpec& seam : scene.seams)
+        for (const std::string& name : seam.cloths) check_cloth(name, seam.place, "seam");
     for (const EventSpec& event : scene.events) {
         const std::string name = cloth_of(event);
-        if (!name.empty() && std::find(cloths.begin(), cloths.end(), name) == cloths.end())
-            fail_at(event.place, "event: no cloth '" + name + "'" + suggestion(name, cloths));
+        if (!name.empty()) check_cloth(name, event.place, "event");
     }
 }
 
@@ -155,6 +160,7 @@ Scene scene_of(const TomlNode& document, const std::string& name) {
     read_fabrics(document, scene);
     read_list(document, "cloth", read_cloth, scene.cloths);
     read_list(document, "obstacle", read_obstacle, scene.obstacles);
+    read_list(document, "seam", read_seam, scene.seams);
     read_list(document, "event", read_event, scene.events);
     if (const TomlNode* expect = document.find("expect")) scene.expectations = read_expectations(*expect);
     read_output(document, scene.output);

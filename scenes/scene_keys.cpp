@@ -243,7 +243,7 @@ void add_pin_event(Keys& keys, const std::string& path, const std::string& sente
 void add_event(Keys& keys) {
     keys.push_back(table_key("event",
                              "Something that happens once, before the first step at or after its time: exactly one of pin, "
-                             "unpin, move, gravity.",
+                             "unpin, move, gravity, wind.",
                              KeyKind::table_list));
     keys.push_back(required(number_key("event.time", "s", 0.0, longest, "When; after the end of the scene it does not happen.")));
     add_pin_event(keys, "event.pin", "Holds vertices where they are then.");
@@ -252,6 +252,30 @@ void add_event(Keys& keys) {
     keys.push_back(required(numbers_key("event.move.to", 3, "m", farthest, "How far from where they are then.")));
     keys.push_back(required(number_key("event.move.over", "s", 1e-6, longest, "How long it takes.")));
     keys.push_back(numbers_key("event.gravity", 3, "m/s^2", 1e4, "Gravity from then on."));
+    keys.push_back(
+        numbers_key("event.wind", 3, "m/s", 1e3,
+                    "Velocity of the air from then on. Before the first wind there is no air; [0, 0, 0] stands still."));
+}
+
+void add_seam(Keys& keys) {
+    const SeamSpec defaults;
+    keys.push_back(table_key("seam", "Sews vertices together, pair by pair; [[seam]] once for each.", KeyKind::table_list));
+    SceneKey cloths{
+        .path = "seam.cloths", .kind = KeyKind::names, .sentence = "NAMEs of the two cloths; twice the same is one with itself."};
+    cloths.count = 2;
+    keys.push_back(required(std::move(cloths)));
+    SceneKey pairs{.path = "seam.vertices",
+                   .kind = KeyKind::pairs,
+                   .sentence = "Pairs [i, j], i a vertex of the first cloth, j one of the second."};
+    pairs.lowest = 0;
+    pairs.highest = 2147483647;
+    keys.push_back(required(std::move(pairs)));
+    keys.push_back(
+        with_default(number_key("seam.over", "s", 0.0, longest, "How long closing takes, from the start of the scene on."),
+                     number_text(defaults.over)));
+    keys.push_back(with_default(
+        number_key("seam.stiffness", "N/m", 1e-3, 1e9, "Constant of the spring that draws a pair together and then holds it."),
+        number_text(defaults.stiffness)));
 }
 
 void add_expect(Keys& keys) {
@@ -281,6 +305,7 @@ Keys all_keys() {
     add_fabric(keys);
     add_cloth(keys);
     add_obstacle(keys);
+    add_seam(keys);
     add_event(keys);
     add_expect(keys);
     add_output(keys);
@@ -333,6 +358,10 @@ std::string kind_text(const SceneKey& key) {
             return "two corners [[x, y, z], [x, y, z]]";
         case KeyKind::vertices:
             return "a list of vertex indices, { box = [[x, y, z], [x, y, z]] } or \"boundary\"";
+        case KeyKind::names:
+            return "a list of " + std::to_string(key.count) + " names";
+        case KeyKind::pairs:
+            return "a list of pairs [i, j] of vertex indices";
         case KeyKind::limit:
             return "a number, { below = a }, { above = a } or { between = [a, b] }";
         case KeyKind::table:

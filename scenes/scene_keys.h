@@ -18,6 +18,8 @@ enum class KeyKind {
     integers,        // a list of `count`, each in [lowest, highest]
     box,             // [[x, y, z], [x, y, z]], each in [lowest, highest], the first nowhere above the second
     vertices,        // a list of indices, { box = ... } or "boundary"
+    names,           // a list of `count` texts
+    pairs,           // a list of lists of two integers, each in [lowest, highest]
     limit,           // a number, { below = }, { above = } or { between = [a, b] }
     table,
     table_list,   // [[...]]

@@ -156,11 +156,23 @@ ObstacleSpec read_obstacle(const TomlNode& table) {
     return obstacle;
 }
 
+SeamSpec read_seam(const TomlNode& table) {
+    SeamSpec seam;
+    seam.place = table.place;
+    const TomlNode& cloths = *table.find("cloths");
+    seam.cloths = {cloths.items[0].text, cloths.items[1].text};
+    for (const TomlNode& pair : table.find("vertices")->items)
+        seam.vertices.push_back({static_cast<int>(pair.items[0].integer), static_cast<int>(pair.items[1].integer)});
+    read_value(table, "over", seam.over);
+    read_value(table, "stiffness", seam.stiffness);
+    return seam;
+}
+
 EventSpec read_event(const TomlNode& table) {
     EventSpec event;
     event.place = table.place;
     read_value(table, "time", event.time);
-    const std::string word = only_key(table, {"pin", "unpin", "move", "gravity"}, "event");
+    const std::string word = only_key(table, {"pin", "unpin", "move", "gravity", "wind"}, "event");
     const TomlNode& what = *table.find(word);
     if (word == "pin") {
         event.what = vertex_event<PinEvent>(what);
@@ -171,8 +183,10 @@ EventSpec read_event(const TomlNode& table) {
         read_value(what, "to", move.to);
         read_value(what, "over", move.over);
         event.what = move;
-    } else {
+    } else if (word == "gravity") {
         event.what = GravityEvent{vector_of(what)};
+    } else {
+        event.what = WindEvent{vector_of(what)};
     }
     return event;
 }

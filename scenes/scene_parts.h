@@ -8,6 +8,7 @@ namespace percale::scenes {
 
 ClothSpec read_cloth(const TomlNode& table);
 ObstacleSpec read_obstacle(const TomlNode& table);
+SeamSpec read_seam(const TomlNode& table);
 EventSpec read_event(const TomlNode& table);
 std::vector<Expectation> read_expectations(const TomlNode& table);
 

@@ -19,9 +19,11 @@ ScriptedChanges changes_of(const Scene& scene) {
     changes.obstacles = std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
                                     [](const ObstacleSpec& obstacle) { return !obstacle.motion.empty() || obstacle.spin; });
     for (const EventSpec& event : scene.events) {
-        const bool gravity = std::holds_alternative<GravityEvent>(event.what);
+        const bool gravity = std::holds_alternative<GravityEvent>(event.what),
+                   wind = std::holds_alternative<WindEvent>(event.what);
         changes.gravity = changes.gravity || gravity;
-        changes.pins = changes.pins || !gravity;
+        changes.wind = changes.wind || wind;
+        changes.pins = changes.pins || !(gravity || wind);
     }
     return changes;
 }
@@ -53,7 +55,8 @@ std::string steps_text(const Scene& scene) {
 
 std::string springs_text(const SpringCounts& springs) {
     return std::to_string(springs.total()) + " (" + std::to_string(springs.structural) + " structural, " +
-           std::to_string(springs.shear) + " shear, " + std::to_string(springs.bend) + " bending)";
+           std::to_string(springs.shear) + " shear, " + std::to_string(springs.bend) + " bending" +
+           (springs.seam > 0 ? ", " + std::to_string(springs.seam) + " of seams)" : ")");
 }
 
 }  // namespace
@@ -65,6 +68,8 @@ std::string plan_text(const BuiltScene& built) {
     std::string text = line("title", built.scene.title) + line("steps", steps_text(built.scene));
     text += line("vertices", std::to_string(plan.vertices) + ", " + std::to_string(plan.pinned_vertices) + " pinned");
     text += line("springs", springs_text(plan.springs));
+    if (plan.springs.triangle > 0) text += line("membrane", counted(plan.springs.triangle, "triangle"));
+    if (plan.springs.hinge > 0) text += line("hinges", std::to_string(plan.springs.hinge));
     for (std::size_t i = 0; i < built.obstacles.size(); ++i)
         text += line("obstacle", built.scene.obstacles[i].name + ", " +
                                      counted(static_cast<long>(built.obstacle_meshes[i].triangles.size()), "triangle"));
@@ -89,7 +94,12 @@ std::string plan_json(const BuiltScene& built) {
     json["steps"] = count.steps;
     json["vertices"] = plan.vertices;
     json["pinned_vertices"] = plan.pinned_vertices;
-    json["springs"] = {{"structural", plan.springs.structural}, {"shear", plan.springs.shear}, {"bend", plan.springs.bend}};
+    json["springs"] = {{"structural", plan.springs.structural},
+                       {"shear", plan.springs.shear},
+                       {"bend", plan.springs.bend},
+                       {"seam", plan.springs.seam},
+                       {"hinge", plan.springs.hinge},
+                       {"triangle", plan.springs.triangle}};
     json["obstacles"] = ordered_json::array();
     for (std::size_t i = 0; i < built.obstacles.size(); ++i)
         json["obstacles"].push_back(

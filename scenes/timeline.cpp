@@ -88,6 +88,8 @@ void Timeline::act(BuiltScene& built, const ScriptedEvent& event) {
     } else if (const auto* move = std::get_if<ScriptedMove>(&event.what)) {
         forget_moves(move->cloth, move->vertices);
         start_move(built, *move, event.time);
+    } else if (const auto* wind = std::get_if<ScriptedWind>(&event.what)) {
+        built.simulation.set_wind(wind->wind);
     } else {
         built.simulation.set_gravity(std::get<ScriptedGravity>(event.what).gravity);
     }

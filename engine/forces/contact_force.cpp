@@ -123,7 +123,7 @@ ContactPotential contact_potential(double distance, double thickness, double sti
 
 void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
                  ContactTerms& terms) {
-    terms.blocks.clear();
+    terms.blocks.resize(terms.others);
     terms.touches.clear(positions.padded_size());
     terms.energy = terms.largest_stiffness = terms.obstacle_power = 0.0;
     for (std::size_t row = 0; row < rows.size(); ++row) {

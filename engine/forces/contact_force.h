@@ -58,7 +58,8 @@ struct ContactBlock {
 };
 
 struct ContactTerms {
-    std::vector<ContactBlock> blocks;  // of the rows, then one of friction for each touch
+    std::vector<ContactBlock> blocks;  // first `others`, then of the rows, then one of friction for each touch
+    std::size_t others = 0;            // blocks of single vertices that other forces put there; contact keeps them
     Touches touches;
     double energy = 0.0;             // J, without friction
     double largest_stiffness = 0.0;  // N/m

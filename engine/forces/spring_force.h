@@ -49,10 +49,11 @@ struct SpringMotion {
     double dt;
 };
 
-/// forces += spring forces -T d, N; with `with_matrix` also terms.values. Along d the matrix is dt^2 k + dt c, across it dt^2
-/// T/l, which is taken as 0 where the spring is compressed (T < 0) and capped where damping makes it exceed the first. A spring
-/// shorter than 1e-18 m has no direction: it exerts no force, its matrix is (dt^2 k + dt c) I. Returns the potential sum 1/2 k (l
-/// - l_rest)^2, J. Same bits for any instruction set and number of threads.
+/// forces += spring forces -T d - b x, N (b: the pair's bending); with `with_matrix` also terms.values. Along d the matrix is
+/// dt^2 k + dt c, across it dt^2 T/l, which is taken as 0 where the spring is compressed (T < 0) and capped where damping makes
+/// it exceed the first; dt^2 b in all directions. A spring shorter than 1e-18 m has no direction: it exerts no force, its matrix
+/// is (dt^2 k + dt c) I. Returns the potential sum 1/2 k (l
+/// - l_rest)^2 + 1/2 b l^2, J. Same bits for any instruction set and number of threads.
 double evaluate_springs(const Compute& compute, const StepSprings& springs, const SpringMotion& motion, bool with_matrix,
                         Vectors& forces, SpringTerms& terms);
 

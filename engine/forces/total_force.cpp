@@ -1,6 +1,7 @@
 #include "total_force.h"
 
 #include "body_force.h"
+#include "hinge_force.h"
 #include "membrane_force.h"
 
 namespace percale {
@@ -17,6 +18,11 @@ void evaluate_forces(const ForceInput& input, Forces& forces) {
         forces.potential +=
             evaluate_membrane(*input.compute, model.adjacency, motion, input.with_matrix, forces.total, forces.spring_terms);
     }
+    if (!model.hinges.curved.empty()) forces.potential += add_curved_hinges(model.hinges, *input.positions, forces.total);
+    if (!input.wind || !input.wind->blows) return;
+    add_wind(model, *input.wind, *input.velocities, input.dt, forces.total, forces.wind);
+    forces.potential += forces.wind.potential;
+    set_wind_blocks(forces.wind, forces.contact);
 }
 
 void add_contact_forces(const ForceInput& input, const ContactStep& contact_step, Forces& forces) {

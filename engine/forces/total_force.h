@@ -5,6 +5,7 @@
 #include "percale/contact.h"
 #include "percale/report.h"
 #include "spring_force.h"
+#include "wind_force.h"
 
 namespace percale {
 
@@ -16,6 +17,7 @@ struct ForceInput {
     const Vectors* positions = nullptr;
     const Vectors* velocities = nullptr;
     Vec3 gravity = Vec3::Zero();
+    const StepWind* wind = nullptr;  // null: there is no air
     double dt = 0.0;
     bool with_matrix = false;
 };
@@ -26,10 +28,12 @@ struct Forces {
     SpringTerms spring_terms;
     ContactRows rows;  // set by whoever evaluates contacts; empty without obstacles
     ContactTerms contact;
-    double potential = 0.0;  // J, of springs (with their damping potential), gravity and contact
+    WindTerms wind;
+    double potential =
+        0.0;  // J, of springs (with their damping potential), hinges, wind (dissipation potential times dt), gravity and contact
 };
 
-/// Gravity and springs; contact is added by add_contact_forces.
+/// Gravity, springs, hinges and wind; contact is added by add_contact_forces.
 void evaluate_forces(const ForceInput& input, Forces& forces);
 
 /// Adds the contact of forces.rows.

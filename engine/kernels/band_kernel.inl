@@ -61,7 +61,7 @@ void start_bands(const StartPass& pass, Slices range) {
 
 /// The springs of all bands at float_lanes places from i on: forces into the scratch, row by row of a range that begins with the
 /// guard; returns twice their energy. Values are stored unless null.
-template <bool with_matrix, bool with_motion>
+template <SpringParts parts>
 PERCALE_INLINE WidePack band_places(const SpringPass& pass, std::ptrdiff_t i, double* scratch, std::size_t row, float* values) {
     const SpringEntries& springs = pass.springs;
     const BandPattern& bands = *springs.pattern.bands;
@@ -73,22 +73,23 @@ PERCALE_INLINE WidePack band_places(const SpringPass& pass, std::ptrdiff_t i, do
         SpringState state{.x = own - points.at(i + bands.offset[band]),
                           .stiffness = load_wide(springs.stiffness + at),
                           .rest = load_wide(springs.rest_length + at)};
-        if constexpr (with_motion) {
+        if constexpr (parts.bending) state.bending = load_wide(springs.bending + at);
+        if constexpr (parts.motion) {
             const GuardedDoubles motion = guarded(bands, pass.motion);
             state.damping = load_wide(springs.damping + at);
             state.v = motion.at(i) - motion.at(i + bands.offset[band]);
         }
-        const SpringPull pull = evaluate<with_motion>(state);
+        const SpringPull pull = evaluate<parts>(state);
         energy = energy + pull.twice_energy;
         double* target = scratch + 3 * band * row;
-        const WidePoint force = pull.pull * state.x;
+        const WidePoint force = exerted<parts>(state, pull);
         store_wide(target, force.x);
         store_wide(target + row, force.y);
         store_wide(target + 2 * row, force.z);
-        if constexpr (with_matrix) {
+        if constexpr (parts.matrix) {
             if (!values) continue;
             float* value = const_cast<float*>(band_values(bands, values, band)) + i;
-            store_block<with_motion>(value, bands.guard + bands.padded, pass.dt, state, pull);
+            store_block<parts>(value, bands.guard + bands.padded, pass.dt, state, pull);
         }
     }
     return energy;
@@ -105,7 +106,7 @@ PERCALE_INLINE void sum_bands(const SpringPass& pass, std::ptrdiff_t i, const do
     store_wide(pass.forces, i, force);
 }
 
-template <bool with_matrix, bool with_motion>
+template <SpringParts parts>
 PERCALE_INLINE double band_springs(const SpringPass& pass, Slices range) {
     const BandPattern& bands = *pass.springs.pattern.bands;
     const std::ptrdiff_t guard = bands.guard, first = static_cast<std::ptrdiff_t>(range.first) * slice_lanes;
@@ -117,11 +118,11 @@ PERCALE_INLINE double band_springs(const SpringPass& pass, Slices range) {
         for (int k = 0; k < 3 * bands.count; ++k) store_wide(scratch + k * row + (i - first + guard), all_wide(0.0));
     }
     for (; i < first; i += float_lanes) {
-        band_places<with_matrix, with_motion>(pass, i, scratch + (i - first + guard), row, nullptr);
+        band_places<parts>(pass, i, scratch + (i - first + guard), row, nullptr);
     }
     LaneSums energy;
     for (; i < last; i += float_lanes) {
-        const WidePack twice = band_places<with_matrix, with_motion>(pass, i, scratch + (i - first + guard), row, pass.values);
+        const WidePack twice = band_places<parts>(pass, i, scratch + (i - first + guard), row, pass.values);
         energy.add(static_cast<int>(i % slice_lanes), all_wide(0.5) * twice);
     }
     for (i = first; i < last; i += float_lanes) sum_bands(pass, i, scratch + (i - first + guard), row);

@@ -50,6 +50,7 @@ struct EntryPattern {
 struct SpringEntries {
     EntryPattern pattern;
     const double *stiffness, *rest_length, *damping;  // N/m, m, N s/m
+    const double* bending = nullptr;                  // N/m, b of the pair, of either sign; null: none
 };
 
 /// Springs with damping as a length rate: k = ks + kd/dt, l = (ks l0 + kd l_n/dt)/k.
@@ -61,7 +62,7 @@ struct StartPass {
     double *stiffness, *rest;  // results
 };
 
-/// One evaluation of all springs: T = k (l - l_rest) + c (v_ij . d), force -T d.
+/// One evaluation of all springs: T = k (l - l_rest) + c (v_ij . d), force -T d - b x.
 struct SpringPass {
     SpringEntries springs;
     ConstAxes positions, velocities;  // m, m/s

@@ -6,8 +6,11 @@ void start_springs(const StartPass& pass, Slices range) {
 
 template <bool with_matrix, bool with_motion>
 double all_springs(const SpringPass& pass, Slices range) {
-    if (pass.springs.pattern.bands) return band_springs<with_matrix, with_motion>(pass, range);
-    return spring_slices<with_matrix, with_motion>(pass, range);
+    constexpr SpringParts alone{with_matrix, with_motion, false}, bending{with_matrix, with_motion, true};
+    if (pass.springs.bending) {
+        return pass.springs.pattern.bands ? band_springs<bending>(pass, range) : spring_slices<bending>(pass, range);
+    }
+    return pass.springs.pattern.bands ? band_springs<alone>(pass, range) : spring_slices<alone>(pass, range);
 }
 
 double springs(const SpringPass& pass, Slices range) {

@@ -29,33 +29,48 @@ struct SpringState {
     WidePack stiffness{}, rest{};
     WidePack damping{};  // with the velocity v_i - v_j
     WidePoint v{};
+    WidePack bending{};
 };
 
-/// T/l, with which the force on i is -(T/l) x, and k (l - l_rest)^2.
+/// What the evaluation does besides springs without motion.
+struct SpringParts {
+    bool matrix, motion, bending;
+};
+
+/// T/l, with which the force on i is -(T/l + b) x, and k (l - l_rest)^2 + b l^2.
 struct SpringPull {
     WidePack pull, twice_energy, square, inverse;
 };
 
-template <bool with_motion>
+template <SpringParts parts>
 PERCALE_INLINE SpringPull evaluate(const SpringState& state) {
     const WidePack square = dot(state.x, state.x), safe = larger(square, all_wide(no_length_square));
     const WidePack inverse = inverse_root(safe);
     const WidePack stretch = safe * inverse - state.rest;
     WidePack tension = state.stiffness * where_less(square, all_wide(blown_up_square), stretch, all_wide(__builtin_nan("")));
-    const WidePack twice_energy = tension * stretch;
-    if constexpr (with_motion) tension = tension + state.damping * inverse * dot(state.v, state.x);
+    WidePack twice_energy = tension * stretch;
+    if constexpr (parts.bending) twice_energy = twice_energy + state.bending * square;
+    if constexpr (parts.motion) tension = tension + state.damping * inverse * dot(state.v, state.x);
     return {tension * inverse, twice_energy, square, inverse};
 }
 
-/// -dt^2 Jq - dt Jv = along d d^T + across (I - d d^T) = across I + (along - across) d d^T, as a and w.
-template <bool with_motion>
+/// The force that the spring exerts on its second end.
+template <SpringParts parts>
+PERCALE_INLINE WidePoint exerted(const SpringState& state, const SpringPull& pull) {
+    if constexpr (parts.bending) return (pull.pull + state.bending) * state.x;
+    return pull.pull * state.x;
+}
+
+/// -dt^2 Jq - dt Jv = along d d^T + across (I - d d^T) + dt^2 b I = (across + dt^2 b) I + (along - across) d d^T, as a and w.
+template <SpringParts parts>
 PERCALE_INLINE void store_block(float* values, std::size_t apart, double dt, const SpringState& state, const SpringPull& pull) {
     const WidePack none = all_wide(0.0), scale = all_wide(dt * dt);
     WidePack along = scale * state.stiffness;
-    if constexpr (with_motion) along = along + all_wide(dt) * state.damping;
+    if constexpr (parts.motion) along = along + all_wide(dt) * state.damping;
     WidePack across = smaller(larger(scale * pull.pull, none), along);
     across = where_less(pull.square, all_wide(no_length_square), along, across);
     const FloatPack w = root(narrow(along - across)) * narrow(pull.inverse);
+    if constexpr (parts.bending) across = across + scale * state.bending;
     store(values, narrow(across));
     store(values + apart, w * narrow(state.x.x));
     store(values + 2 * apart, w * narrow(state.x.y));
@@ -87,7 +102,7 @@ void start_slices(const StartPass& pass, Slices range) {
     }
 }
 
-template <bool with_matrix, bool with_motion>
+template <SpringParts parts>
 PERCALE_INLINE double spring_slices(const SpringPass& pass, Slices range) {
     const SpringEntries& springs = pass.springs;
     const EntryPattern& pattern = springs.pattern;
@@ -98,23 +113,24 @@ PERCALE_INLINE double spring_slices(const SpringPass& pass, Slices range) {
             const std::size_t at = static_cast<std::size_t>(s) * slice_lanes + lane;
             const WidePoint own = load_wide(pass.positions, at);
             WidePoint own_velocity{none, none, none};
-            if constexpr (with_motion) own_velocity = load_wide(pass.velocities, at);
+            if constexpr (parts.motion) own_velocity = load_wide(pass.velocities, at);
             WidePoint force{none, none, none};
             WidePack twice = none;
             for (int e = pattern.start[s] + lane; e < pattern.start[s + 1]; e += slice_lanes) {
                 SpringState state{.x = own - gather_wide(pass.points, pattern.other + e),
                                   .stiffness = load_wide(springs.stiffness + e),
                                   .rest = load_wide(springs.rest_length + e)};
-                if constexpr (with_motion) {
+                if constexpr (parts.motion) {
                     state.damping = load_wide(springs.damping + e);
                     state.v = own_velocity - gather_wide(pass.motion, pattern.other + e);
                 }
-                const SpringPull pull = evaluate<with_motion>(state);
+                if constexpr (parts.bending) state.bending = load_wide(springs.bending + e);
+                const SpringPull pull = evaluate<parts>(state);
                 twice = twice + pull.twice_energy;
-                force = force - pull.pull * state.x;
-                if constexpr (with_matrix) {
+                force = force - exerted<parts>(state, pull);
+                if constexpr (parts.matrix) {
                     float* value = pass.values + 4 * static_cast<std::size_t>(e - lane) + lane;
-                    store_block<with_motion>(value, slice_lanes, pass.dt, state, pull);
+                    store_block<parts>(value, slice_lanes, pass.dt, state, pull);
                 }
             }
             energy.add(lane, quarter * twice);

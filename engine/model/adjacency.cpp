@@ -27,6 +27,7 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
                      .stiffness = {},
                      .rest_length = {},
                      .damping = {},
+                     .bending = {},
                      .damped = false,
                      .membrane = {}};
     const std::size_t entries = result.start.back();
@@ -78,23 +79,29 @@ void place_in_bands(const SpringNetwork& network, Adjacency& adjacency) {
     }
 }
 
+/// set(place, spring) for every place of every spring.
+template <class Set>
+void for_places(const SpringNetwork& network, const Adjacency& adjacency, Set set) {
+    if (adjacency.bands.count > 0) {
+        for (int k = 0; k < network.size(); ++k) set(adjacency.place[k], k);
+        return;
+    }
+    for (std::size_t e = 0; e < adjacency.other.size(); ++e) {
+        if (adjacency.spring[e] < network.size()) set(e, adjacency.spring[e]);
+    }
+}
+
 void copy_constants(const SpringNetwork& network, Adjacency& adjacency) {
     const bool banded = adjacency.bands.count > 0;
     const std::size_t places = banded ? adjacency.bands.count * adjacency.bands.padded : adjacency.other.size();
     for (auto* list : {&adjacency.stiffness, &adjacency.rest_length, &adjacency.damping}) list->assign(places, 0.0);
-    const auto copy = [&](std::size_t place, int spring) {
+    for_places(network, adjacency, [&](std::size_t place, int spring) {
         adjacency.stiffness[place] = network.stiffness[spring];
         adjacency.rest_length[place] = network.rest_length[spring];
         adjacency.damping[place] = network.damping[spring];
         adjacency.damped = adjacency.damped || network.damping[spring] > 0.0;
-    };
-    if (banded) {
-        for (int k = 0; k < network.size(); ++k) copy(adjacency.place[k], k);
-        return;
-    }
-    for (std::size_t e = 0; e < adjacency.other.size(); ++e) {
-        if (adjacency.spring[e] < network.size()) copy(e, adjacency.spring[e]);
-    }
+    });
+    copy_bending(network, adjacency);
 }
 
 }  // namespace
@@ -137,6 +144,21 @@ void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std:
 double Adjacency::strength(int k) const {
     const double alone = stiffness[place[k]];
     return membrane.empty() ? alone : alone + 4.0 * membrane.numbers[0][place[k]] * membrane.numbers[1][place[k]];
+}
+
+void copy_bending(const SpringNetwork& network, Adjacency& adjacency) {
+    adjacency.bending.assign(network.bending.empty() ? 0 : adjacency.stiffness.size(), 0.0);
+    if (network.bending.empty()) return;
+    for_places(network, adjacency, [&](std::size_t place, int spring) { adjacency.bending[place] = network.bending[spring]; });
+}
+
+void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjacency) {
+    adjacency.rest_length[adjacency.place[spring]] = network.rest_length[spring];
+    if (adjacency.bands.count > 0) return;
+    const int other = network.second[spring], slice = other / slice_lanes;
+    for (int e = adjacency.start[slice] + other % slice_lanes; e < adjacency.start[slice + 1]; e += slice_lanes) {
+        if (adjacency.spring[e] == spring) adjacency.rest_length[e] = network.rest_length[spring];
+    }
 }
 
 std::size_t Adjacency::value_count() const {

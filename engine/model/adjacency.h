@@ -22,6 +22,7 @@ struct Adjacency {
     BandPattern bands;             // count = 0 unless the springs lie in few bands, as on a single grid
     std::vector<int> place;        // of each spring, in the lists below: its place in the bands, or the entry at its first vertex
     AlignedVector<double> stiffness, rest_length, damping;  // N/m, m, N s/m of each place
+    AlignedVector<double> bending;                          // N/m of each place; empty without hinges
     bool damped = false;                                    // any spring has damping
     MembraneEntries membrane;                               // empty without triangles
 
@@ -38,7 +39,9 @@ struct Adjacency {
 
     int slices() const { return static_cast<int>(start.size()) - 1; }
     EntryPattern pattern() const { return {start.data(), other.data(), bands.count > 0 ? &bands : nullptr}; }
-    SpringEntries springs() const { return {pattern(), stiffness.data(), rest_length.data(), damping.data()}; }
+    SpringEntries springs() const {
+        return {pattern(), stiffness.data(), rest_length.data(), damping.data(), bending.empty() ? nullptr : bending.data()};
+    }
 };
 
 /// A copy of vectors as the kernels want it for these springs: x y z 0 of every vertex, or with bands three guarded arrays.
@@ -47,6 +50,11 @@ void pack_points(const Compute& compute, const Adjacency& adjacency, const Vecto
 /// How the numbers of all springs are laid out.
 enum class SpringLayout { best, slices };
 
+/// Takes network.bending anew, of the network that the adjacency was made for.
+void copy_bending(const SpringNetwork& network, Adjacency& adjacency);
+
+/// Takes the rest length of one spring anew.
+void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjacency);
 /// Membranes are laid out beside the springs of their edges, which must be there, in slices.
 void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std::vector<MembraneTriangle>& triangles);
 

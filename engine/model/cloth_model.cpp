@@ -15,6 +15,12 @@ void put_in_order(const ClothRange& cloth, std::vector<T>& list) {
     for (int i = 0; i < cloth.count; ++i) list[cloth.first + i] = before[cloth.order.vertex[i]];
 }
 
+int first_spring_of(const ClothModel& model, const ClothRange& cloth) {
+    const auto& firsts = model.springs.first;
+    const auto own = std::partition_point(firsts.begin(), firsts.end(), [&](int vertex) { return vertex < cloth.first; });
+    return static_cast<int>(own - firsts.begin());
+}
+
 }  // namespace
 
 void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fabric, const std::string& name) {
@@ -28,6 +34,7 @@ void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fab
     }
     ClothRange range{.name = name, .first = first, .count = static_cast<int>(rest.vertices.size())};
     range.grid = rest.is_grid();
+    range.columns = rest.is_grid() ? rest.grid_columns : 0;
     range.fabric = fabric;
     for (const double mass : lumped_masses(rest, fabric.area_density)) {
         model.mass.push_back(mass);
@@ -42,9 +49,7 @@ void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fab
 void order_last_cloth(ClothModel& model) {
     ClothRange& cloth = model.cloths.back();
     if (cloth.grid) return;
-    const auto& firsts = model.springs.first;
-    const auto own = std::partition_point(firsts.begin(), firsts.end(), [&](int vertex) { return vertex < cloth.first; });
-    const int first_spring = static_cast<int>(own - firsts.begin());
+    const int first_spring = first_spring_of(model, cloth);
     cloth.order = memory_order(std::span(model.rest).subspan(cloth.first),
                                springs_at_vertices(model.springs, first_spring, cloth.first, cloth.count));
     renumber_springs(model.springs, first_spring, cloth.first, cloth.order);
@@ -58,10 +63,30 @@ void order_last_cloth(ClothModel& model) {
     for (MembraneTriangle& t : model.membrane) renumber(t.vertex);
 }
 
+void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness) {
+    const ClothRange& cloth = model.cloths.back();
+    const auto own = std::partition_point(model.triangles.begin(), model.triangles.end(),
+                                          [&](const Triangle& t) { return t[0] < cloth.first; });
+    const HingeMesh mesh{.triangles = {own, model.triangles.end()},
+                         .rest = model.rest,
+                         .first_spring = first_spring_of(model, cloth),
+                         .first_vertex = cloth.first,
+                         .columns = cloth.columns,
+                         .rows = cloth.grid ? cloth.count / cloth.columns : 0};
+    append_hinges(mesh, bend_stiffness, model.hinges, model.springs);
+}
+
 void finish_model(ClothModel& model) {
+    set_pair_bending(model.hinges, model.springs);
     const SpringLayout layout = model.membrane.empty() ? SpringLayout::best : SpringLayout::slices;
     model.adjacency = make_adjacency(model.springs, model.vertex_count(), layout);
     if (!model.membrane.empty()) add_membrane(model.adjacency, model.springs, model.membrane);
+}
+
+void set_model_clamps(std::span<const double> free, ClothModel& model) {
+    set_clamps(free, model.hinges);
+    set_pair_bending(model.hinges, model.springs);
+    copy_bending(model.springs, model.adjacency);
 }
 
 void update_points(ClothState& state) { copy_out(state.positions, state.points); }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "adjacency.h"
+#include "hinges.h"
 #include "membrane.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
@@ -20,6 +21,7 @@ struct ClothRange {
     int count = 0;
     double mass = 0.0;  // kg
     bool grid = false;  // otherwise a free mesh
+    int columns = 0;    // of a grid
     Fabric fabric = {};
     VertexOrder order = {};
 
@@ -36,6 +38,7 @@ struct ClothModel {
     std::vector<Vec3> rest;           // m, positions without strain
     std::vector<Triangle> triangles;  // in the user's order, whatever that of the vertices
     SpringNetwork springs;
+    Hinges hinges;
     std::vector<MembraneTriangle> membrane;
     Adjacency adjacency;
 
@@ -48,7 +51,11 @@ void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fab
 /// Puts the vertices of the cloth that was appended last into memory_order, if it is a free mesh; grids keep theirs, in which
 /// their springs lie in bands.
 void order_last_cloth(ClothModel& model);
+/// Gives the cloth that was appended last hinges of its own, after its order is settled.
+void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness);
 void finish_model(ClothModel& model);
+/// Makes hinges beside clamps stiffer. `free`: 1, or 0 at pinned vertices.
+void set_model_clamps(std::span<const double> free, ClothModel& model);
 
 /// What a vertex holds on to by friction: the point of the obstacle that lies `stretch` behind it.
 struct Grip {

@@ -96,6 +96,13 @@ void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabr
     if (network.size() == before) throw SceneError(name + ": the fabric has no springs; springs.structural must be above 0 N/m");
 }
 
+void append_pair(int first, int second, SpringNetwork& network) {
+    network.first.push_back(first);
+    network.second.push_back(second);
+    for (auto* constants : {&network.rest_length, &network.stiffness, &network.damping}) constants->push_back(0.0);
+    network.kind.push_back(SpringKind::hinge);
+}
+
 std::vector<int> springs_at_vertices(const SpringNetwork& network, int from, int first_vertex, int vertex_count) {
     std::vector<int> springs(vertex_count, 0);
     for (int k = from; k < network.size(); ++k) {

@@ -9,7 +9,9 @@
 
 namespace percale {
 
-enum class SpringKind : std::uint8_t { structural, shear, bend };
+/// hinge: two vertices of a hinge that no spring joins; without stiffness, all it has is `bending`.
+/// seam: sewn together, without a length of its own.
+enum class SpringKind : std::uint8_t { structural, shear, bend, hinge, seam };
 
 /// All springs of a simulation, a structure of arrays.
 struct SpringNetwork {
@@ -18,6 +20,7 @@ struct SpringNetwork {
     std::vector<double> stiffness;    // ks, N/m
     std::vector<double> damping;      // kd, N s/m
     std::vector<SpringKind> kind;
+    std::vector<double> bending;  // b, N/m, of either sign: force -b x on top of the spring's; empty without hinges
 
     int size() const { return static_cast<int>(first.size()); }
 };
@@ -29,6 +32,9 @@ struct SpringNetwork {
 /// free mesh, no spring at all, or a spring of no length.
 void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex,
                     const std::string& name);
+
+/// Appends a pair of vertices without spring.
+void append_pair(int first, int second, SpringNetwork& network);
 
 /// Of the springs from number `from` on: their number at each of the cloth's vertices, which start at `first_vertex`.
 std::vector<int> springs_at_vertices(const SpringNetwork& network, int from, int first_vertex, int vertex_count);

@@ -9,6 +9,14 @@ namespace {
 
 void add_springs(const ClothFacts& cloth, std::vector<Skip>& skipped) {
     const SpringConstants& springs = cloth.fabric.springs;
+    const bool triangles = cloth.fabric.has_moduli() && cloth.fabric.membrane == Membrane::triangle_springs;
+    if (!triangles) {
+        skipped.push_back({"triangle springs of " + cloth.name,
+                           cloth.fabric.has_moduli() ? "membrane is van_gelder" : "stretch_stiffness is not set"});
+    }
+    if (cloth.fabric.has_moduli()) {
+        return skipped.push_back({"springs of " + cloth.name + " other than along edges", "stretch_stiffness is set"});
+    }
     if (springs.structural == 0.0) skipped.push_back({"structural springs of " + cloth.name, "springs.structural is 0 N/m"});
     if (!cloth.grid) {
         skipped.push_back({"shear springs of " + cloth.name, "a free mesh has none"});
@@ -53,6 +61,15 @@ void add_solver(const StepPlan& plan, std::string_view scheme, std::vector<Skip>
     if (!plan.solve) skipped.push_back({"the whole solve", "no vertex is free to move"});
 }
 
+void add_forces(const StepPlan& plan, const SceneFacts& facts, std::vector<Skip>& skipped) {
+    for (const ClothFacts& cloth : facts.cloths) {
+        if (cloth.fabric.bend_stiffness.value_or(0.0) == 0.0)
+            skipped.push_back({"hinges of " + cloth.name, "bend_stiffness is not set or 0 N m"});
+    }
+    if (!plan.wind && !facts.changes.wind) skipped.push_back({"drag of the air", "no wind was ever set"});
+    if (facts.springs.seam == 0) skipped.push_back({"closing of seams", "the scene has no seam"});
+}
+
 void add_measures(const StepPlan& plan, std::vector<Skip>& skipped) {
     if (!plan.measures) {
         skipped.push_back({"energy, strain and speed of each step", "step.measure is none"});
@@ -73,6 +90,8 @@ StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts) {
                     (facts.obstacles > 0 || meets_cloth(facts) || (everything && facts.detector));
     const bool start_lengths = plan.implicit && (facts.damped || everything);
     plan.damping = start_lengths ? settings.damping_form : DampingForm::velocity;
+    plan.hinges = facts.springs.hinge > 0;
+    plan.wind = settings.wind.has_value();
     plan.pins = facts.pinned_vertices > 0 || facts.changes.pins || everything;
     plan.still_obstacles = everything;
     plan.gravity_energy = settings.gravity != Vec3::Zero() || facts.changes.gravity || everything;
@@ -99,6 +118,7 @@ std::vector<Skip> skipped_by(const StepPlan& plan, const StepSettings& settings,
     if (plan.implicit && plan.damping != settings.damping_form) {
         skipped.push_back({"start lengths of springs in each step", "spring_damping is 0 N s/m"});
     }
+    add_forces(plan, facts, skipped);
     add_solver(plan, facts_of(settings.scheme).word, skipped);
     add_measures(plan, skipped);
     return skipped;

@@ -18,6 +18,9 @@ struct StepPlan {
     bool obstacles_move = false;  // in the coming step
     bool pins_move = false;       // in the coming step
     DampingForm damping = DampingForm::length_rate;
+    bool hinges = false;          // some cloth has bending stiffness
+    bool wind = false;            // there is air
+    bool seams_close = false;     // in the coming step
     bool pins = true;             // a vertex is pinned: targets are compared with places
     bool pin_work = false;        // work of pins in the coming step is summed
     bool still_obstacles = true;  // the detector is told about obstacles that stay where it knows them, too

@@ -119,7 +119,7 @@ void ContactProjection::forget() {
 void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces) const {
     const ContactRows& rows = *point.rows;
     ContactTerms& terms = forces.terms;
-    terms.blocks.clear();
+    terms.blocks.resize(terms.others);
     terms.energy = terms.largest_stiffness = terms.obstacle_power = 0.0;
     forces.rows.clear();
     for (std::size_t row = 0; row < rows.size(); ++row) {

@@ -5,12 +5,16 @@ namespace {
 
 /// space.forces at a state.
 void evaluate(const ExplicitPart& part, const ClothState& state, ExplicitSpace& space) {
+    if (part.wind) {
+        set_step_wind(*part.model, part.wind->velocity, part.wind->density, state.positions, *part.wind);
+    }
     const ForceInput input{.compute = part.compute,
                            .model = part.model,
                            .springs = &space.springs,
                            .positions = &state.positions,
                            .velocities = &state.velocities,
                            .gravity = part.settings->gravity,
+                           .wind = part.wind,
                            .dt = part.dt,
                            .with_matrix = false};
     evaluate_forces(input, space.forces);

@@ -15,6 +15,7 @@ struct ExplicitPart {
     const Vectors* targets = nullptr;             // m, where prescribed vertices are at the end
     const AlignedVector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
     double dt = 0.0;                              // s
+    StepWind* wind = nullptr;                     // null: no air
 };
 
 struct ExplicitSpace {

@@ -120,6 +120,7 @@ private:
                 .positions = &point.positions,
                 .velocities = &point.velocities,
                 .gravity = part_.settings->gravity,
+                .wind = part_.wind,
                 .dt = part_.dt,
                 .with_matrix = true};
     }
@@ -130,9 +131,8 @@ private:
             part_.detector->evaluate(point.points, point.fraction, point.forces.rows);
         }
         StageTimer timer(stages_.force);
-        const ForceInput input = force_input(point);
-        evaluate_forces(input, point.forces);
-        if (part_.plan->contacts) add_contacts(input, point);
+        evaluate_forces(force_input(point), point.forces);
+        if (part_.plan->contacts) add_contacts(force_input(point), point);
         set_residual(point);
     }
 

@@ -35,6 +35,7 @@ struct ImplicitPart {
     double contact_dt = 0.0;                      // s, ContactStep::stiffness_dt
     StepFraction span;                            // of the whole step
     std::span<const ObstacleFlow> flows = {};     // of each obstacle that moves; none: they stay
+    const StepWind* wind = nullptr;               // null: no air
     NewtonOptions options;
 };
 

@@ -5,12 +5,19 @@
 #include <memory>
 
 #include "forces/body_force.h"
+#include "forces/hinge_force.h"
 #include "forces/membrane_force.h"
+#include "forces/wind_force.h"
 
 namespace percale {
 namespace {
 
 constexpr double share_of_length = 1e-5;  // of the shortest spring, by which vertices are moved
+
+Vec3 block_times(const SymmetricBlock& k, const Vec3& u) {
+    const auto& [xx, xy, xz, yy, yz, zz] = k;
+    return {xx * u.x() + xy * u.y() + xz * u.z(), xy * u.x() + yy * u.y() + yz * u.z(), xz * u.x() + yz * u.y() + zz * u.z()};
+}
 
 /// What the terms of springs and triangles share: the model's adjacency at the end of a step from world.before.
 struct SpringCheck {
@@ -103,6 +110,62 @@ CheckedTerm membrane_term(const World& world) {
     return term;
 }
 
+/// What rest angles change; the matrix keeps that of flat hinges, which claims nothing here.
+CheckedTerm curved_hinge_term(const World& world) {
+    return {.name = "curved hinges",
+            .add_forces = [&world](const Vectors& positions,
+                                   Vectors& forces) { add_curved_hinges(world.model.hinges, positions, forces); },
+            .energy =
+                [&world](const Vectors& positions) {
+                    Vectors unused = positions;
+                    return add_curved_hinges(world.model.hinges, positions, unused);
+                },
+            .multiply = {},
+            .exact = {}};
+}
+
+/// Drag as a function of the positions at the end of the step, with the velocities that lead there.
+struct WindCheck {
+    const World& world;
+    WindTerms terms;
+
+    double evaluate(const Vectors& positions, Vectors& forces, WindTerms& result) const {
+        const double dt = world.report.smallest_dt;
+        Vectors velocities = world.state.velocities;
+        add_scaled(velocities, 1.0 / dt, positions);
+        add_scaled(velocities, -1.0 / dt, world.state.positions);
+        add_wind(world.model, world.wind, velocities, dt, forces, result);
+        return result.potential;
+    }
+};
+
+CheckedTerm wind_term(const World& world) {
+    auto check = std::make_shared<WindCheck>(WindCheck{world, {}});
+    Vectors forces = world.state.positions;
+    check->evaluate(world.state.positions, forces, check->terms);
+    return {.name = "wind",
+            .add_forces =
+                [=](const Vectors& positions, Vectors& sum) {
+                    WindTerms terms;
+                    check->evaluate(positions, sum, terms);
+                },
+            .energy =
+                [=](const Vectors& positions) {
+                    WindTerms terms;
+                    Vectors unused = positions;
+                    return check->evaluate(positions, unused, terms);
+                },
+            .multiply =
+                [=](const Vectors& direction, Vectors& product) {
+                    for (std::size_t i = 0; i < check->terms.blocks.size(); ++i) {
+                        const int vertex = static_cast<int>(i);
+                        product.add(vertex, block_times(check->terms.blocks[i], direction.at(vertex)));
+                    }
+                },
+            .exact = {},
+            .internal = false};
+}
+
 CheckedTerm gravity_term(const World& world) {
     CheckedTerm term{.name = "gravity", .add_forces = {}, .energy = {}, .multiply = {}, .exact = {}, .internal = false};
     term.add_forces = [&world](const Vectors&, Vectors& forces) {
@@ -151,9 +214,7 @@ struct ContactCheck {
         for (const ContactBlock& block : terms.blocks) {
             Vec3 u = Vec3::Zero();
             for (std::size_t k = 0; k < 4 && block.vertex[k] >= 0; ++k) u += block.weight[k] * direction.at(block.vertex[k]);
-            const auto& [xx, xy, xz, yy, yz, zz] = block.k;
-            const Vec3 f{xx * u.x() + xy * u.y() + xz * u.z(), xy * u.x() + yy * u.y() + yz * u.z(),
-                         xz * u.x() + yz * u.y() + zz * u.z()};
+            const Vec3 f = block_times(block.k, u);
             for (std::size_t k = 0; k < 4 && block.vertex[k] >= 0; ++k) product.add(block.vertex[k], block.weight[k] * f);
         }
     }
@@ -191,8 +252,12 @@ CheckedTerm contact_term(const World& world, double reach) {
 }
 
 double reach_of(const World& world) {
-    const std::vector<double>& lengths = world.model.springs.rest_length;
-    return lengths.empty() ? 0.0 : share_of_length * *std::min_element(lengths.begin(), lengths.end());
+    const SpringNetwork& springs = world.model.springs;
+    double shortest = 1.0;  // m
+    for (int k = 0; k < springs.size(); ++k) {
+        if (springs.rest_length[k] > 0.0) shortest = std::min(shortest, springs.rest_length[k]);
+    }
+    return share_of_length * shortest;
 }
 
 /// "vertex 3 of cloth sheet"
@@ -221,6 +286,8 @@ std::vector<CheckedTerm> checked_terms(const World& world) {
         terms.push_back(spring_term(world, "damped springs", DampingForm::length_rate));
     }
     if (!world.model.membrane.empty()) terms.push_back(membrane_term(world));
+    if (!world.model.hinges.curved.empty()) terms.push_back(curved_hinge_term(world));
+    if (world.plan.wind) terms.push_back(wind_term(world));
     const bool penalty = world.settings.contact_response == ContactResponse::penalty;
     if (world.plan.contacts && penalty && world.newton.current.forces.rows.size() > 0) {
         terms.push_back(contact_term(world, reach_of(world)));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "forces/body_force.h"
+#include "forces/hinge_force.h"
 #include "forces/membrane_force.h"
 #include "support/hash.h"
 #include "support/stage_timer.h"
@@ -37,6 +38,7 @@ StepEnergy energy_of(const World& world, bool with_gravity) {
                                      [&](int i) { return world.model.mass[i] * square_at(world.state.velocities, i); });
     if (with_gravity) energy.gravity = gravity_energy(world.model.mass, world.settings.gravity, world.state.positions);
     energy.elastic = elastic_energy(world.model.springs, world.state.positions);
+    if (!world.model.hinges.all.empty()) energy.elastic += hinge_energy(world.model.hinges, world.state.positions);
     if (!world.model.membrane.empty()) energy.elastic += membrane_energy(world.model.membrane, world.state.positions);
     energy.contact = world.contact_energy;
     return energy;

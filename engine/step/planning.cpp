@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "forces/hinge_force.h"
 #include "model/plan_costs.h"
 #include "rest_detection.h"
 
@@ -24,14 +25,27 @@ bool obstacles_move(const World& world) {
                        [](const ObstacleState& obstacle) { return obstacle.start != obstacle.end; });
 }
 
+bool seams_close(const World& world) {
+    return std::any_of(world.script.seams.begin(), world.script.seams.end(),
+                       [&](const Seam& seam) { return seam.closes_after(world.time - world.settings.time_step); });
+}
+
 SpringCounts count_springs(const SpringNetwork& springs) {
     SpringCounts counts;
     for (const SpringKind kind : springs.kind) {
         if (kind == SpringKind::structural) ++counts.structural;
         if (kind == SpringKind::shear) ++counts.shear;
         if (kind == SpringKind::bend) ++counts.bend;
+        if (kind == SpringKind::seam) ++counts.seam;
     }
     return counts;
+}
+
+/// Pins that came or went change the energy of hinges beside them: work of whoever set them.
+void update_clamps(World& world) {
+    const double before = hinge_energy(world.model.hinges, world.state.positions);
+    set_model_clamps(world.script.free, world.model);
+    world.report.energy.work += hinge_energy(world.model.hinges, world.state.positions) - before;
 }
 
 }  // namespace
@@ -43,6 +57,7 @@ SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come) {
     for (int i = 0; i < facts.cloth_vertices; ++i) facts.pinned_vertices += world.script.free[i] == 0.0;
     facts.cloth_triangles = static_cast<int>(model.triangles.size());
     facts.springs = count_springs(model.springs);
+    facts.springs.triangle = static_cast<int>(model.membrane.size());
     facts.damped = std::any_of(model.springs.damping.begin(), model.springs.damping.end(), [](double kd) { return kd > 0.0; });
     facts.obstacles = static_cast<int>(world.script.obstacles.size());
     for (const ObstacleState& obstacle : world.script.obstacles) facts.obstacle_triangles += obstacle.triangles;
@@ -50,17 +65,22 @@ SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come) {
     facts.changes = to_come;
     facts.changes.obstacles = to_come.obstacles || obstacles_move(world);
     facts.changes.pins = to_come.pins || pins_move(world);
+    facts.springs.hinge = static_cast<int>(model.hinges.all.size());
     for (const ClothRange& cloth : model.cloths) facts.cloths.push_back({cloth.name, cloth.grid, cloth.fabric});
     return facts;
 }
 
 void update_plan(World& world) {
-    if (world.plan_outdated) world.plan = make_step_plan(world.settings, scene_facts(world));
+    if (world.plan_outdated) {
+        world.plan = make_step_plan(world.settings, scene_facts(world));
+        if (world.plan.hinges) update_clamps(world);
+    }
     world.plan_outdated = false;
     ScriptedChanges now;
     now.obstacles = obstacles_move(world);
     now.pins = world.plan.pins && pins_move(world);
     set_motion(world.plan, now);
+    world.plan.seams_close = seams_close(world);
 }
 
 void scene_changed(World& world) {

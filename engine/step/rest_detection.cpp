@@ -67,7 +67,8 @@ void fall_asleep(World& world) {
 void update_rest(World& world) {
     RestState& rest = world.rest;
     if (!world.plan.rest) return;
-    if (world.plan.pins_move || world.plan.obstacles_move || world.report.status != StepStatus::ok) return wake(rest);
+    const bool moved = world.plan.pins_move || world.plan.obstacles_move || world.plan.seams_close;
+    if (moved || world.report.status != StepStatus::ok) return wake(rest);
     if (rest.cloths.size() != world.model.cloths.size()) {
         rest.cloths.assign(world.model.cloths.size(), {});
         rest.anchor = world.state.positions;

@@ -19,6 +19,22 @@ void finish_motion(World& world) {
     for (ObstacleState& obstacle : world.script.obstacles) obstacle.start = obstacle.end;
 }
 
+void set_part_seams(World& world, StepFraction span) {
+    world.seam_work = 0.0;
+    if (!world.plan.seams_close) return;
+    const double dt = world.settings.time_step;
+    for (const Seam& seam : world.script.seams) {
+        const double before = set_seam_lengths(seam, world.time + span.from * dt, world.state.positions, world.model);
+        world.seam_work += set_seam_lengths(seam, world.time + span.to * dt, world.state.positions, world.model) - before;
+    }
+}
+
+StepWind* set_wind_at(World& world, const Vectors& positions) {
+    if (!world.plan.wind) return nullptr;
+    set_step_wind(world.model, *world.settings.wind, world.settings.air_density, positions, world.wind);
+    return &world.wind;
+}
+
 void set_part_targets(World& world, double fraction) {
     world.part_targets.resize(world.model.vertex_count());
     for (int i = 0; i < world.model.vertex_count(); ++i) {

@@ -14,4 +14,11 @@ void finish_motion(World& world);
 /// world.part_targets: where pins are after the given fraction of the step, on the straight line from its start.
 void set_part_targets(World& world, double fraction);
 
+/// Rest lengths of closing seams at the end of a part of the step; world.seam_work = what the change stores in them where they
+/// are now, J.
+void set_part_seams(World& world, StepFraction span);
+
+/// The air around cloth that lies at these positions, if there is any; null: none.
+StepWind* set_wind_at(World& world, const Vectors& positions);
+
 }  // namespace percale

@@ -24,18 +24,22 @@ void evaluate_at(World& world, const ClothState& state) {
                            .positions = &state.positions,
                            .velocities = &state.velocities,
                            .gravity = world.settings.gravity,
+                           .wind = set_wind_at(world, state.positions),
                            .dt = world.settings.time_step,
                            .with_matrix = false};
     evaluate_forces(input, space.forces);
 }
 
-/// Work of moving pins in an explicit step, J: what their kinetic energy gained less the work of the mean of the forces at both
-/// ends.
+/// Work of moving pins and of the wind in an explicit step, J: what the pins' kinetic energy gained less the work of the mean of
+/// the forces at both ends; the wind's mean power.
 double explicit_work(World& world) {
     evaluate_at(world, world.before);
     world.explicit_space.start_forces = world.explicit_space.forces.total;
+    double power = world.explicit_space.forces.wind.power;
     evaluate_at(world, world.state);
-    double work = 0.0;
+    power += world.explicit_space.forces.wind.power;
+    double work = 0.5 * world.settings.time_step * power;
+    if (!world.plan.pin_work) return work;
     for (int i = 0; i < world.model.vertex_count(); ++i) {
         if (world.script.free[i] > 0.0) continue;
         const Vec3 force = 0.5 * (world.explicit_space.start_forces.at(i) + world.explicit_space.forces.total.at(i));
@@ -49,24 +53,29 @@ double explicit_work(World& world) {
 void solve_explicit(World& world) {
     StageTimer timer(world.report.stages.force);
     set_part_targets(world, 1.0);
+    set_part_seams(world, {0.0, 1.0});
     const ExplicitPart part{.compute = &world.compute,
                             .model = &world.model,
                             .settings = &world.settings,
                             .targets = &world.part_targets,
                             .free = &world.script.free,
-                            .dt = world.settings.time_step};
+                            .dt = world.settings.time_step,
+                            .wind = set_wind_at(world, world.state.positions)};
     if (world.settings.scheme == Scheme::rk4) {
         step_rk4(part, world.explicit_space, world.state);
     } else {
         step_symplectic_euler(part, world.explicit_space, world.state);
     }
-    if (world.plan.pin_work) world.report.energy.work = explicit_work(world);
+    world.report.energy.work += world.seam_work;
+    if (world.plan.pin_work || (world.plan.wind && world.plan.measures)) world.report.energy.work += explicit_work(world);
 }
 
-/// Work of pins and obstacles during the part just solved, J: a pin's reaction is what its residual lacks, M (v - v_n) - dt f.
+/// Work of pins, obstacles, wind and closing seams during the part just solved, J: a pin's reaction is what its residual lacks, M
+/// (v - v_n) - dt f.
 double script_work(const World& world, double dt) {
     const NewtonPoint& end = world.newton.current;
     double work = world.plan.contacts ? dt * end.forces.contact.obstacle_power : 0.0;
+    work += world.seam_work + dt * end.forces.wind.power;
     if (!world.plan.pin_work) return work;
     for (int i = 0; i < world.model.vertex_count(); ++i) {
         if (world.script.free[i] > 0.0) continue;
@@ -97,6 +106,7 @@ void set_flows(World& world, double fraction) {
 NewtonReport solve_part(World& world, StepFraction span) {
     const double dt = world.settings.time_step * (span.to - span.from);
     set_part_targets(world, span.to);
+    set_part_seams(world, span);
     set_flows(world, span.from);
     const ImplicitPart part{.compute = &world.compute,
                             .model = &world.model,
@@ -110,6 +120,7 @@ NewtonReport solve_part(World& world, StepFraction span) {
                             .contact_dt = world.contact_dt,
                             .span = span,
                             .flows = world.flows,
+                            .wind = set_wind_at(world, world.state.positions),
                             .options = {}};
     const NewtonReport part_report = solve_implicit(part, world.newton, world.state, world.report.stages);
     add_figures(part_report, world.report);
@@ -213,6 +224,7 @@ void solve_step(World& world) {
     }
     world.contact_dt = std::max(world.settings.time_step, world.contact_dt - fastest_shortening * world.settings.time_step);
     const bool good = solve_span(world, {0.0, 1.0}, 0);
+    if (!good) set_part_seams(world, {0.0, 0.0});
     if (good && world.report.halvings > 0 && world.report.status == StepStatus::ok) world.report.status = StepStatus::halved;
 }
 

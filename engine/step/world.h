@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/cloth_model.h"
+#include "model/seams.h"
 #include "model/step_plan.h"
 #include "percale/contact.h"
 #include "percale/report.h"
@@ -27,6 +28,7 @@ struct Script {
     AlignedVector<double> free;  // 1, or 0 where pinned and in the padding
     Vectors pin_targets;         // m, at the end of the coming step; meaningful where pinned
     std::vector<ObstacleState> obstacles;
+    std::vector<Seam> seams;
 };
 
 /// What callers see, one entry a vertex in the user's order. Positions and masses are kept only if some cloth has another order.
@@ -58,6 +60,8 @@ struct World {
     ClothState before;  // the state at the start of the running step
     Vectors part_targets;
     std::vector<ObstacleFlow> flows;
+    StepWind wind;
+    double seam_work = 0.0;       // J, of closing seams in the part being solved
     double contact_energy = 0.0;  // J, of the current state
     double contact_dt = 0.0;      // s, that the contact stiffness was last made for
     UserViews views;

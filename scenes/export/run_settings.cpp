@@ -110,6 +110,10 @@ ordered_json obstacle_object(const ObstacleSpec& obstacle) {
     return json;
 }
 
+ordered_json seam_object(const SeamSpec& seam) {
+    return {{"cloths", seam.cloths}, {"vertices", seam.vertices}, {"over", seam.over}, {"stiffness", seam.stiffness}};
+}
+
 struct EventObject {
     ordered_json operator()(const PinEvent& e) const {
         return {{"pin", {{"cloth", e.cloth}, {"vertices", selection_object(e.vertices)}}}};
@@ -120,6 +124,7 @@ struct EventObject {
     ordered_json operator()(const MoveEvent& e) const {
         return {{"move", {{"cloth", e.cloth}, {"vertices", selection_object(e.vertices)}, {"to", list(e.to)}, {"over", e.over}}}};
     }
+    ordered_json operator()(const WindEvent& e) const { return {{"wind", list(e.wind)}}; }
     ordered_json operator()(const GravityEvent& e) const { return {{"gravity", list(e.gravity)}}; }
 };
 
@@ -148,6 +153,8 @@ std::string settings_text(const Scene& scene) {
     for (const ClothSpec& cloth : scene.cloths) json["cloth"].push_back(cloth_object(cloth));
     json["obstacle"] = ordered_json::array();
     for (const ObstacleSpec& obstacle : scene.obstacles) json["obstacle"].push_back(obstacle_object(obstacle));
+    json["seam"] = ordered_json::array();
+    for (const SeamSpec& seam : scene.seams) json["seam"].push_back(seam_object(seam));
     json["event"] = ordered_json::array();
     for (const EventSpec& event : scene.events) json["event"].push_back(event_object(event));
     json["output"] = {{"frames", scene.output.frames == FrameFormat::obj ? "obj" : "none"}, {"fps", scene.output.fps}};

@@ -33,6 +33,8 @@ struct Fabric {
     double poisson_ratio = 0.0;                                   // sqrt(nu_12 nu_21)
     Membrane membrane = Membrane::triangle_springs;
     std::optional<double> bend_stiffness = {};  // N m
+    double drag_normal = 1.2;                   // C_n, against air that meets the surface; of both sides together
+    double drag_tangential = 0.05;              // C_t, against air that passes along it
 
     bool has_moduli() const { return stretch_stiffness.has_value(); }
 };

@@ -17,13 +17,17 @@ struct ScriptedChanges {
     bool obstacles = false;  // move
     bool pins = false;       // move, come or go
     bool gravity = false;    // changes
+    bool wind = false;       // begins to blow
 };
 
-/// Springs by kind.
+/// Springs by kind, and hinges.
 struct SpringCounts {
     int structural = 0, shear = 0, bend = 0;
+    int hinge = 0;  // that resist bending, with bend_stiffness
+    int seam = 0;
+    int triangle = 0;  // of membranes, with stretch_stiffness; their edges are among the others
 
-    int total() const { return structural + shear + bend; }
+    int total() const { return structural + shear + bend + seam; }
 };
 
 /// What the steps of a simulation will be made of, known without running one.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -24,6 +25,12 @@ struct ObstacleId {
 struct ObstacleSettings {
     double friction = 0.3;          // Coulomb coefficient against cloth, 0 ... 10
     std::string name = "obstacle";  // for messages
+};
+
+struct SeamSettings {
+    double over = 1.0;          // s, how long closing takes, 0 ... 1e6
+    double stiffness = 1000.0;  // N/m of each pair, 1e-3 ... 1e9
+    std::string name = "seam";  // for messages
 };
 
 /// What was done to a cloth that started through, inside or touching an obstacle.
@@ -56,7 +63,13 @@ public:
     /// Where an obstacle is at the end of the next step; it then stays there. The scale must not change.
     void move_obstacle(ObstacleId obstacle, const Pose& end);
     void set_gravity(const Vec3& gravity);  // m/s^2
-    void set_time_step(double time_step);   // s, > 0
+    /// Velocity of the air, m/s; before the first call there is no air (StepSettings::wind). Drag: Fabric::drag_normal,
+    /// drag_tangential, StepSettings::air_density. In an implicit step triangles meet the air as they lay at its start.
+    void set_wind(const Vec3& velocity);
+    /// Sews vertices of two cloths, or of one, together, pair by pair: springs whose rest length goes from the distance of now
+    /// to 0 and stays 0. Where cloth has self_contact the two sides stay a thickness apart.
+    void add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices, const SeamSettings& settings = {});
+    void set_time_step(double time_step);  // s, > 0
     /// All vertices of a cloth; m and m/s. For starts that are not at rest.
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);

@@ -1,5 +1,7 @@
 #include "engine/step/checked_terms.h"
 
+#include <algorithm>
+
 #include "engine/step/planning.h"
 #include "engine/step/step.h"
 #include "tests/support/catch.h"
@@ -57,6 +59,34 @@ TEST_CASE("All forces pass the check in every step of a disturbed sheet: springs
         World world = disturbed_world(fabric, {.time_step = 1e-4, .scheme = Scheme::rk4});
         update_plan(world);
         for (int n = 0; n < 3; ++n) REQUIRE(step(world).ok());
+    }
+}
+
+TEST_CASE("Hinges of flat and of curved cloth, and wind, pass the check") {
+    for (const bool curved : {false, true}) {
+        TriangleMesh mesh = make_grid(0.5, 0.5, 6, 6);
+        mesh.grid_columns = mesh.grid_rows = 0;
+        for (Vec3& x : mesh.vertices) x.y() = curved ? 0.8 * x.x() * x.x() : 0.0;
+        Fabric fabric = moduli_fabric(90.0, 90.0, {}, 0.2);
+        fabric.bend_stiffness = 1e-4;
+        ClothModel model;
+        append_cloth(model, mesh, fabric, "cloth");
+        append_hinges_of_last_cloth(model, *fabric.bend_stiffness);
+        finish_model(model);
+        CHECK(model.hinges.curved.empty() != curved);
+        StepSettings settings;
+        settings.check_derivatives = true;
+        settings.wind = Vec3(3.0, 1.0, -0.5);
+        World world = make_world(std::move(model), disturbed(mesh.vertices, 1.02, 0.01, 6), settings);
+        update_plan(world);
+        for (int n = 0; n < 4; ++n) {
+            const StepReport report = step(world);
+            CAPTURE(n, report.wrong_derivative);
+            REQUIRE(report.ok());
+        }
+        const std::vector<std::string> terms = names(world);
+        CHECK(std::count(terms.begin(), terms.end(), "wind") == 1);
+        CHECK(std::count(terms.begin(), terms.end(), "curved hinges") == (curved ? 1 : 0));
     }
 }
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "model/hinges.h"
+#include "model/vectors.h"
+
+namespace percale {
+
+/// Energy of all hinges, J: 1/2 c |u|^2 of flat ones, 1/2 c (theta - rest angle)^2 of curved ones.
+double hinge_energy(const Hinges& hinges, const Vectors& positions);
+
+/// Pairs (network.bending) make every hinge a flat one. Turns the curved ones into such with a rest angle: forces, N, += what
+/// that changes; returns the change of their energy, J. Their matrix stays that of flat ones, c w w^T, which is positive
+/// definite and exact for motion along the normals of a shape whose rest angles are small.
+double add_curved_hinges(const Hinges& hinges, const Vectors& positions, Vectors& forces);
+
+}  // namespace percale

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "cloth_model.h"
+
+namespace percale {
+
+/// Springs between pairs of vertices whose rest length goes from the distance that the vertices had to 0, at a steady rate, and
+/// stays 0: a stiff spring without length is the weld.
+struct Seam {
+    int first_spring = 0;
+    std::vector<double> length;  // m, of each spring when closing began
+    double from = 0.0;           // s
+    double over = 0.0;           // s, how long closing takes
+
+    bool closes_after(double time) const { return time < from + over; }
+};
+
+/// Appends the springs of a seam between vertices of the system; closing begins at the time seam.from. finish_model has to
+/// follow.
+void append_seam(std::span<const std::array<int, 2>> pairs, double stiffness, const Vectors& positions, Seam& seam,
+                 ClothModel& model);
+
+/// Sets the rest lengths that the springs of a seam have at a time, s; returns their energy, J.
+double set_seam_lengths(const Seam& seam, double time, const Vectors& positions, ClothModel& model);
+
+}  // namespace percale

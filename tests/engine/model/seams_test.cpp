@@ -1,0 +1,63 @@
+#include "engine/model/seams.h"
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+struct Sewn {
+    ClothModel model;
+    Vectors positions;
+    Seam seam;
+
+    /// Two grids, the second 0.3 m above the first, sewn together at two corners and, within the first, across it.
+    Sewn() {
+        TriangleMesh upper = make_grid(1.0, 1.0, 4, 4);
+        for (Vec3& x : upper.vertices) x.y() += 0.3;
+        append_cloth(model, make_grid(1.0, 1.0, 4, 4), sheet_fabric(), "lower");
+        append_cloth(model, upper, sheet_fabric(), "upper");
+        positions = to_vectors(model.rest);
+        seam.from = 2.0;
+        seam.over = 0.5;
+        append_seam(std::vector<std::array<int, 2>>{{0, 16}, {31, 15}, {0, 3}}, 40.0, positions, seam, model);
+        finish_model(model);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("A seam's springs begin with the distances of now and end with none") {
+    Sewn sewn;
+    REQUIRE(sewn.seam.length.size() == 3);
+    const auto rest = [&](int k) { return sewn.model.springs.rest_length[sewn.seam.first_spring + k]; };
+    struct Moment {
+        double time, share;
+    };
+    for (const auto& [time, share] : {Moment{1.0, 1.0}, {2.0, 1.0}, {2.125, 0.75}, {2.25, 0.5}, {2.5, 0.0}, {9.0, 0.0}}) {
+        const double energy = set_seam_lengths(sewn.seam, time, sewn.positions, sewn.model);
+        CAPTURE(time);
+        CHECK(rest(0) == Approx(0.3 * share).margin(1e-15));
+        CHECK(rest(1) == Approx(0.3 * share).margin(1e-15));
+        CHECK(rest(2) == Approx(1.0 * share).margin(1e-15));
+        const double missing = 1.0 - share;
+        CHECK(energy == Approx(0.5 * 40.0 * missing * missing * (0.09 + 0.09 + 1.0)).margin(1e-15));
+    }
+    CHECK(sewn.seam.closes_after(2.49));
+    CHECK_FALSE(sewn.seam.closes_after(2.5));
+}
+
+TEST_CASE("A new rest length reaches every place where the spring is read, in bands and in slices") {
+    for (const SpringLayout layout : {SpringLayout::best, SpringLayout::slices}) {
+        ClothModel model = cloth_model(make_grid(1.0, 1.0, 9, 9), sheet_fabric());
+        model.adjacency = make_adjacency(model.springs, model.vertex_count(), layout);
+        REQUIRE((model.adjacency.bands.count > 0) == (layout == SpringLayout::best));
+        for (const int spring : {0, 100, model.springs.size() - 1}) {
+            model.springs.rest_length[spring] *= 0.3;
+            set_rest_length(model.springs, spring, model.adjacency);
+        }
+        CHECK(model.adjacency.rest_length == make_adjacency(model.springs, model.vertex_count(), layout).rest_length);
+    }
+}
+
+}  // namespace percale::test

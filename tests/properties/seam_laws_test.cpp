@@ -1,0 +1,122 @@
+#include "tests/support/bench_meshes.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+using Pairs = std::vector<std::array<int, 2>>;
+
+/// Two panels face to face, sewn together along both long sides.
+struct Tube {
+    Simulation simulation;
+    ClothId front, back;
+    Pairs pairs;
+
+    explicit Tube(StepSettings settings, double over = 0.5) : simulation(settings) {
+        Fabric fabric = sheet_fabric();
+        fabric.spring_damping = 0.02;
+        fabric.springs.bend = 0.0;
+        fabric.bend_stiffness = 1e-4;
+        front = simulation.add_cloth(make_grid(0.3, 0.4, 7, 9), fabric, {.translation = {0, 0.05, 0}}, "front");
+        back = simulation.add_cloth(make_grid(0.3, 0.4, 7, 9), fabric, {.translation = {0, -0.05, 0}}, "back");
+        for (int row = 0; row < 9; ++row) {
+            pairs.push_back({7 * row, 7 * row});
+            pairs.push_back({7 * row + 6, 7 * row + 6});
+        }
+        simulation.add_seam(front, back, pairs, {.over = over, .stiffness = 2000.0, .name = "sides"});
+    }
+
+    double widest_gap() const {
+        double gap = 0.0;
+        for (const auto& [i, j] : pairs)
+            gap = std::max(gap, (simulation.positions(front)[i] - simulation.positions(back)[j]).norm());
+        return gap;
+    }
+};
+
+Vec3 momentum(const Simulation& simulation, ClothId cloth) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < simulation.masses(cloth).size(); ++i)
+        sum += simulation.masses(cloth)[i] * simulation.velocities(cloth)[i];
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("Two panels are drawn together at a steady rate and stay sewn") {
+    Tube tube({.gravity = Vec3::Zero()});
+    for (int n = 1; n <= 120; ++n) {
+        const StepReport report = tube.simulation.step();
+        REQUIRE(report.ok());
+        const double target = 0.1 * std::max(0.0, 1.0 - n / 30.0);
+        CHECK(tube.widest_gap() < target + 2e-3);
+        if (n > 60) CHECK(tube.widest_gap() < 3e-4);
+        CHECK((momentum(tube.simulation, tube.front) + momentum(tube.simulation, tube.back)).norm() < 1e-9);
+    }
+    // The tube is open in between.
+    const Vec3 middle = tube.simulation.positions(tube.front)[4 * 7 + 3] - tube.simulation.positions(tube.back)[4 * 7 + 3];
+    CHECK(middle.norm() > 0.02);
+}
+
+TEST_CASE("Sewn cloth that hangs by one panel carries the other") {
+    Tube tube({});
+    for (int column = 0; column < 7; ++column) tube.simulation.pin(tube.front, column);
+    for (int n = 0; n < 180; ++n) REQUIRE(tube.simulation.step().ok());
+    // Half the weight of the back, 0.12 m^2 of 0.2 kg/m^2, over 9 pairs at 2000 N/m: below 1 mm.
+    CHECK(tube.widest_gap() < 1e-3);
+}
+
+TEST_CASE("What closing a seam stores is its work: energy never rises beyond it, and is bits of no thread") {
+    for (const Scheme scheme : {Scheme::backward_euler, Scheme::symplectic_euler}) {
+        const bool implicit = scheme == Scheme::backward_euler;
+        Tube tube(
+            {.time_step = implicit ? 1.0 / 60.0 : 2e-4, .scheme = scheme, .newton_tolerance = 1e-9, .gravity = Vec3::Zero()},
+            0.1);
+        double before = tube.simulation.energy().total(), work = 0.0;
+        CHECK(before < 1e-15);
+        for (int n = 0; n < (implicit ? 30 : 2500); ++n) {
+            const StepReport report = tube.simulation.step();
+            const double now = report.energy.total();
+            if (implicit) CHECK(now <= before + report.energy.work + 1e-9);
+            work += report.energy.work;
+            before = now;
+        }
+        CHECK(work > 0.0);
+        CHECK(before <= 1.02 * work);
+    }
+}
+
+TEST_CASE("A seam made at once has no length from the first step, and wakes cloth at rest") {
+    Simulation simulation({.gravity = Vec3::Zero()});
+    const ClothId cloth = simulation.add_cloth(irregular_sheet(0.3, 300), free_fabric());
+    for (int n = 0; n < 60; ++n) simulation.step();
+    REQUIRE(simulation.step().slept);
+    simulation.add_seam(cloth, cloth, Pairs{{0, 10}}, {.over = 0.0, .stiffness = 10.0});
+    const double energy = simulation.energy().elastic;
+    const StepReport report = simulation.step();
+    CHECK_FALSE(report.slept);
+    const double length = 10.0;
+    CHECK(report.energy.work > energy);
+    CHECK(report.energy.work < length);
+    CHECK(report.energy.elastic > 0.0);
+}
+
+TEST_CASE("A wrong seam is refused and changes nothing") {
+    Tube tube({});
+    const std::uint64_t hash = tube.simulation.state_hash();
+    const auto refused = [&](ClothId a, ClothId b, const Pairs& pairs, const SeamSettings& settings) {
+        return scene_error([&] { tube.simulation.add_seam(a, b, pairs, settings); });
+    };
+    CHECK(refused(tube.front, tube.back, {{0, 63}}, {}).find("no vertex 63, vertices are 0 ... 62") != std::string::npos);
+    CHECK(refused(tube.front, {7}, {{0, 0}}, {}).find("no cloth 7") != std::string::npos);
+    CHECK(refused(tube.front, tube.front, {{5, 5}}, {}) == "seam: vertex 5 of front is sewn to itself");
+    CHECK(refused(tube.front, tube.back, {}, {.name = "hem"}) == "hem: no vertices, a seam joins at least one pair");
+    CHECK(refused(tube.front, tube.back, {{0, 0}}, {.over = -1.0}) ==
+          "seam: over = -1 s is outside the allowed range 0 ... 1e+06");
+    CHECK(refused(tube.front, tube.back, {{0, 0}}, {.stiffness = 0.0}).find("stiffness = 0 N/m") != std::string::npos);
+    CHECK(tube.simulation.state_hash() == hash);
+    CHECK(tube.simulation.plan().springs.seam == 18);
+}
+
+}  // namespace percale::test
