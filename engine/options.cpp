@@ -209,6 +209,12 @@ constexpr Option<StepSettings> step_list[] = {
      .lowest = 0.0,
      .highest = 1e4,
      .number = [](StepSettings& s) { return &s.air_density; }},
+    {.key = "check_derivatives",
+     .unit = "",
+     .sentence =
+         "Whether every force is compared with its energy and its matrix by differences after each step, which fails where "
+         "they do not fit; slow.",
+     .flag = [](StepSettings& s) { return &s.check_derivatives; }},
 };
 
 void check_number(std::string_view owner, std::string_view key, std::string_view unit, double value, double low, double high) {

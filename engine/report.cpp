@@ -34,6 +34,9 @@ std::string failure_text(const StepReport& report) {
             text << blocker << " moves faster than the cloth can follow, smallest safe fraction of a move "
                  << report.smallest_fraction << "; take a shorter time step or a slower motion";
             break;
+        case StepStatus::wrong_derivative:
+            text << report.wrong_derivative;
+            break;
         case StepStatus::not_finite:
             text << "positions or velocities would become infinite; take a shorter time step or an implicit scheme";
             break;
@@ -73,6 +76,8 @@ const char* status_word(StepStatus status) {
             return "pin_blocked";
         case StepStatus::obstacle_too_fast:
             return "obstacle_too_fast";
+        case StepStatus::wrong_derivative:
+            return "wrong_derivative";
         case StepStatus::not_finite:
             return "not_finite";
     }

@@ -66,6 +66,7 @@ std::string plan_text(const BuiltScene& built) {
     for (const std::string& warning : plan.warnings) text += line("warning", warning);
     text += line("vertices", std::to_string(plan.vertices) + ", " + std::to_string(plan.pinned_vertices) + " pinned");
     text += line("springs", springs_text(plan.springs));
+    if (plan.springs.triangle > 0) text += line("membrane", counted(plan.springs.triangle, "triangle"));
     if (plan.springs.hinge > 0) text += line("hinges", std::to_string(plan.springs.hinge));
     for (std::size_t i = 0; i < built.obstacles.size(); ++i)
         text += line("obstacle", built.scene.obstacles[i].name + ", " +
@@ -98,7 +99,8 @@ std::string plan_json(const BuiltScene& built) {
                        {"shear", plan.springs.shear},
                        {"bend", plan.springs.bend},
                        {"seam", plan.springs.seam},
-                       {"hinge", plan.springs.hinge}};
+                       {"hinge", plan.springs.hinge},
+                       {"triangle", plan.springs.triangle}};
     json["obstacles"] = ordered_json::array();
     for (std::size_t i = 0; i < built.obstacles.size(); ++i)
         json["obstacles"].push_back(

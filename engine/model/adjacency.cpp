@@ -131,21 +131,6 @@ Adjacency make_adjacency(const SpringNetwork& network, int vertex_count, SpringL
     return result;
 }
 
-void copy_bending(const SpringNetwork& network, Adjacency& adjacency) {
-    adjacency.bending.assign(network.bending.empty() ? 0 : adjacency.stiffness.size(), 0.0);
-    if (network.bending.empty()) return;
-    for_places(network, adjacency, [&](std::size_t place, int spring) { adjacency.bending[place] = network.bending[spring]; });
-}
-
-void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjacency) {
-    adjacency.rest_length[adjacency.place[spring]] = network.rest_length[spring];
-    if (adjacency.bands.count > 0) return;
-    const int other = network.second[spring], slice = other / slice_lanes;
-    for (int e = adjacency.start[slice] + other % slice_lanes; e < adjacency.start[slice + 1]; e += slice_lanes) {
-        if (adjacency.spring[e] == spring) adjacency.rest_length[e] = network.rest_length[spring];
-    }
-}
-
 void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std::vector<MembraneTriangle>& triangles) {
     std::vector<bool> is_edge(adjacency.other.size(), false);
     for (std::size_t e = 0; e < is_edge.size(); ++e) {
@@ -159,6 +144,21 @@ void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std:
 double Adjacency::strength(int k) const {
     const double alone = stiffness[place[k]];
     return membrane.empty() ? alone : alone + 4.0 * membrane.numbers[0][place[k]] * membrane.numbers[1][place[k]];
+}
+
+void copy_bending(const SpringNetwork& network, Adjacency& adjacency) {
+    adjacency.bending.assign(network.bending.empty() ? 0 : adjacency.stiffness.size(), 0.0);
+    if (network.bending.empty()) return;
+    for_places(network, adjacency, [&](std::size_t place, int spring) { adjacency.bending[place] = network.bending[spring]; });
+}
+
+void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjacency) {
+    adjacency.rest_length[adjacency.place[spring]] = network.rest_length[spring];
+    if (adjacency.bands.count > 0) return;
+    const int other = network.second[spring], slice = other / slice_lanes;
+    for (int e = adjacency.start[slice] + other % slice_lanes; e < adjacency.start[slice + 1]; e += slice_lanes) {
+        if (adjacency.spring[e] == spring) adjacency.rest_length[e] = network.rest_length[spring];
+    }
 }
 
 std::size_t Adjacency::value_count() const {

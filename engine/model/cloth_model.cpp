@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "lumped_mass.h"
-#include "percale/error.h"
 #include "percale/options.h"
 
 namespace percale {

@@ -9,6 +9,14 @@ namespace {
 
 void add_springs(const ClothFacts& cloth, std::vector<Skip>& skipped) {
     const SpringConstants& springs = cloth.fabric.springs;
+    const bool triangles = cloth.fabric.has_moduli() && cloth.fabric.membrane == Membrane::triangle_springs;
+    if (!triangles) {
+        skipped.push_back({"triangle springs of " + cloth.name,
+                           cloth.fabric.has_moduli() ? "membrane is van_gelder" : "stretch_stiffness is not set"});
+    }
+    if (cloth.fabric.has_moduli()) {
+        return skipped.push_back({"springs of " + cloth.name + " other than along edges", "stretch_stiffness is set"});
+    }
     if (springs.structural == 0.0) skipped.push_back({"structural springs of " + cloth.name, "springs.structural is 0 N/m"});
     if (!cloth.grid) {
         skipped.push_back({"shear springs of " + cloth.name, "a free mesh has none"});

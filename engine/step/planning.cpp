@@ -59,6 +59,7 @@ SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come) {
     for (int i = 0; i < facts.cloth_vertices; ++i) facts.pinned_vertices += world.script.free[i] == 0.0;
     facts.cloth_triangles = static_cast<int>(model.triangles.size());
     facts.springs = count_springs(model.springs);
+    facts.springs.triangle = static_cast<int>(model.membrane.size());
     facts.damped = std::any_of(model.springs.damping.begin(), model.springs.damping.end(), [](double kd) { return kd > 0.0; });
     facts.obstacles = static_cast<int>(world.script.obstacles.size());
     for (const ObstacleState& obstacle : world.script.obstacles) facts.obstacle_triangles += obstacle.triangles;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "checked_terms.h"
 #include "measure.h"
 #include "rest_detection.h"
 #include "scripted_motion.h"
@@ -41,6 +42,7 @@ StepReport step(World& world) {
     set_targets(world);  // where pins and obstacles have to be at the end; nothing moves yet
     solve_step(world);   // explicit update, or Newton on the implicit scheme; every move is cut safe
     if (world.report.ok() && !all_finite(world.state)) world.report.status = StepStatus::not_finite;
+    if (world.report.ok() && world.settings.check_derivatives) check_derivatives(world);
     if (world.report.ok()) {
         finish_motion(world);
         advance_time(world);

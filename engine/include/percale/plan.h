@@ -25,6 +25,7 @@ struct SpringCounts {
     int structural = 0, shear = 0, bend = 0;
     int hinge = 0;  // that resist bending, with bend_stiffness
     int seam = 0;
+    int triangle = 0;  // of membranes, with stretch_stiffness; their edges are among the others
 
     int total() const { return structural + shear + bend + seam; }
 };

@@ -15,6 +15,7 @@ enum class StepStatus {
     not_converged,      // accepted at the iteration limit; the residual says how far off
     pin_blocked,        // failed: a pin could not reach its target without crossing an obstacle
     obstacle_too_fast,  // failed: the cloth could not follow a moving obstacle
+    wrong_derivative,   // failed: StepSettings::check_derivatives found forces that do not fit energy or matrix
     not_finite,         // failed: a state would have become infinite or NaN; the state is that of the step's start
 };
 
@@ -92,6 +93,7 @@ struct StepReport {
     std::string blocked_name, blocking_name;  // of that cloth and obstacle
     int second_obstacle = -1;                 // pushes the cloth towards the blocking one
     std::string second_name;
+    std::string wrong_derivative;    // the first that was found: term, vertices, figures
     std::uint64_t contact_hash = 0;  // of the contact rows at the end
     StepEnergy energy;
     StageTimes stages;

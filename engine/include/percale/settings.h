@@ -49,6 +49,7 @@ struct StepSettings {
     /// Simulation::start_repair tells; refuse: such a start is an error.
     StartRule start = StartRule::repair;
     bool skip = true;                      // leave out what the scene does not need (Simulation::plan); false runs everything
+    bool check_derivatives = false;        // after each step, of every force at its end state; slow, for those who change forces
     Vec3 gravity = Vec3(0.0, -9.81, 0.0);  // m/s^2
     std::optional<Vec3> wind = {};         // m/s, velocity of the air; empty: no air at all, (0, 0, 0): it stands still
     double air_density = 1.2;              // kg/m^3

@@ -172,11 +172,28 @@ TEST_CASE("With skipping off only what is not there is left out") {
            plan.measures && plan.everything));
     CHECK_FALSE((plan.rest || plan.keep_work_space));
     CHECK(plan.damping == DampingForm::length_rate);
-    CHECK(skipped_by(plan, all, facts).empty());
+    const auto whats = [&] {
+        std::vector<std::string> result;
+        for (const Skip& skip : skipped_by(plan, all, facts)) result.push_back(skip.what);
+        return result;
+    };
+    const std::vector<std::string> absent = {"triangle springs of sheet", "hinges of sheet", "drag of the air",
+                                             "closing of seams"};
+    CHECK(whats() == absent);
     facts.cloths[0].fabric.springs.bend = 0.0;
-    const std::vector<Skip> skipped = skipped_by(plan, all, facts);
-    REQUIRE(skipped.size() == 1);
-    CHECK(skipped[0].what == "bending springs of sheet");
+    const std::vector<std::string> more = whats();
+    CHECK(more.size() == absent.size() + 1);
+    CHECK(std::count(more.begin(), more.end(), "bending springs of sheet") == 1);
+}
+
+TEST_CASE("Of cloth of given moduli what it is not made of is listed") {
+    SceneFacts facts = sheet_facts();
+    CHECK(skips({}, facts, "triangle springs of sheet"));
+    facts.cloths[0].fabric = {.stretch_stiffness = {{90.0, 80.0}}};
+    CHECK_FALSE(skips({}, facts, "triangle springs of sheet"));
+    CHECK(skips({}, facts, "springs of sheet other than along edges"));
+    facts.cloths[0].fabric.membrane = Membrane::van_gelder;
+    CHECK(skips({}, facts, "triangle springs of sheet"));
 }
 
 }  // namespace percale::test
