@@ -81,26 +81,13 @@ Box CandidateLists::set_boxes(std::size_t cluster, const ClothMove& move) {
     return whole;
 }
 
-/// The patches of triangles near a box.
-void CandidateLists::set_near_patches(const Box& asked, std::span<const int> near, const Obstacle& obstacle) {
-    near_patches_.clear();
-    int last = -1;
-    for (const int triangle : near) {
-        const int patch = obstacle.packs().patch_of[triangle];
-        if (patch == last || !obstacle.box(triangle).overlaps(asked)) continue;
-        near_patches_.push_back(patch);
-        last = patch;
-    }
-    std::sort(near_patches_.begin(), near_patches_.end());
-    near_patches_.erase(std::unique(near_patches_.begin(), near_patches_.end()), near_patches_.end());
-}
-
 /// Lists a cloth feature with those packs of its kind in near patches that can come within the thickness.
 void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list) {
+    const std::span<const int> vertices = pair.vertices();
     Box room, now;
-    for (int k = 0; k < pair.cloth_count(); ++k) {
-        room.add(vertex_boxes_[pair.cloth[k]]);
-        now.add(move.from[pair.cloth[k]]);
+    for (const int vertex : vertices) {
+        room.add(vertex_boxes_[vertex]);
+        now.add(move.from[vertex]);
     }
     room.grow(list.thickness);
     const ObstaclePacks& packs = obstacle.packs();
@@ -108,10 +95,12 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
     FeatureBounds bounds{.reach = infinity, .quiet_until = infinity};
     for (const int patch : near_patches_) {
         if (!packs.box[patch].overlaps(room)) continue;
-        for (int number = packs.first[patch]; number < packs.first[patch + 1]; ++number) {
-            const FeaturePack& pack = packs.packs[number];
-            if (pack.kind != pair.kind || !pack.box.overlaps(room)) continue;
-            const float reach = below(gap(pack.box, now)), row_reach = below(gap(pack.box, now) - list.thickness);
+        const auto [first, last] = packs.packs_of(patch, pair.kind);
+        for (int number = first; number < last; ++number) {
+            const Box& box = packs.packs[number].box;
+            if (!box.overlaps(room) || stays_above(packs.planes[number], vertices, list.thickness)) continue;
+            const double apart = std::max(gap(box, now), height_above(packs.planes[number], vertices, move.from));
+            const float reach = below(apart), row_reach = below(apart - list.thickness);
             list.packs.push_back({.reach = reach, .row_reach = row_reach, .pack = static_cast<unsigned>(number), .held = 0});
             bounds.reach = std::min(bounds.reach, reach);
             bounds.quiet_until = std::min(bounds.quiet_until, row_reach);
@@ -124,6 +113,16 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
     list.bounds.push_back(bounds);
     list.least_reach = std::min(list.least_reach, static_cast<double>(bounds.reach));
     list.quiet_until = std::min(list.quiet_until, static_cast<double>(bounds.quiet_until));
+}
+
+/// Whether the plane keeps all below it out of the thickness of vertices that stay in their boxes.
+bool CandidateLists::stays_above(const PackPlane& plane, std::span<const int> vertices, double thickness) const {
+    const double enough = plane.offset + (1.0 + 1e-6) * thickness;
+    return std::all_of(vertices.begin(), vertices.end(), [&](int vertex) {
+        const Box& box = vertex_boxes_[vertex];
+        const Vec3 twice_centre = box.low + box.high, sides = box.high - box.low;
+        return 0.5 * (plane.normal.dot(twice_centre) - plane.normal.cwiseAbs().dot(sides)) > enough;
+    });
 }
 
 void CandidateLists::add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle) {
@@ -234,7 +233,7 @@ bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, 
         for (std::size_t k = 0; k < dirty_.size(); ++k) {
             const int first = found_.start[k], count = found_.start[k + 1] - first;
             if (count == 0) continue;
-            set_near_patches(asked_[k], std::span<const int>(found_.ids).subspan(first, count), *obstacles[number]);
+            near_patches_ = std::span<const int>(found_.ids).subspan(first, count);
             add_features(dirty_[k], static_cast<int>(number), move, *obstacles[number]);
             if (listed_ > most) return false;
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -27,7 +28,8 @@ struct ListedPack {
     /// Travel below which the pack need not be looked at for contacts.
     float quiet_until(float thickness) const {
         const float near = reach - thickness * (1.0F + 1e-6F);
-        return held != 0 || row_reach < near ? near : row_reach;
+        const float new_row = std::max(near, row_reach);
+        return held != 0 ? near : new_row;
     }
 };
 
@@ -95,7 +97,7 @@ private:
     Box set_boxes(std::size_t cluster, const ClothMove& move);
     void add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle);
     void add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list);
-    void set_near_patches(const Box& asked, std::span<const int> near, const Obstacle& obstacle);
+    bool stays_above(const PackPlane& plane, std::span<const int> vertices, double thickness) const;
     bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes);
     void empty_dirty(const ClothMove& move);
     void keep_held(std::size_t cluster, const Obstacles& obstacles);
@@ -112,11 +114,11 @@ private:
     std::vector<double> way_, cluster_way_;  // m
     std::vector<double> moved_;              // m^2, since the last advance
     std::vector<Box> vertex_boxes_;          // valid while a cluster is built
-    std::vector<int> near_patches_;          // likewise, ascending
+    std::span<const int> near_patches_;      // likewise, ascending
     std::vector<std::size_t> dirty_;
     std::vector<Box> asked_;
     std::vector<std::pair<std::size_t, ContactPair>> held_;  // of the lists being replaced, with their clusters
-    TriangleLists found_;
+    IdLists found_;
     std::vector<Vec3> shortened_;  // the end of the part of a long move that is covered
     double seen_fraction_ = 0.0;
     std::vector<Vec3> anchor_;  // positions from which nothing is in reach before some vertex has gone `room_`

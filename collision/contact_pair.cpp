@@ -122,6 +122,30 @@ PairContact pair_contact(const ContactPair& pair, std::span<const Vec3> cloth, c
     }
 }
 
+void fetch_pair(const ContactPair& pair, const Obstacle& obstacle, int depth) {
+    const ObstacleSurface& surface = obstacle.surface();
+    const bool edges = pair.kind == PairKind::edge_edge;
+    if (depth == 0) {
+        if (pair.kind == PairKind::vertex_face) __builtin_prefetch(&surface.triangles[pair.feature]);
+        if (pair.kind == PairKind::face_vertex) __builtin_prefetch(&surface.ring_start[pair.feature]);
+        if (edges) __builtin_prefetch(&surface.edges[pair.feature]);
+        if (edges) __builtin_prefetch(&surface.opposite_start[pair.feature]);
+        return;
+    }
+    const auto fetch_all = [&](std::span<const int> vertices) {
+        for (const int vertex : vertices) obstacle.fetch(vertex);
+    };
+    if (pair.kind == PairKind::vertex_face) {
+        if (depth == 1) fetch_all(surface.triangles[pair.feature]);
+        return;
+    }
+    const std::span<const int> around = edges ? surface.opposites(pair.feature) : surface.neighbours(pair.feature);
+    if (depth == 2) return fetch_all(around);
+    __builtin_prefetch(around.data());
+    if (edges) fetch_all(surface.edges[pair.feature].vertex);
+    if (!edges) obstacle.fetch(pair.feature);
+}
+
 MovingFour moving_pair(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle) {
     MovingFour four;
     const int count = pair.cloth_count();

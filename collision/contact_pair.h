@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "obstacle.h"
 #include "percale/contact.h"
@@ -17,6 +18,7 @@ struct ContactPair {
     int feature = 0;  // obstacle triangle, edge or vertex
 
     int cloth_count() const { return static_cast<int>(kind) + 1; }
+    std::span<const int> vertices() const { return {cloth.data(), static_cast<std::size_t>(cloth_count())}; }
 };
 
 /// The exact closest points of a pair.
@@ -40,6 +42,10 @@ Vec3 pair_apart(const ContactPair& pair, std::span<const Vec3> cloth, const Obst
 /// belong to that pair, those on an edge or vertex of the obstacle to the feature's owner and only if the feature faces the
 /// cloth, those on a cloth edge to the triangle that owns it.
 PairContact pair_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction);
+
+/// Asks memory for what pair_contact reads of the obstacle. Each depth reads what the one before has asked for.
+constexpr int pair_fetches = 3;
+void fetch_pair(const ContactPair& pair, const Obstacle& obstacle, int depth);
 
 /// The pair as four points moving while the cloth goes from one state to another and obstacles over a part of the step.
 struct ClothMove {

@@ -7,6 +7,7 @@
 
 #include "candidate_lists.h"
 #include "cut_floor.h"
+#include "list_passes.h"
 #include "pack_measure.h"
 #include "percale/certify.h"
 #include "self_contact_detection.h"
@@ -23,29 +24,8 @@ double within(double way, double h) {
     return way > largest_floor * h ? way + largest_floor * h : std::max(2.0 * way, way + 1e-3 * h);
 }
 
-constexpr int most_marked = 64;  // packs of a feature that have a bit each
-
-/// Asks memory for a vector that is about to be read.
-template <class T>
-void fetch(const T* first, std::size_t count) {
-    const char* from = reinterpret_cast<const char*>(first);
-    for (std::size_t byte = 0; byte < count * sizeof(T); byte += 64) __builtin_prefetch(from + byte);
-}
-
-void fetch(const ClusterList& list) {
-    fetch(list.bounds.data(), list.bounds.size());
-    fetch(list.features.data(), list.features.size());
-}
-
-/// How far a cloth feature is above a plane, m: a bound of its distance from all that is below.
-inline double height_above(const PackPlane& plane, const ContactPair& pair, std::span<const Vec3> cloth) {
-    double least = plane.normal.dot(cloth[pair.cloth[0]]);
-    for (int k = 1; k < pair.cloth_count(); ++k) least = std::min(least, plane.normal.dot(cloth[pair.cloth[k]]));
-    return least - plane.offset;
-}
-
 bool stays_above(const PackPlane& plane, const ContactPair& pair, const ClothMove& move, double height) {
-    return height_above(plane, pair, move.from) > height && height_above(plane, pair, move.to) > height;
+    return height_above(plane, pair.vertices(), move.from) > height && height_above(plane, pair.vertices(), move.to) > height;
 }
 
 StartFault start_fault(int obstacle, const Certificate& certificate) {
@@ -126,14 +106,95 @@ public:
     double smallest_distance() const override { return smallest_distance_; }
 
 private:
+    /// Each pass asks memory for what the next places need: lists, packs and the obstacle's surface are too large for the
+    /// nearest caches.
     void add_rows(std::span<const Vec3> positions, double fraction, ContactRows& rows) {
+        find_active();
+        find_candidates(positions);
+        select_packs(positions);
+        measure_selected({positions, positions, {fraction, fraction}});
+        for (std::size_t i = 0; i < lanes_.size(); ++i) {
+            fetch_ahead(i);
+            add_lane(positions, fraction, lanes_[i], rows);
+        }
+        for (const auto& [list, feature] : active_) list->bounds[feature] = least_bounds(list->features[feature], *list);
+        for (ClusterList* list : near_clusters_) set_least(*list);
+    }
+
+    static void set_least(ClusterList& list) {
+        list.least_reach = list.quiet_until = infinity;
+        for (const FeatureBounds& bounds : list.bounds) {
+            list.least_reach = std::min(list.least_reach, static_cast<double>(bounds.reach));
+            list.quiet_until = std::min(list.quiet_until, static_cast<double>(bounds.quiet_until));
+        }
+    }
+
+    /// The features whose bounds are used up.
+    void find_active() {
         near_clusters_.clear();
         for (ClusterList& list : lists_->lists()) {
             if (list.quiet_until <= list.travel) near_clusters_.push_back(&list);
         }
+        active_.clear();
         for (std::size_t i = 0; i < near_clusters_.size(); ++i) {
             if (i + 2 < near_clusters_.size()) fetch(*near_clusters_[i + 2]);
-            evaluate_cluster(positions, fraction, *near_clusters_[i], rows);
+            ClusterList& list = *near_clusters_[i];
+            for (std::size_t f = 0; f < list.bounds.size(); ++f) {
+                if (static_cast<double>(list.bounds[f].quiet_until) <= list.travel)
+                    active_.push_back({&list, static_cast<int>(f)});
+            }
+        }
+    }
+
+    /// Their packs whose bounds are used up.
+    void find_candidates(std::span<const Vec3> positions) {
+        candidates_.clear();
+        for (std::size_t i = 0; i < active_.size(); ++i) {
+            if (i + 6 < active_.size()) fetch_packs(active_[i + 6]);
+            ClusterList& list = *active_[i].list;
+            ListedFeature& feature = list.features[active_[i].feature];
+            const float thickness = float_thickness(feature);
+            if (static_cast<double>(feature.others.quiet_until) <= list.travel) find_busy(positions, feature, list);
+            for_busy(feature, [&](int pack) {
+                if (static_cast<double>(list.packs[pack].quiet_until(thickness)) > list.travel) return;
+                candidates_.push_back({&list, active_[i].feature, pack});
+            });
+        }
+    }
+
+    /// Those of them that have to be measured.
+    void select_packs(std::span<const Vec3> positions) {
+        selected_.clear();
+        for (std::size_t i = 0; i < candidates_.size(); ++i) {
+            if (i + 8 < candidates_.size()) {
+                const auto& [list, feature, pack] = candidates_[i + 8];
+                __builtin_prefetch(&packs_for(list->features[feature]).planes[list->packs[pack].pack]);
+            }
+            const auto& [list, feature, pack] = candidates_[i];
+            if (!raise_bounds(positions, list->features[feature], list->travel, list->packs[pack])) {
+                selected_.push_back(candidates_[i]);
+            }
+        }
+    }
+
+    const ObstaclePacks& packs_for(const ListedFeature& feature) const { return obstacles_[feature.pair.obstacle]->packs(); }
+
+    /// Finds the lanes that can be contacts.
+    void measure_selected(const ClothMove& here) {
+        lanes_.clear();
+        for (std::size_t i = 0; i < selected_.size(); ++i) {
+            if (i + 4 < selected_.size()) {
+                const auto& [list, feature, pack] = selected_[i + 4];
+                packs_for(list->features[feature]).placed[list->packs[pack].pack].prefetch(list->features[feature].pair.kind);
+            }
+            const auto& [list, number, pack] = selected_[i];
+            const ListedFeature& feature = list->features[number];
+            ListedPack& listed = list->packs[pack];
+            const PackAnswer answer = measure_pack(here, feature, thickness_[feature.pair.cloth[0]], *list, listed);
+            for (unsigned lanes = answer.row | (listed.held & answer.near); lanes != 0; lanes &= lanes - 1) {
+                lanes_.push_back({selected_[i], std::countr_zero(lanes)});
+                __builtin_prefetch(&packs_for(feature).packs[listed.pack].feature);
+            }
         }
     }
 
@@ -176,19 +237,6 @@ private:
         });
     }
 
-    void evaluate_cluster(std::span<const Vec3> positions, double fraction, ClusterList& list, ContactRows& rows) {
-        select_packs(positions, list);
-        for (const auto& [feature, pack] : selected_) {
-            evaluate_pack({positions, positions, {fraction, fraction}}, list.features[feature], list, list.packs[pack], rows);
-        }
-        for (const int f : active_) list.bounds[f] = least_bounds(list.features[f], list);
-        list.least_reach = list.quiet_until = infinity;
-        for (const FeatureBounds& bounds : list.bounds) {
-            list.least_reach = std::min(list.least_reach, static_cast<double>(bounds.reach));
-            list.quiet_until = std::min(list.quiet_until, static_cast<double>(bounds.quiet_until));
-        }
-    }
-
     float float_thickness(const ListedFeature& feature) const { return static_cast<float>(thickness_[feature.pair.cloth[0]]); }
 
     FeatureBounds least_bounds(const ListedFeature& feature, const ClusterList& list) const {
@@ -201,53 +249,15 @@ private:
         return least;
     }
 
-    /// Finds the packs of a cluster that have to be measured, and asks memory for them.
-    void select_packs(std::span<const Vec3> positions, ClusterList& list) {
-        active_.clear();
-        selected_.clear();
-        for (std::size_t f = 0; f < list.features.size(); ++f) {
-            if (static_cast<double>(list.bounds[f].quiet_until) > list.travel) continue;
-            active_.push_back(static_cast<int>(f));
-            const ListedFeature& feature = list.features[f];
-            if (static_cast<double>(feature.others.quiet_until) <= list.travel) {
-                fetch(list.packs.data() + feature.first, static_cast<std::size_t>(feature.count));
-            } else {
-                for_busy(feature, [&](int i) { __builtin_prefetch(&list.packs[i]); });
-            }
-        }
-        candidates_.clear();
-        for (const int f : active_) {
-            ListedFeature& feature = list.features[f];
-            if (static_cast<double>(feature.others.quiet_until) <= list.travel) find_busy(positions, feature, list);
-            const PackPlane* planes = obstacles_[feature.pair.obstacle]->packs().planes.data();
-            for_busy(feature, [&](int i) {
-                if (static_cast<double>(list.packs[i].quiet_until(float_thickness(feature))) > list.travel) return;
-                __builtin_prefetch(planes + list.packs[i].pack);
-                candidates_.emplace_back(f, i);
-            });
-        }
-        for (const auto& [f, i] : candidates_) select_pack(positions, f, i, list);
-    }
-
     /// Most packs whose bounds are used up are told to be far by their planes.
     bool raise_bounds(std::span<const Vec3> positions, const ListedFeature& feature, double travel, ListedPack& listed) const {
         const double thickness = thickness_[feature.pair.cloth[0]];
         const PackPlane& plane = obstacles_[feature.pair.obstacle]->packs().planes[listed.pack];
-        const double height = height_above(plane, feature.pair, positions);
+        const double height = height_above(plane, feature.pair.vertices(), positions);
         if (height < thickness) return false;
         listed.reach = std::max(listed.reach, below(height + travel));
         listed.row_reach = std::max(listed.row_reach, below(height - thickness + travel));
         return true;
-    }
-
-    void select_pack(std::span<const Vec3> positions, int f, int i, ClusterList& list) {
-        const ListedFeature& feature = list.features[f];
-        ListedPack& listed = list.packs[i];
-        if (raise_bounds(positions, feature, list.travel, listed)) return;
-        const ObstaclePacks& packs = obstacles_[feature.pair.obstacle]->packs();
-        packs.placed[listed.pack].prefetch(feature.pair.kind);
-        __builtin_prefetch(&packs.packs[listed.pack].feature);
-        selected_.emplace_back(f, i);
     }
 
     /// Marks the packs that a tenth of the thickness more of travel would wake, and those that are held.
@@ -270,13 +280,6 @@ private:
         }
     }
 
-    /// Calls with the index of every pack that is marked or has no mark.
-    template <class Action>
-    static void for_busy(const ListedFeature& feature, const Action& action) {
-        for (unsigned long busy = feature.busy; busy != 0; busy &= busy - 1) action(feature.first + std::countr_zero(busy));
-        for (int i = most_marked; i < feature.count; ++i) action(feature.first + i);
-    }
-
     PackAnswer measure_pack(const ClothMove& move, const ListedFeature& feature, double near, const ClusterList& list,
                             ListedPack& listed) {
         const PlacedPack& placed = obstacles_[feature.pair.obstacle]->placed(static_cast<int>(listed.pack), move.part.from);
@@ -287,24 +290,34 @@ private:
         return answer;
     }
 
-    void evaluate_pack(const ClothMove& here, const ListedFeature& feature, ClusterList& list, ListedPack& listed,
-                       ContactRows& rows) {
-        const double thickness = thickness_[feature.pair.cloth[0]];
-        const PackAnswer answer = measure_pack(here, feature, thickness, list, listed);
-        const Obstacle& obstacle = *obstacles_[feature.pair.obstacle];
-        const FeaturePack& pack = obstacle.packs().packs[listed.pack];
-        for (unsigned lanes = answer.row | (listed.held & answer.near); lanes != 0; lanes &= lanes - 1) {
-            const int lane = std::countr_zero(lanes);
-            const ContactPair pair = feature.with(pack, lane);
-            const PairContact contact = pair_contact(pair, here.from, obstacle, here.part.from);
-            smallest_distance_ = std::min(smallest_distance_, contact.distance);
-            if (contact.distance >= thickness) continue;
-            // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
-            // that the force is continuous where closest points pass from one feature to the next.
-            if (contact.local_minimum) listed.held |= 1U << lane & 0xffU;
-            if ((listed.held >> lane & 1U) != 0) add_row(pair, contact, thickness, rows);
+    ContactPair pair_of(const SelectedLane& at) const {
+        const auto& [list, feature, pack] = at.place;
+        return list->features[feature].with(packs_for(list->features[feature]).packs[list->packs[pack].pack], at.lane);
+    }
+
+    void fetch_ahead(std::size_t lane) const {
+        for (int depth = 0; depth < pair_fetches; ++depth) {
+            const std::size_t ahead = lane + 4 * static_cast<std::size_t>(pair_fetches - depth);
+            if (ahead >= lanes_.size()) continue;
+            const ContactPair pair = pair_of(lanes_[ahead]);
+            fetch_pair(pair, *obstacles_[pair.obstacle], depth);
         }
-        list.holds = list.holds || listed.held != 0;
+    }
+
+    void add_lane(std::span<const Vec3> positions, double fraction, const SelectedLane& at, ContactRows& rows) {
+        const ContactPair pair = pair_of(at);
+        const double thickness = thickness_[pair.cloth[0]];
+        const PairContact contact = pair_contact(pair, positions, *obstacles_[pair.obstacle], fraction);
+        smallest_distance_ = std::min(smallest_distance_, contact.distance);
+        if (contact.distance >= thickness) return;
+        // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
+        // that the force is continuous where closest points pass from one feature to the next.
+        ListedPack& listed = at.place.list->packs[at.place.pack];
+        if (contact.local_minimum) {
+            listed.held |= 1U << at.lane & 0xffU;
+            at.place.list->holds = true;
+        }
+        if ((listed.held >> at.lane & 1U) != 0) add_row(pair, contact, thickness, rows);
     }
 
     void add_row(const ContactPair& pair, const PairContact& contact, double thickness, ContactRows& rows) const {
@@ -387,11 +400,12 @@ private:
     Obstacles obstacles_;
     std::optional<CandidateLists> lists_;
     std::vector<ClusterList*> near_clusters_;
-    std::vector<int> active_;                                 // features of a cluster whose bounds are used up
-    std::vector<std::pair<int, int>> candidates_, selected_;  // features and packs of a cluster to be measured
-    std::vector<Vec3> kept_at_;                               // m, where each vertex was when its contacts were last forgotten
-    std::vector<unsigned char> moved_;                        // whether they are to be forgotten now
-    std::optional<SelfContactDetection> between_cloths_;      // if any cloth meets cloth
+    std::vector<ActiveFeature> active_;
+    std::vector<SelectedPack> candidates_, selected_;
+    std::vector<SelectedLane> lanes_;
+    std::vector<Vec3> kept_at_;                           // m, where each vertex was when its contacts were last forgotten
+    std::vector<unsigned char> moved_;                    // whether they are to be forgotten now
+    std::optional<SelfContactDetection> between_cloths_;  // if any cloth meets cloth
     double smallest_distance_ = std::numeric_limits<double>::infinity();
 };
 

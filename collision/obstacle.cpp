@@ -21,24 +21,21 @@ Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, 
     start_ = transform(pose, local_);
     end_ = start_;
     surface_.vertices = start_;
-    for (const Triangle& t : surface_.triangles) {
-        Box& box = boxes_.emplace_back();
-        for (const int vertex : t) box.add(surface_.vertices[vertex]);
-    }
-    world_boxes_ = boxes_;
     packs_ = make_packs(surface_);
     set_pack_boxes();
-    tree_ = make_tree(surface_.vertices, surface_.triangles);
+    make_patch_tree(make_tree);
 }
 
-void Obstacle::set_world_boxes() {
-    for (std::size_t i = 0; i < world_boxes_.size(); ++i) {
-        world_boxes_[i] = {};
-        for (const int vertex : surface_.triangles[i]) {
-            world_boxes_[i].add(start_[vertex]);
-            world_boxes_[i].add(end_[vertex]);
-        }
+/// A tree of patches has a sixteenth of the leaves, and what it finds is what the lists want.
+void Obstacle::make_patch_tree(TreeFactory make_tree) {
+    boxes_ = packs_.box;
+    for (const Box& box : boxes_) {
+        const int first = static_cast<int>(stand_in_corners_.size());
+        stand_in_corners_.push_back(box.low);
+        stand_in_corners_.push_back(box.high);
+        stand_ins_.push_back({first, first + 1, first});
     }
+    tree_ = make_tree(stand_in_corners_, stand_ins_);
 }
 
 void Obstacle::set_pack_boxes() {
@@ -61,7 +58,6 @@ void Obstacle::move(const Pose& start, const Pose& end) {
         end_[i] = moves_ ? transform(end, local_[i]) : start_[i];
         longest_way_ = std::max(longest_way_, (end_[i] - start_[i]).norm());
     }
-    set_world_boxes();
     set_pack_boxes();
 }
 
@@ -80,20 +76,19 @@ Box Obstacle::to_tree(const Box& box) const {
     return turned;
 }
 
-void Obstacle::find(std::span<const Box> boxes, TriangleLists& found) const {
-    std::vector<Box> asked;
-    asked.reserve(boxes.size());
-    for (const Box& box : boxes) asked.push_back(to_tree(box));
-    TriangleLists raw;
-    tree_->find(asked, raw);
+void Obstacle::find(std::span<const Box> boxes, IdLists& found) {
+    asked_.clear();
+    for (const Box& box : boxes) asked_.push_back(to_tree(box));
+    tree_->find(asked_, raw_);
     found.start.assign(1, 0);
     found.ids.clear();
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-        const auto first = found.ids.size();
-        for (int k = raw.start[i]; k < raw.start[i + 1]; ++k) {
-            if (boxes_[raw.ids[k]].overlaps(asked[i])) found.ids.push_back(raw.ids[k]);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const auto first = static_cast<long>(found.ids.size());
+        for (int k = raw_.start[i]; k < raw_.start[i + 1]; ++k) {
+            const int patch = raw_.ids[k];
+            if (boxes_[patch].overlaps(asked_[i]) && packs_.box[patch].overlaps(boxes[i])) found.ids.push_back(patch);
         }
-        std::sort(found.ids.begin() + static_cast<long>(first), found.ids.end());
+        std::sort(found.ids.begin() + first, found.ids.end());
         found.start.push_back(static_cast<int>(found.ids.size()));
     }
 }

@@ -27,10 +27,9 @@ public:
     Vec3 at(int vertex, double fraction) const {
         return moves_ ? Vec3(start_[vertex] + fraction * (end_[vertex] - start_[vertex])) : start_[vertex];
     }
+    /// Asks memory for a vertex.
+    void fetch(int vertex) const { __builtin_prefetch(&start_[vertex]); }
     Vec3 displacement(int vertex) const { return moves_ ? Vec3(end_[vertex] - start_[vertex]) : Vec3(Vec3::Zero()); }
-
-    /// Box of a triangle during the whole step, m, world.
-    const Box& box(int triangle) const { return world_boxes_[triangle]; }
 
     const ObstaclePacks& packs() const { return packs_; }
     /// Box of everything during the whole step, m, world.
@@ -38,26 +37,29 @@ public:
     /// A pack at a fraction of the step; placed when first asked for.
     const PlacedPack& placed(int pack, double fraction) { return place(packs_, pack, surface_, paths(), fraction); }
 
-    /// Triangles that may come near each world box during the step, ascending and the same for every kind of tree.
-    void find(std::span<const Box> boxes, TriangleLists& found) const;
+    /// Patches whose boxes come near each world box during the step, ascending and the same for every kind of tree.
+    void find(std::span<const Box> boxes, IdLists& found);
     /// The mesh at the start of the step, as it was given (not cleaned).
     TriangleMesh given_mesh() const;
 
 private:
     Box to_tree(const Box& box) const;
-    void set_world_boxes();
     void set_pack_boxes();
+    void make_patch_tree(TreeFactory make_tree);
     VertexPaths paths() const { return {start_, moves_ ? end_ : start_}; }
 
     TriangleMesh mesh_;
     ObstacleSurface surface_;        // vertices where the tree was built
     std::vector<Vec3> local_;        // cleaned vertices before the pose
     std::vector<Vec3> start_, end_;  // m, world
-    std::vector<Box> world_boxes_;   // of the triangles during the step
     ObstaclePacks packs_;
     Box whole_box_;
-    std::vector<Box> boxes_;  // of the triangles where the tree was built
+    std::vector<Box> boxes_;  // of the patches where the tree was built
+    std::vector<Vec3> stand_in_corners_;
+    std::vector<Triangle> stand_ins_;  // one triangle for each patch, with the patch's box: what the tree holds
     std::unique_ptr<ObstacleTree> tree_;
+    std::vector<Box> asked_;  // work space of find
+    IdLists raw_;
     Pose built_, start_pose_, end_pose_;
     double friction_ = 0.0;
     double longest_way_ = 0.0;

@@ -18,8 +18,7 @@ public:
     PackMaker(const ObstacleSurface& surface, ObstaclePacks& packs) : surface_(surface), packs_(packs) {}
 
     void add_patch(std::span<const int> triangles) {
-        packs_.first.push_back(static_cast<int>(packs_.packs.size()));
-        for (const int triangle : triangles) packs_.patch_of[triangle] = static_cast<int>(packs_.first.size()) - 1;
+        for (const int triangle : triangles) packs_.patch_of[triangle] = static_cast<int>(packs_.first.size()) / 3;
         add_kind(PairKind::vertex_face, {triangles.begin(), triangles.end()});
         std::vector<int> edges, vertices;
         for (const int triangle : triangles) {
@@ -36,6 +35,7 @@ public:
 
 private:
     void add_kind(PairKind kind, const std::vector<int>& features) {
+        packs_.first.push_back(static_cast<int>(packs_.packs.size()));
         for (std::size_t from = 0; from < features.size(); from += pack_lanes) {
             FeaturePack& pack = packs_.packs.emplace_back();
             pack.kind = kind;
@@ -199,7 +199,7 @@ ObstaclePacks make_packs(const ObstacleSurface& surface) {
     for (std::size_t from = 0; from < order.size(); from += triangles_per_patch) {
         maker.add_patch(std::span(order).subspan(from, std::min(triangles_per_patch, order.size() - from)));
     }
-    packs.box.resize(packs.first.size());
+    packs.box.resize(packs.first.size() / 3);
     packs.first.push_back(static_cast<int>(packs.packs.size()));
     packs.planes.resize(packs.packs.size());
     packs.placed.resize(packs.packs.size());
@@ -212,7 +212,7 @@ void set_boxes(ObstaclePacks& packs, const ObstacleSurface& surface, const Verte
         add_paths(surface.triangles[i], paths, packs.box[packs.patch_of[i]]);
     const std::vector<Vec3> normals = patch_normals(packs, surface, paths);
     for (std::size_t patch = 0; patch < packs.patch_count(); ++patch) {
-        for (int number = packs.first[patch]; number < packs.first[patch + 1]; ++number) {
+        for (int number = packs.first[3 * patch]; number < packs.first[3 * patch + 3]; ++number) {
             packs.planes[number] = {.normal = normals[patch], .offset = -infinity};
             enclose(packs.packs[number], surface, paths, packs.planes[number]);
         }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "obstacle_surface.h"
@@ -43,10 +45,17 @@ struct PackPlane {
     double offset = 0.0;
 };
 
-/// Sixteen neighbouring triangles with the edges and vertices they own that cloth can touch: packs first[i] ... first[i + 1] - 1.
+/// How far points are above a plane at least, m: a bound of the distance of their hull from all that is below.
+inline double height_above(const PackPlane& plane, std::span<const int> points, std::span<const Vec3> positions) {
+    double least = plane.normal.dot(positions[points[0]]);
+    for (const int point : points.subspan(1)) least = std::min(least, plane.normal.dot(positions[point]));
+    return least - plane.offset;
+}
+
+/// Patches of sixteen neighbouring triangles with the edges and vertices they own that cloth can touch.
 struct ObstaclePacks {
     std::vector<int> patch_of;  // triangle
-    std::vector<int> first;     // pack of each patch, and one more
+    std::vector<int> first;     // pack of each patch and kind, and one more: see packs_of
     std::vector<Box> box;       // of each patch, m, world, of the whole step
     std::vector<FeaturePack> packs;
     std::vector<PackPlane> planes;  // of each pack: far less to read than the pack
@@ -54,6 +63,11 @@ struct ObstaclePacks {
     std::array<std::vector<int>, 3> place_of;  // by kind and feature: eight times the pack and the lane; -1 = in no pack
 
     std::size_t patch_count() const { return box.size(); }
+    /// Numbers of the packs of one kind in a patch: from the first to before the second.
+    std::pair<int, int> packs_of(int patch, PairKind kind) const {
+        const int at = 3 * patch + static_cast<int>(kind);
+        return {first[at], first[at + 1]};
+    }
 };
 
 /// Longest edge over twice the area, 1/m: 1 over the height on it. Infinite for triangles too small to tell.

@@ -28,9 +28,9 @@ struct Box {
     bool contains(const Vec3& x) const { return (low.array() <= x.array()).all() && (x.array() <= high.array()).all(); }
 };
 
-/// Triangles found near each box of a batch, one list after the other: those of box i are ids[start[i]] ... ids[start[i + 1] -
+/// What was found near each box of a batch, one list after the other: that of box i is ids[start[i]] ... ids[start[i + 1] -
 /// 1].
-struct TriangleLists {
+struct IdLists {
     std::vector<int> start;
     std::vector<int> ids;
 };
@@ -40,7 +40,7 @@ struct TriangleLists {
 class ObstacleTree {
 public:
     virtual ~ObstacleTree() = default;
-    virtual void find(std::span<const Box> boxes, TriangleLists& found) const = 0;
+    virtual void find(std::span<const Box> boxes, IdLists& found) const = 0;
 };
 
 /// Makes a tree over a mesh; both spans outlive the tree.

@@ -16,7 +16,7 @@ public:
         }
     }
 
-    void find(std::span<const Box> boxes, TriangleLists& found) const override {
+    void find(std::span<const Box> boxes, IdLists& found) const override {
         found.start.assign(1, 0);
         found.ids.clear();
         for (const Box& box : boxes) {

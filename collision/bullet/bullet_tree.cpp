@@ -38,7 +38,7 @@ public:
         tree_.build(&mesh, true, to_bullet(bounds_.low), to_bullet(bounds_.high));
     }
 
-    void find(std::span<const Box> boxes, TriangleLists& found) const override {
+    void find(std::span<const Box> boxes, IdLists& found) const override {
         found.start.assign(1, 0);
         found.ids.clear();
         Collector collector(found.ids);

@@ -13,8 +13,8 @@ using namespace percale::test;
 
 namespace {
 
-std::vector<std::vector<int>> lists(const Obstacle& obstacle, std::span<const Box> asked) {
-    TriangleLists found;
+std::vector<std::vector<int>> lists(Obstacle& obstacle, std::span<const Box> asked) {
+    IdLists found;
     obstacle.find(asked, found);
     REQUIRE(found.start.size() == asked.size() + 1);
     std::vector<std::vector<int>> result;
@@ -24,7 +24,7 @@ std::vector<std::vector<int>> lists(const Obstacle& obstacle, std::span<const Bo
     return result;
 }
 
-/// Points of triangles, at times during the step, that lie in an asked box whose list lacks the triangle.
+/// Points of triangles, at times during the step, that lie in an asked box whose list lacks the triangle's patch.
 long missing(const Obstacle& obstacle, std::span<const Box> asked, const std::vector<std::vector<int>>& found) {
     Random random(77);
     long count = 0;
@@ -34,7 +34,8 @@ long missing(const Obstacle& obstacle, std::span<const Box> asked, const std::ve
             const double fraction = 0.25 * (sample % 5), u = random.number(0.0, 1.0), v = random.number(0.0, 1.0 - u);
             const Vec3 x = (1 - u - v) * obstacle.at(a, fraction) + u * obstacle.at(b, fraction) + v * obstacle.at(c, fraction);
             for (std::size_t i = 0; i < asked.size(); ++i) {
-                count += asked[i].contains(x) && !std::binary_search(found[i].begin(), found[i].end(), t) ? 1 : 0;
+                const int patch = obstacle.packs().patch_of[t];
+                count += asked[i].contains(x) && !std::binary_search(found[i].begin(), found[i].end(), patch) ? 1 : 0;
             }
         }
     }
@@ -66,7 +67,7 @@ Obstacle make(const TriangleMesh& mesh, const Pose& pose) { return {mesh, pose, 
 
 }  // namespace
 
-TEST_CASE("every backend gives the same triangles, none missing, at rest, turned away and on the move") {
+TEST_CASE("every backend gives the same patches, none missing, at rest, turned away and on the move") {
     const TriangleMesh mesh = mesh_number(GENERATE(0, 1, 2, 3, 4));
     Random random(30);
     const Pose built = random.pose(0.3);
@@ -91,15 +92,15 @@ TEST_CASE("every backend gives the same triangles, none missing, at rest, turned
     }
 }
 
-TEST_CASE("at rest where it was built an obstacle gives exactly the triangles whose boxes overlap") {
+TEST_CASE("at rest where it was built an obstacle gives exactly the patches whose boxes overlap") {
     const Pose pose = Random(32).pose(0.2);
-    const Obstacle obstacle = make(make_sphere(0.5, 2), pose);
+    Obstacle obstacle = make(make_sphere(0.5, 2), pose);
     const std::vector<Box> asked = asked_boxes(200, 33);
     const auto found = lists(obstacle, asked);
     for (std::size_t i = 0; i < asked.size(); ++i) {
         std::vector<int> expected;
-        for (int t = 0; t < 320; ++t) {
-            if (obstacle.box(t).overlaps(asked[i])) expected.push_back(t);
+        for (int patch = 0; patch < 20; ++patch) {
+            if (obstacle.packs().box[patch].overlaps(asked[i])) expected.push_back(patch);
         }
         CHECK(found[i] == expected);
     }
@@ -114,7 +115,7 @@ TEST_CASE("a turned obstacle is asked with a box not much larger than needed") {
     const auto found = lists(obstacle, asked);
     long needed = 0;
     for (const Box& box : asked) {
-        for (int t = 0; t < int(obstacle.surface().triangles.size()); ++t) needed += obstacle.box(t).overlaps(box) ? 1 : 0;
+        for (const Box& patch : obstacle.packs().box) needed += patch.overlaps(box) ? 1 : 0;
     }
     CHECK(missing(obstacle, asked, found) == 0);
     CHECK(all_ids(found) < 6 * needed);
@@ -140,7 +141,7 @@ TEST_CASE("within a step every vertex runs straight from its place at the start 
     }
     CHECK(obstacle.longest_way() == longest);
     for (int t = 0; t < 12; ++t) {
-        Box inside = obstacle.box(t);
+        Box inside = obstacle.packs().box[obstacle.packs().patch_of[t]];
         inside.grow(1e-12);
         for (const double fraction : {0.0, 0.25, 0.5, 1.0}) {
             for (const int v : obstacle.surface().triangles[t]) CHECK(inside.contains(obstacle.at(v, fraction)));

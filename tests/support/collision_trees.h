@@ -36,7 +36,7 @@ inline std::vector<Box> asked_boxes(int count, unsigned seed) {
 }
 
 /// One list of a batch, filtered and sorted as Obstacle does.
-inline std::vector<int> filtered(const TriangleLists& found, int i, const Box& asked, std::span<const Box> triangle_boxes) {
+inline std::vector<int> filtered(const IdLists& found, int i, const Box& asked, std::span<const Box> triangle_boxes) {
     std::vector<int> ids;
     for (int k = found.start[i]; k < found.start[i + 1]; ++k) {
         if (triangle_boxes[found.ids[k]].overlaps(asked)) ids.push_back(found.ids[k]);
@@ -49,7 +49,7 @@ inline std::vector<int> filtered(const TriangleLists& found, int i, const Box& a
 inline long check_tree(TreeFactory make_tree, const TriangleMesh& mesh, std::span<const Box> asked) {
     const std::vector<Box> boxes = boxes_of(mesh);
     const auto tree = make_tree(mesh.vertices, mesh.triangles);
-    TriangleLists found;
+    IdLists found;
     found.ids = {7, 7, 7};  // what was there before must not matter
     found.start = {0, 3};
     tree->find(asked, found);

@@ -19,7 +19,7 @@ TEST_CASE("brute_force: what only touches a box is found, in ascending order") {
     above.add({2, 1.0, 2});
     Box over = above;
     over.low.y() = 1e-300;
-    TriangleLists found;
+    IdLists found;
     make_brute_force_tree(plane.vertices, plane.triangles)->find(std::vector<Box>{above, over, above}, found);
     CHECK(found.start == std::vector<int>{0, 2, 2, 4});
     CHECK(found.ids == std::vector<int>{0, 1, 0, 1});

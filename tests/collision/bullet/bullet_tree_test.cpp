@@ -13,7 +13,7 @@ TEST_CASE("bullet: triangles that no split tells apart are found like all others
 TEST_CASE("bullet: rounding boxes outwards adds only a few triangles") {
     const TriangleMesh mesh = make_sphere(0.8, 4);
     const std::vector<Box> boxes = boxes_of(mesh), asked = asked_boxes(500, 13);
-    TriangleLists found;
+    IdLists found;
     make_bullet_tree(mesh.vertices, mesh.triangles)->find(asked, found);
     long apart = 0;
     for (int i = 0; i < 500; ++i) {

@@ -13,7 +13,7 @@ TEST_CASE("fcl: triangles that no split tells apart are found like all others") 
 TEST_CASE("fcl: a tree finds no triangle whose box lies apart") {
     const TriangleMesh mesh = soup(1000, 12);
     const std::vector<Box> boxes = boxes_of(mesh), asked = asked_boxes(300, 13);
-    TriangleLists found;
+    IdLists found;
     make_fcl_tree(mesh.vertices, mesh.triangles)->find(asked, found);
     long apart = 0;
     for (int i = 0; i < 300; ++i) {
