@@ -115,7 +115,9 @@ private:
             by_forces -= forces_.at(i).dot(d.at(i));
             size += forces_.at(i).norm();
         }
-        const double noise = 1e-3 * rounding * (std::abs(ahead) + std::abs(behind)) / state_.reach;
+        // What rounding leaves of the difference, and what a third derivative adds.
+        const double bend = std::abs(ahead - 2.0 * term_.energy(state_.positions) + behind);
+        const double noise = (1e-3 * rounding * (std::abs(ahead) + std::abs(behind)) + accuracy * bend) / state_.reach;
         return {by_forces, (ahead - behind) / (2.0 * state_.reach), accuracy * size + floor_accuracy * largest_force() + noise};
     }
 
