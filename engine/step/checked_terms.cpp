@@ -177,6 +177,7 @@ CheckedTerm wind_term(const World& world, double reach) {
                     }
                 },
             .exact = [=](int vertex) { return static_cast<bool>(check->exact[vertex]); },
+            .kinks = true,
             .internal = false};
 }
 
@@ -262,6 +263,7 @@ CheckedTerm contact_term(const World& world, double reach) {
                 },
             .multiply = [=](const Vectors& direction, Vectors& product) { check->multiply(direction, product); },
             .exact = [=](int vertex) { return static_cast<bool>(check->exact[vertex]); },
+            .kinks = true,
             .internal = false};
 }
 

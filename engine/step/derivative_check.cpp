@@ -172,6 +172,7 @@ private:
         double excess = 0.0, size = 0.0;
         const Vectors d = direction(all);
         for (int i = 0; i < state_.count; ++i) {
+            if (term_.kinks && !is_exact(i)) continue;
             excess += d.at(i).dot(p.matrix.at(i) - p.differences.at(i));
             size += p.matrix.at(i).norm() + p.differences.at(i).norm();
             const double own = std::max(p.matrix.at(i).norm(), p.differences.at(i).norm());
