@@ -75,8 +75,9 @@ Fabric isotropic(const Fabric& fabric) {
     if (!fabric.has_moduli()) return fabric;
     Fabric result = fabric;
     const auto [warp, weft] = *fabric.stretch_stiffness;
-    const double mean = std::sqrt(warp * weft);
-    result.stretch_stiffness = {mean, mean};
+    double young = std::sqrt(warp * weft);
+    if (fabric.shear_stiffness) young = std::min(young, 2.0 * (1.0 + fabric.poisson_ratio) * *fabric.shear_stiffness);
+    result.stretch_stiffness = {young, young};
     result.shear_stiffness.reset();
     return result;
 }

@@ -128,6 +128,19 @@ CheckedTerm curved_hinge_term(const World& world) {
 struct WindCheck {
     const World& world;
     WindTerms terms;
+    std::vector<bool> exact;
+
+    /// The drag has a kink where the air does not move along a triangle, or not across it.
+    void set_exact(double slow) {
+        for (std::size_t k = 0; k < world.model.triangles.size(); ++k) {
+            const Vec3& n = world.wind.triangles[k].normal;
+            for (const int vertex : world.model.triangles[k]) {
+                const Vec3 u = world.state.velocities.at(vertex) - world.wind.velocity;
+                const double across = n.dot(u);
+                if (std::abs(across) < slow || (u - across * n).norm() < slow) exact[vertex] = false;
+            }
+        }
+    }
 
     double evaluate(const Vectors& positions, Vectors& forces, WindTerms& result) const {
         const double dt = world.report.smallest_dt;
@@ -139,8 +152,9 @@ struct WindCheck {
     }
 };
 
-CheckedTerm wind_term(const World& world) {
-    auto check = std::make_shared<WindCheck>(WindCheck{world, {}});
+CheckedTerm wind_term(const World& world, double reach) {
+    auto check = std::make_shared<WindCheck>(WindCheck{world, {}, std::vector<bool>(world.model.vertex_count(), true)});
+    check->set_exact(1e3 * reach / world.report.smallest_dt);
     Vectors forces = world.state.positions;
     check->evaluate(world.state.positions, forces, check->terms);
     return {.name = "wind",
@@ -162,7 +176,8 @@ CheckedTerm wind_term(const World& world) {
                         product.add(vertex, block_times(check->terms.blocks[i], direction.at(vertex)));
                     }
                 },
-            .exact = {},
+            .exact = [=](int vertex) { return static_cast<bool>(check->exact[vertex]); },
+            .kinks = true,
             .internal = false};
 }
 
@@ -248,6 +263,7 @@ CheckedTerm contact_term(const World& world, double reach) {
                 },
             .multiply = [=](const Vectors& direction, Vectors& product) { check->multiply(direction, product); },
             .exact = [=](int vertex) { return static_cast<bool>(check->exact[vertex]); },
+            .kinks = true,
             .internal = false};
 }
 
@@ -287,7 +303,7 @@ std::vector<CheckedTerm> checked_terms(const World& world) {
     }
     if (!world.model.membrane.empty()) terms.push_back(membrane_term(world));
     if (!world.model.hinges.curved.empty()) terms.push_back(curved_hinge_term(world));
-    if (world.plan.wind) terms.push_back(wind_term(world));
+    if (world.plan.wind) terms.push_back(wind_term(world, reach_of(world)));
     const bool penalty = world.settings.contact_response == ContactResponse::penalty;
     if (world.plan.contacts && penalty && world.newton.current.forces.rows.size() > 0) {
         terms.push_back(contact_term(world, reach_of(world)));

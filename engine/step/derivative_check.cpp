@@ -115,7 +115,9 @@ private:
             by_forces -= forces_.at(i).dot(d.at(i));
             size += forces_.at(i).norm();
         }
-        const double noise = 1e-3 * rounding * (std::abs(ahead) + std::abs(behind)) / state_.reach;
+        // What rounding leaves of the difference, and what a third derivative adds.
+        const double bend = std::abs(ahead - 2.0 * term_.energy(state_.positions) + behind);
+        const double noise = (1e-3 * rounding * (std::abs(ahead) + std::abs(behind)) + accuracy * bend) / state_.reach;
         return {by_forces, (ahead - behind) / (2.0 * state_.reach), accuracy * size + floor_accuracy * largest_force() + noise};
     }
 
@@ -170,6 +172,7 @@ private:
         double excess = 0.0, size = 0.0;
         const Vectors d = direction(all);
         for (int i = 0; i < state_.count; ++i) {
+            if (term_.kinks && !is_exact(i)) continue;
             excess += d.at(i).dot(p.matrix.at(i) - p.differences.at(i));
             size += p.matrix.at(i).norm() + p.differences.at(i).norm();
             const double own = std::max(p.matrix.at(i).norm(), p.differences.at(i).norm());

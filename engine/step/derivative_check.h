@@ -17,8 +17,10 @@ struct CheckedTerm {
     std::function<double(const Vectors& positions)> energy;                     // J; empty: the force has no potential
     /// product = -dt^2 J direction, J the derivative of the forces, kg; empty: it has no part in the matrix.
     std::function<void(const Vectors& direction, Vectors& product)> multiply;
-    /// Whether the rows of a vertex are the derivative itself; elsewhere the matrix need only bound it from above.
+    /// Whether the rows of a vertex are the derivative itself; elsewhere the matrix need only bound it from above, or with
+    /// `kinks`, where there is no derivative, claims nothing.
     std::function<bool(int vertex)> exact;
+    bool kinks = false;
     bool internal = true;  // between vertices of the cloth: without sum and moment
 };
 

@@ -89,7 +89,7 @@ TEST_CASE("the last part of a key is enough") {
 TEST_CASE("an unknown topic is an error with the nearest") {
     CHECK(error_of([] {
               explained("tme_step");
-          }).starts_with("explain: no topic 'tme_step'; did you mean 'time_step'? topics: title, "));
+          }).starts_with("explain: no topic 'tme_step'; did you mean 'time_step'? topics: presets, title, "));
     CHECK(contains(error_of([] { explained("cloth.pinn"); }), "did you mean 'cloth.pin'?"));
     CHECK(contains(error_of([] { explained("."); }), "no topic '.'"));
 }

@@ -128,6 +128,7 @@ TEST_CASE("text and JSON say the same") {
         CHECK(text.find("  " + skip.at("what").get<std::string>() + ": " + skip.at("why").get<std::string>()) !=
               std::string::npos);
     CHECK(text.find("  contact of sheet with cloth: self_contact is false") != std::string::npos);
-    CHECK(plan_text(built(sheet_on_box(), {{"step.skip", "false"}, {"fabric.sheet.self_contact", "true"}}))
-              .find("skipped    nothing") != std::string::npos);
+    const std::string all = plan_text(built(sheet_on_box(), {{"step.skip", "false"}, {"fabric.sheet.self_contact", "true"}}));
+    for (const char* skip : {"motion", "work", "energy", "matrix", "contact"})
+        CHECK(all.find(std::string("\n  ") + skip) == std::string::npos);
 }

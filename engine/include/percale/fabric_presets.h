@@ -20,8 +20,9 @@ std::span<const FabricPreset> fabric_presets();
 /// The fabric of a preset. Throws SceneError naming the valid ones.
 const Fabric& fabric_preset(std::string_view name);
 
-/// The same with one stretch_stiffness, the geometric mean of warp and weft, and the shear_stiffness of isotropic cloth: for
-/// meshes that do not say where warp is. A fabric without moduli stays as it is.
+/// The same, isotropic, for meshes that do not say where warp is: shear_stiffness is kept, as it decides how cloth drapes, and
+/// stretch_stiffness becomes what belongs to it, 2 (1 + nu) shear_stiffness, or the geometric mean of warp and weft where that is
+/// smaller. Woven cloth stretches more than it should by that. A fabric without moduli stays as it is.
 Fabric isotropic(const Fabric& fabric);
 
 }  // namespace percale

@@ -47,6 +47,8 @@ TEST_CASE("every field of a fabric is listed under its fabric, springs as a tabl
     for (const Option<Fabric>& option : fabric_options()) {
         if (option.number) *option.number(fabric) = next += 0.001;
         if (option.flag) *option.flag(fabric) = true;
+        if (option.optional_number) *option.optional_number(fabric) = next += 0.001;
+        if (option.optional_pair) *option.optional_pair(fabric) = {next, 2.0 * next};
     }
     const ordered_json json = settings(scene).at("fabric").at("silk");
     for (const Option<Fabric>& option : fabric_options()) {
@@ -54,8 +56,12 @@ TEST_CASE("every field of a fabric is listed under its fabric, springs as a tabl
         const ordered_json& value = at_dotted(json, std::string(option.key));
         if (option.number) CHECK(value.get<double>() == *option.number(fabric));
         if (option.flag) CHECK(value == true);
+        if (option.optional_number) CHECK(value.get<double>() == **option.optional_number(fabric));
+        if (option.optional_pair) CHECK(value.at(1).get<double>() == (**option.optional_pair(fabric))[1]);
     }
     CHECK(json.at("springs").is_object());
+    scene.fabrics["plain"] = {};
+    CHECK_FALSE(settings(scene).at("fabric").at("plain").contains("bend_stiffness"));
 }
 
 TEST_CASE("an automatic tolerance is the word auto, a given one its number") {
