@@ -130,8 +130,8 @@ TEST_CASE("what this build lacks is told as such, not as a slip") {
           "t:2:10: this build lacks the choice 'bdf2' of step.scheme; it takes one of symplectic_euler, rk4, backward_euler");
     CHECK(fault("[[cloth]]\nname = \"a\"\npattern = \"shirt.json\"\n")
               .starts_with("t:3:1: this build lacks the key 'pattern' of [cloth.a]; valid: name, "));
-    CHECK(fault_after("[[event]]\ntime = 1\nwind = [1, 0, 0]\n")
-              .starts_with("t:10:1: this build lacks the key 'wind' of [event.0]; valid: time, "));
+    CHECK(fault_after("[[event]]\ntime = 1\ndetach = [1, 0, 0]\n")
+              .starts_with("t:10:1: this build lacks the key 'detach' of [event.0]; valid: time, "));
 }
 
 TEST_CASE("a number or auto takes both and nothing else") {
