@@ -21,6 +21,24 @@ int first_spring_of(const ClothModel& model, const ClothRange& cloth) {
     return static_cast<int>(own - firsts.begin());
 }
 
+std::vector<Body> make_bodies(const ClothModel& model) {
+    std::vector<Body> bodies;
+    for (const ClothRange& cloth : model.cloths) bodies.push_back({cloth.first, cloth.count, cloth.mass});
+    const auto body_of = [&](int vertex) {
+        return std::partition_point(bodies.begin(), bodies.end(), [&](const Body& b) { return b.first + b.count <= vertex; });
+    };
+    for (int k = 0; k < model.springs.size(); ++k) {
+        if (model.springs.kind[k] != SpringKind::seam) continue;
+        const auto low = body_of(model.springs.first[k]), high = body_of(model.springs.second[k]);
+        for (auto next = low + 1; low != high && next <= high; ++next) {
+            low->count += next->count;
+            low->mass += next->mass;
+        }
+        if (low != high) bodies.erase(low + 1, high + 1);
+    }
+    return bodies;
+}
+
 }  // namespace
 
 void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fabric, const std::string& name) {
@@ -81,6 +99,7 @@ void finish_model(ClothModel& model) {
     const SpringLayout layout = model.membrane.empty() ? SpringLayout::best : SpringLayout::slices;
     model.adjacency = make_adjacency(model.springs, model.vertex_count(), layout);
     if (!model.membrane.empty()) add_membrane(model.adjacency, model.springs, model.membrane);
+    model.bodies = make_bodies(model);
 }
 
 void set_model_clamps(std::span<const double> free, ClothModel& model) {

@@ -30,6 +30,12 @@ struct ClothRange {
     int user_vertex(int index) const { return order.vertex_at(index - first); }
 };
 
+/// Consecutive vertices that no spring joins to others: a cloth, or all from the first to the last that seams join.
+struct Body {
+    int first = 0, count = 0;
+    double mass = 0.0;  // kg
+};
+
 /// All cloth of a simulation as one system: what does not change from step to step.
 struct ClothModel {
     std::vector<ClothRange> cloths;
@@ -41,6 +47,7 @@ struct ClothModel {
     Hinges hinges;
     std::vector<MembraneTriangle> membrane;
     Adjacency adjacency;
+    std::vector<Body> bodies;
 
     int vertex_count() const { return static_cast<int>(mass.size()); }
 };

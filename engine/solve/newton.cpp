@@ -309,7 +309,7 @@ private:
         const SolveReport solved = space_.solver.solve(space_.right_side, target, space_.direction);
         report_.linear_iterations += solved.iterations;
         direction_is_good_ = solved.converged;
-        if (space_.current.forces.rows.size() == 0) correct_translation();
+        if (!part_.plan->wind && space_.current.forces.rows.size() == 0) correct_translation();
     }
 
     void set_prescribed_direction() {
@@ -324,15 +324,15 @@ private:
     /// Springs do not resist a translation, so the one left over by an unfinished linear solve is known exactly: with it, a cloth
     /// that nothing holds keeps its momentum whatever the tolerance.
     void correct_translation() {
-        for (const ClothRange& cloth : model_.cloths) {
+        for (const Body& body : model_.bodies) {
             Vec3 missing = Vec3::Zero();
             bool held = false;
-            for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
+            for (int i = body.first; i < body.first + body.count; ++i) {
                 held = held || (*part_.free)[i] == 0.0;
                 missing -= space_.current.residual.at(i) + model_.mass[i] * space_.direction.at(i);
             }
             if (held) continue;
-            for (int i = cloth.first; i < cloth.first + cloth.count; ++i) space_.direction.add(i, missing / cloth.mass);
+            for (int i = body.first; i < body.first + body.count; ++i) space_.direction.add(i, missing / body.mass);
         }
     }
 

@@ -67,24 +67,22 @@ TEST_CASE("Sewn cloth that hangs by one panel carries the other") {
     CHECK(tube.widest_gap() < 1e-3);
 }
 
-TEST_CASE("What closing a seam stores is its work: energy never rises beyond it, and is bits of no thread") {
-    for (const Scheme scheme : {Scheme::backward_euler, Scheme::symplectic_euler}) {
-        const bool implicit = scheme == Scheme::backward_euler;
-        Tube tube(
-            {.time_step = implicit ? 1.0 / 60.0 : 2e-4, .scheme = scheme, .newton_tolerance = 1e-9, .gravity = Vec3::Zero()},
-            0.1);
-        double before = tube.simulation.energy().total(), work = 0.0;
-        CHECK(before < 1e-15);
-        for (int n = 0; n < (implicit ? 30 : 2500); ++n) {
-            const StepReport report = tube.simulation.step();
-            const double now = report.energy.total();
-            if (implicit) CHECK(now <= before + report.energy.work + 1e-9);
-            work += report.energy.work;
-            before = now;
-        }
-        CHECK(work > 0.0);
-        CHECK(before <= 1.02 * work);
+TEST_CASE("Energy never rises beyond the work of a closing seam") {
+    Tube tube({.newton_tolerance = 1e-9, .gravity = Vec3::Zero()}, 0.1);
+    double before = tube.simulation.energy().total();
+    CHECK(before < 1e-15);
+    for (int n = 0; n < 30; ++n) {
+        const StepReport report = tube.simulation.step();
+        CHECK(report.energy.total() <= before + report.energy.work + 1e-9);
+        CHECK((report.energy.work > 0.0) == (n < 6));
+        before = report.energy.total();
     }
+}
+
+TEST_CASE("Explicit schemes close seams, too") {
+    Tube tube({.time_step = 5e-5, .scheme = Scheme::symplectic_euler, .gravity = Vec3::Zero()}, 0.1);
+    for (int n = 0; n < 3000; ++n) REQUIRE(tube.simulation.step().ok());
+    CHECK(tube.widest_gap() < 1e-3);
 }
 
 TEST_CASE("A seam made at once has no length from the first step, and wakes cloth at rest") {

@@ -28,7 +28,8 @@ TEST_CASE("A flat sheet that falls through still air follows v = w tanh(g t/w)")
         for (const bool grid : {true, false}) {
             Simulation simulation({.time_step = time_step, .scheme = scheme});
             Fabric fabric = blown_fabric(1.5);
-            fabric.springs.shear = 0.0;
+            fabric.springs = {.structural = 20.0, .shear = 0.0, .bend = 0.0};
+            fabric.spring_damping = 0.0;
             const ClothId cloth = simulation.add_cloth(grid ? make_grid(0.5, 0.5, 6, 6) : irregular_sheet(0.5, 300), fabric);
             simulation.set_wind(Vec3::Zero());
             while (simulation.time() < 0.3) REQUIRE(simulation.step().ok());
@@ -52,7 +53,7 @@ TEST_CASE("Without wind there is no air, and none is paid for") {
 }
 
 TEST_CASE("A strip that hangs in a level wind stands straight where weight and drag balance across it") {
-    for (const double speed : {2.0, 4.0}) {
+    for (const double speed : {1.0, 2.0}) {
         Fabric fabric = blown_fabric(1.2);
         fabric.springs = {.structural = 1e5, .shear = 1e4, .bend = 0.0};
         Simulation simulation({.time_step = 0.1});
