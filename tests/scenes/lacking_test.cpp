@@ -25,5 +25,5 @@ TEST_CASE("nothing that this build has is lacking, nor is a slip") {
     CHECK_FALSE(lacks_key("step.scheme"));
     CHECK_FALSE(lacks_choice("step.scheme", "bdf3"));
     CHECK_FALSE(lacks_choice("step.detector", "bdf2"));
-    CHECK_FALSE(lacks_choice(""));
+    CHECK_FALSE(lacks_choice("step.tolerance", ""));
 }
