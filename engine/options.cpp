@@ -69,7 +69,8 @@ constexpr Option<Fabric> fabric_list[] = {
 constexpr Option<StepSettings> step_list[] = {
     {.key = "time_step",
      .unit = "s",
-     .sentence = "Length of a step; auto = as long as `tolerance` allows, 1/60 s at most.",
+     .sentence =
+         "Length of a step; auto = as long as `tolerance` allows, 1/60 s at most; scheme is tr_bdf2 then unless it is set.",
      .lowest = 1e-7,
      .highest = 1.0,
      .number = [](StepSettings& s) { return &s.time_step; },

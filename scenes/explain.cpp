@@ -4,6 +4,7 @@
 
 #include "nearest_name.h"
 #include "percale/error.h"
+#include "percale/options.h"
 #include "scene_keys.h"
 #include "scene_text.h"
 
@@ -102,6 +103,7 @@ void explain(std::ostream& out, const std::string& topic) {
         first = false;
         print_key(out, key);
     }
+    if (paths.front() == "step.scheme") out << "\n" << scheme_table_text();
 }
 
 std::string key_tables_markdown() {

@@ -141,7 +141,7 @@ private:
 void add_cost(RunTotals& totals, const StepReport& report) {
     totals.newton_iterations += report.newton_iterations;
     totals.linear_iterations += report.linear_iterations;
-    totals.rejected_steps += report.halvings;
+    totals.rejected_steps += report.halvings + report.rejected;
     if (report.linear_solver != LinearSolver::automatic) totals.linear_solver = report.linear_solver;
     totals.contacts_most = std::max(totals.contacts_most, report.contacts);
     totals.contact_stiffness = std::max(totals.contact_stiffness, report.contact_stiffness);
@@ -149,10 +149,10 @@ void add_cost(RunTotals& totals, const StepReport& report) {
 }
 
 void add_accepted(RunTotals& totals, const StepReport& report) {
-    ++totals.steps;
+    totals.steps += report.parts;
     totals.sleeping_steps += report.slept;
     totals.smallest_step_s = std::min(totals.smallest_step_s, report.smallest_dt);
-    totals.largest_step_s = std::max(totals.largest_step_s, report.dt);
+    totals.largest_step_s = std::max(totals.largest_step_s, report.largest_dt);
     totals.largest_residual = std::max(totals.largest_residual, report.residual);
     add_step_energy(report.energy, totals.energy);
 }
@@ -199,17 +199,60 @@ bool make_parts(BuiltScene& built, const RunHooks& hooks, Script& script, double
     return true;
 }
 
+/// The next time at which adaptive steps have to end: that of a frame or an event, or the scene's end.
+double next_stop(const Scene& scene, double now) {
+    const double after = now + 1e-9 * scene.step.time_step;
+    double stop = scene.duration;
+    const double frame = (std::floor(after * scene.output.fps) + 1.0) / scene.output.fps;
+    if (frame > after) stop = std::min(stop, frame);
+    for (const EventSpec& event : scene.events)
+        if (event.time > after) stop = std::min(stop, event.time);
+    return stop;
+}
+
+/// Tells how long steps are: `time_step`, the last one shorter; with "auto" equal ones from stop to stop.
+class StepLengths {
+public:
+    explicit StepLengths(const Scene& scene)
+        : scene_(scene), count_(count_steps(scene.duration, scene.step.time_step)), length_(scene.step.time_step) {}
+
+    bool over(double now) const { return scene_.step.adaptive ? left(now) <= rounding : made_ == count_.steps; }
+
+    double next(double now) {
+        ++made_;
+        if (!scene_.step.adaptive) return made_ == count_.steps ? count_.last_dt : scene_.step.time_step;
+        const double way = next_stop(scene_, now) - now;
+        const double length = way / std::max(1.0, std::ceil(way / scene_.step.time_step - 1e-9));
+        // The same length in every bit as before: another one would be a change of the scene.
+        if (std::abs(length - length_) > 1e-9 * length) length_ = length;
+        return length_;
+    }
+
+    std::string made_text(double now) const {
+        if (scene_.step.adaptive) return "stopped at " + std::to_string(now) + " of " + std::to_string(scene_.duration) + " s";
+        return "stopped after " + std::to_string(made_) + " of " + std::to_string(count_.steps) + " steps";
+    }
+
+private:
+    static constexpr double rounding = 1e-7;  // of a step
+    double left(double now) const { return (scene_.duration - now) / scene_.step.time_step; }
+
+    const Scene& scene_;
+    StepCount count_;
+    double length_;
+    long made_ = 0;
+};
+
 void run_steps(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings, RunResult& result) {
-    const double time_step = built.scene.step.time_step;
-    const StepCount count = count_steps(built.scene.duration, time_step);
+    StepLengths lengths(built.scene);
     Script script{Timeline(built), Observer(built, hooks, settings, result.measures)};
     script.observer.look(0);
-    for (long i = 0; i < count.steps; ++i) {
-        const bool last = i + 1 == count.steps;
-        if (!make_parts(built, hooks, script, last ? count.last_dt : time_step, result)) return;
-        if (!last && hooks.stop_asked && hooks.stop_asked()) {
+    while (!lengths.over(built.simulation.time())) {
+        if (!make_parts(built, hooks, script, lengths.next(built.simulation.time()), result)) return;
+        const double now = built.simulation.time();
+        if (!lengths.over(now) && hooks.stop_asked && hooks.stop_asked()) {
             result.status = RunStatus::stopped;
-            result.reason = "stopped after " + std::to_string(i + 1) + " of " + std::to_string(count.steps) + " steps";
+            result.reason = lengths.made_text(now);
             return;
         }
     }
@@ -222,7 +265,7 @@ RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings&
     const std::optional<std::vector<Vec3>> reference = read_reference(built);
     if (hooks.begin) hooks.begin();
     RunResult result;
-    result.skipped = plan_of(built).skipped;
+    result.plan = plan_of(built);
     result.totals.energy = built.simulation.energy();
     run_steps(built, hooks, settings, result);
     if (std::isnan(result.totals.energy.elastic))

@@ -47,7 +47,7 @@ struct RunResult {
     RunStatus status = RunStatus::finished;
     std::string reason;  // why it failed or was stopped
     RunTotals totals;
-    std::vector<Skip> skipped;  // as planned before the first step
+    ScenePlan plan;  // before the first step
     Measures measures;
 };
 
@@ -64,7 +64,8 @@ struct RunSettings {
 };
 
 /// Steps until the scene's duration is over (the last step is shorter where the duration is no multiple of the time step), a step
-/// fails or a stop is asked for. Frame k follows the first step that ends at or after k / fps; frame 0 is the start. Every
+/// fails or a stop is asked for. Adaptive steps (time_step = "auto") end at every frame's and event's time. Frame k follows the
+/// first step that ends at or after k / fps; frame 0 is the start. Every
 /// frame is certified against every obstacle, and cloth that meets cloth against that, also when nothing is written. A step in
 /// which an obstacle moves far is made in equal parts (motion_parts), each a step of the simulation and of the totals.
 /// Throws SceneError if the reference of a `matches` expectation cannot be read or has another number of vertices, before the

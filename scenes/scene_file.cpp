@@ -48,6 +48,7 @@ void read_step(const TomlNode& document, Scene& scene) {
     const TomlNode* step = document.find("step");
     if (step == nullptr) return;
     for (const auto& option : step_options()) read_option(*step, option, scene.step);
+    if (scene.step.adaptive && step->find("scheme") == nullptr) scene.step.scheme = Scheme::tr_bdf2;
     if (const TomlNode* scheme = step->find("scheme")) scene.scheme_place = scheme->place;
     if (const TomlNode* detector = step->find("detector"))
         scene.detector = static_cast<Detector>(choice_index(find_scene_key("step.detector")->choices, detector->text));

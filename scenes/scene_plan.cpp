@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "percale/options.h"
 #include "run_scene.h"
 #include "scene_text.h"
 
@@ -26,12 +25,6 @@ ScriptedChanges changes_of(const Scene& scene) {
     return changes;
 }
 
-std::string scheme_word(const StepSettings& settings) {
-    for (const Option<StepSettings>& option : step_options())
-        if (option.key == "scheme") return std::string(option.choices[static_cast<std::size_t>(option.get_choice(settings))]);
-    return "";
-}
-
 std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
 
 std::string line(const std::string& label, const std::string& value) {
@@ -46,11 +39,6 @@ std::string short_number(double value) {
     return text;
 }
 
-std::string steps_text(const Scene& scene) {
-    const StepCount count = count_steps(scene.duration, scene.step.time_step);
-    return counted(count.steps, "step") + " of " + short_number(scene.step.time_step) + " s, " + scheme_word(scene.step);
-}
-
 std::string springs_text(const SpringCounts& springs) {
     return std::to_string(springs.total()) + " (" + std::to_string(springs.structural) + " structural, " +
            std::to_string(springs.shear) + " shear, " + std::to_string(springs.bend) + " bending)";
@@ -58,11 +46,20 @@ std::string springs_text(const SpringCounts& springs) {
 
 }  // namespace
 
+std::string steps_text(const Scene& scene) {
+    const StepSettings& step = scene.step;
+    if (step.adaptive) return "as long as an error of " + short_number(step.tolerance) + " m a second allows";
+    const StepCount count = count_steps(scene.duration, step.time_step);
+    return counted(count.steps, "step") + " of " + short_number(step.time_step) + " s";
+}
+
 ScenePlan plan_of(const BuiltScene& built) { return built.simulation.plan(changes_of(built.scene)); }
 
 std::string plan_text(const BuiltScene& built) {
     const ScenePlan plan = plan_of(built);
-    std::string text = line("title", built.scene.title) + line("steps", steps_text(built.scene));
+    std::string text = line("title", built.scene.title) + line("steps", steps_text(built.scene) + ", " + plan.scheme_word);
+    if (!plan.scheme_reason.empty()) text += line("scheme", plan.scheme_word + ": " + plan.scheme_reason);
+    for (const std::string& warning : plan.warnings) text += line("warning", warning);
     text += line("vertices", std::to_string(plan.vertices) + ", " + std::to_string(plan.pinned_vertices) + " pinned");
     text += line("springs", springs_text(plan.springs));
     for (std::size_t i = 0; i < built.obstacles.size(); ++i)
@@ -84,9 +81,11 @@ std::string plan_json(const BuiltScene& built) {
     ordered_json json;
     json["title"] = built.scene.title;
     json["scene"] = built.scene.file;
-    json["scheme"] = scheme_word(built.scene.step);
-    json["time_step_s"] = built.scene.step.time_step;
-    json["steps"] = count.steps;
+    json["scheme"] = plan.scheme_word;
+    if (!plan.scheme_reason.empty()) json["scheme_reason"] = plan.scheme_reason;
+    json["warnings"] = plan.warnings;
+    json["time_step_s"] = built.scene.step.adaptive ? ordered_json("auto") : ordered_json(built.scene.step.time_step);
+    json["steps"] = built.scene.step.adaptive ? ordered_json(nullptr) : ordered_json(count.steps);
     json["vertices"] = plan.vertices;
     json["pinned_vertices"] = plan.pinned_vertices;
     json["springs"] = {{"structural", plan.springs.structural}, {"shear", plan.springs.shear}, {"bend", plan.springs.bend}};

@@ -7,6 +7,9 @@
 
 namespace percale::scenes {
 
+/// How many steps of what length a scene is run in.
+std::string steps_text(const Scene& scene);
+
 /// The plan of a built scene before its first step, with the motion and events that its file holds.
 ScenePlan plan_of(const BuiltScene& built);
 

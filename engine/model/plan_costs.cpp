@@ -36,7 +36,7 @@ double predicted_memory(const StepPlan& plan, const SceneFacts& facts) {
 double predicted_evaluations(const StepPlan& plan, const StepSettings& settings) {
     if (!plan.solve) return 0.0;
     const SchemeFacts& facts = facts_of(plan.scheme);
-    if (!plan.implicit) return facts.force_evaluations;
+    if (!plan.implicit) return plan.parts * facts.force_evaluations;
     const int newton = std::min(plan.contacts ? contact_newton : free_newton, settings.newton_iterations);
     return facts.stages * (newton * (linear_iterations * linear_cost + newton_cost) + step_cost);
 }

@@ -1,6 +1,9 @@
 #include "schemes.h"
 
 #include <limits>
+#include <string>
+
+#include "percale/options.h"
 
 namespace percale {
 namespace {
@@ -29,5 +32,21 @@ constexpr SchemeFacts table[] = {
 std::span<const SchemeFacts> scheme_table() { return table; }
 
 const SchemeFacts& facts_of(Scheme scheme) { return table[static_cast<int>(scheme)]; }
+
+std::string scheme_table_text() {
+    std::string text =
+        "scheme             order  kind      contact  a step costs         oscillator of frequency w, a = w time_step\n";
+    for (const SchemeFacts& facts : table) {
+        const std::string cost =
+            facts.implicit ? std::to_string(facts.stages) + (facts.stages == 1 ? " system" : " systems")
+                           : std::to_string(facts.force_evaluations) + " evaluation" + (facts.force_evaluations == 1 ? "" : "s");
+        char line[256];
+        std::snprintf(line, sizeof line, "%-18s %-6d %-9s %-8s %-20s %s\n", std::string(facts.word).c_str(), facts.order,
+                      facts.implicit ? "implicit" : "explicit", facts.contact ? "yes" : "no", cost.c_str(),
+                      std::string(facts.stability).c_str());
+        text += line;
+    }
+    return text;
+}
 
 }  // namespace percale

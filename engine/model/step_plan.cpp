@@ -72,6 +72,7 @@ StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts) {
     StepPlan plan;
     plan.everything = everything;
     plan.scheme = settings.scheme == Scheme::automatic ? facts.chosen : settings.scheme;
+    plan.parts = facts.parts;
     plan.implicit = facts_of(plan.scheme).implicit;
     plan.contacts = facts_of(plan.scheme).contact && facts.cloth_vertices > 0 &&
                     (facts.obstacles > 0 || meets_cloth(facts) || (everything && facts.detector));

@@ -48,6 +48,7 @@ private:
                   .start = &space_.start_velocities,
                   .foreseen = part_.base ? &part_.base->foreseen : nullptr,
                   .foreseen_share = part_.base ? part_.base->error_share : 1.0};
+        if (part_.settings->adaptive) error_.allowance = part_.settings->tolerance * part_.dt;
         space_.current.fraction = moves_are_scripted() ? part_.span.from : part_.span.to;
         space_.frozen_diagonal.padded = 0;
         if (!space_.solver.is_for(model_)) space_.solver.set_model(*part_.compute, model_, part_.settings->linear_solver);
@@ -260,7 +261,8 @@ private:
             ++report_.newton_iterations;
             if ((step_along() || another_round()) && most > 1) continue;
             set_relative_residual(residual_norm(), first_norm);
-            return end_here(most == 1);
+            // A linearised step is taken as it is, unless it leads farther from the solution.
+            return end_here(most == 1 && report_.residual <= 1.0);
         }
         end_here(false);
     }

@@ -49,7 +49,8 @@ bool change_is_small(const TimeError& error, const NewtonChange& change, double 
         const double moved = error.dt * std::sqrt(std::max(gain, 0.0) / cloth.mass);
         const double time_error =
             0.5 * error.dt * std::sqrt(squared_error(error, cloth.first, cloth.count, change.ahead) / cloth.mass);
-        const double floor = change.in_contact ? smallest_share * model.thickness[cloth.first] : smallest_change;
+        const double least = change.in_contact ? smallest_share * model.thickness[cloth.first] : smallest_change;
+        const double floor = std::min(least, 0.1 * error.allowance);
         return moved <= share * time_error + floor &&
                error.dt * std::sqrt(worst) <= 2.0 * share * error.dt * std::sqrt(worst_error) + 10.0 * floor;
     });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "linear_solver.h"
@@ -15,6 +16,7 @@ struct TimeError {
     const Vectors* start = nullptr;     // m/s, v_n
     const Vectors* foreseen = nullptr;  // StageBase::foreseen; null for backward Euler
     double foreseen_share = 1.0;
+    double allowance = std::numeric_limits<double>::infinity();  // m, that adaptive steps give the stage
 };
 
 /// |v - v_n|_M^2 over the free of some vertices, J: the time error of backward Euler is dt/2 times its root over the mass.
@@ -33,7 +35,8 @@ struct NewtonChange {
 };
 
 /// Whether the direction changes every cloth by less than a share of the time error, in the mean and at its worst vertex by less
-/// than twice that; in metres, dt sqrt(-r . dv/m).
+/// than twice that; in metres, dt sqrt(-r . dv/m). What is below a least length (0.1 um, in contact a share of the thickness) or
+/// a tenth of the allowance, if that is less, means nothing.
 bool change_is_small(const TimeError& error, const NewtonChange& change, double share);
 
 /// The time error itself, m, in the mean of the worst cloth.

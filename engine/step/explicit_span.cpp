@@ -51,8 +51,6 @@ void make_kept_step(World& world, StepFraction span) {
 /// A whole step and two half ones: what they differ by over 2^order - 1 is the error of the latter.
 void make_two_steps(World& world, StepFraction span) {
     StageSpace& stages = world.stages;
-    stages.start.positions = world.state.positions;
-    stages.start.velocities = world.state.velocities;
     make_step(world, span);
     stages.scratch = world.state.positions;
     world.state.positions = stages.start.positions;
@@ -68,9 +66,13 @@ void make_two_steps(World& world, StepFraction span) {
 
 void solve_explicit_span(World& world, StepFraction span) {
     StageTimer timer(world.report.stages.force);
+    if (world.settings.adaptive || world.plan.pin_work) {
+        world.stages.start.positions = world.state.positions;
+        world.stages.start.velocities = world.state.velocities;
+    }
     world.settings.adaptive ? make_two_steps(world, span) : make_kept_step(world, span);
     if (!world.plan.pin_work) return;
-    const double work = pin_work(world, world.settings.adaptive ? world.stages.start : world.before);
+    const double work = pin_work(world, world.stages.start);
     world.report.energy.work += work;
     if (world.plan.ledger) world.report.energy.dissipated_integrator += work;  // account_explicit
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "model/plan_costs.h"
+#include "model/schemes.h"
 #include "rest_detection.h"
+#include "scheme_choice.h"
 
 namespace percale {
 namespace {
@@ -51,6 +53,11 @@ SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come) {
     facts.changes.obstacles = to_come.obstacles || obstacles_move(world);
     facts.changes.pins = to_come.pins || pins_move(world);
     for (const ClothRange& cloth : model.cloths) facts.cloths.push_back({cloth.name, cloth.grid, cloth.fabric});
+    if (world.settings.scheme == Scheme::automatic) {
+        const SchemeChoice choice = choose_scheme(world, facts);
+        facts.chosen = choice.scheme;
+        facts.parts = choice.parts;
+    }
     return facts;
 }
 
@@ -72,7 +79,12 @@ void scene_changed(World& world) {
 ScenePlan scene_plan(const World& world, const ScriptedChanges& to_come) {
     const SceneFacts facts = scene_facts(world, to_come);
     const StepPlan plan = make_step_plan(world.settings, facts);
+    const bool open = world.settings.scheme == Scheme::automatic;
     return {.scheme = plan.scheme,
+            .scheme_word = std::string(facts_of(plan.scheme).word),
+            .scheme_reason = open ? choose_scheme(world, facts).reason : "",
+            .stable_step = stable_step(world, plan.scheme),
+            .warnings = step_warnings(world, plan),
             .vertices = facts.cloth_vertices,
             .pinned_vertices = facts.pinned_vertices,
             .springs = facts.springs,

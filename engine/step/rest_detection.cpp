@@ -51,7 +51,7 @@ void fall_asleep(World& world) {
     const StepReport& last = world.report;
     rest.figures = {};
     rest.figures.slept = true;
-    rest.figures.dt = rest.figures.smallest_dt = last.dt;
+    rest.figures.dt = rest.figures.smallest_dt = rest.figures.largest_dt = last.dt;
     rest.figures.sleeping_cloths = last.sleeping_cloths;
     rest.figures.contacts = last.contacts;
     rest.figures.contact_hash = last.contact_hash;

@@ -71,11 +71,11 @@ void fail(World& world, NewtonEnd end) {
     world.report.status = by_obstacle ? StepStatus::obstacle_too_fast : StepStatus::pin_blocked;
 }
 
-bool may_halve(const World& world, int depth) { return depth < most_halvings && world.settings.newton_iterations > 1; }
+bool may_halve(int depth) { return depth < most_halvings; }
 
 /// Solves a span of the step; false after a failure that halving could not mend.
 bool solve_span(World& world, StepFraction span, int depth) {
-    const bool halve = may_halve(world, depth);
+    const bool halve = may_halve(depth);
     const NewtonEnd end = solve_implicit_span(world, span, !halve);
     if (end == NewtonEnd::converged || (end == NewtonEnd::iterations_used && !halve)) {
         const double length = world.settings.time_step * (span.to - span.from);
@@ -100,7 +100,12 @@ bool solve_span(World& world, StepFraction span, int depth) {
 /// One step of the scheme over a span; false if it failed.
 bool cover(World& world, StepFraction span) {
     if (world.plan.implicit) return solve_span(world, span, 0);
-    solve_explicit_span(world, span);
+    const double length = (span.to - span.from) / world.plan.parts;
+    for (int part = 0; part < world.plan.parts; ++part) {
+        const bool last = part + 1 == world.plan.parts;
+        solve_explicit_span(world, {span.from + part * length, last ? span.to : span.from + (part + 1) * length});
+    }
+    world.report.smallest_dt = std::min(world.report.smallest_dt, length * world.settings.time_step);
     return true;
 }
 

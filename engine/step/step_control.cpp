@@ -8,7 +8,7 @@
 namespace percale {
 namespace {
 
-constexpr double first_length = 1e-3;  // s
+constexpr double first_length = 5e-5;  // s, short: a start may let go of something stiff
 constexpr double wanted_share = 0.5;   // of the allowance
 constexpr double most_left = 0.02;     // s of allowance that can be left over
 constexpr double proportional = 0.4, integral = 0.7;

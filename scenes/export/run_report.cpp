@@ -171,7 +171,10 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     put_costs(json, result.totals);
     json["obstacles"] = obstacle_list(built);
     json["start_repair"] = start_move_list(built.simulation);
-    json["skipped"] = skipped_list(result.skipped);
+    json["scheme"] = result.plan.scheme_word;
+    if (!result.plan.scheme_reason.empty()) json["scheme_reason"] = result.plan.scheme_reason;
+    json["warnings"] = result.plan.warnings;
+    json["skipped"] = skipped_list(result.plan.skipped);
     put_contact_and_energy(json, result.totals);
     put_measures(json, result.measures);
     json["step_certificate"] = step_certificate(result.measures);

@@ -12,6 +12,7 @@
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
+#include "scene_plan.h"
 #include "scene_text.h"
 #include "start_fault.h"
 
@@ -33,10 +34,8 @@ std::string default_folder(const std::string& scene) {
 }
 
 void print_start(const RunOptions& options, const BuiltScene& built) {
-    const Scene& scene = built.scene;
-    const StepCount count = count_steps(scene.duration, scene.step.time_step);
-    std::printf("%s: %ld steps of %.6g s into %s\n", options.scene.c_str(), count.steps, scene.step.time_step,
-                options.folder.c_str());
+    std::printf("%s: %s into %s\n", options.scene.c_str(), steps_text(built.scene).c_str(), options.folder.c_str());
+    for (const std::string& warning : plan_of(built).warnings) std::printf("warning: %s\n", warning.c_str());
     print_start_moves(built.simulation);
     std::fflush(stdout);
 }

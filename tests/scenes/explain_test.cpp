@@ -57,6 +57,14 @@ TEST_CASE("a topic takes in what lies below it and nothing else") {
     CHECK_FALSE(contains(step, "area_density"));
 }
 
+TEST_CASE("the scheme is explained with a line on each") {
+    const std::string text = explained("scheme");
+    for (const char* word : {"forward_euler ", "symplectic_euler ", "midpoint ", "rk4 ", "backward_euler ", "implicit_midpoint ",
+                             "trapezoid ", "bdf2 ", "tr_bdf2 "})
+        CHECK(contains(text, std::string("\n") + word));
+    CHECK_FALSE(contains(explained("step"), "order  kind"));
+}
+
 TEST_CASE("the last part of a key is enough") {
     CHECK(explained("time_step") == explained("step.time_step"));
     const std::string both = explained("friction");

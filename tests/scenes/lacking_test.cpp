@@ -6,8 +6,8 @@
 using namespace percale::scenes;
 
 TEST_CASE("keys and words that this build lacks are known as such") {
-    for (const char* path : {"fabric.preset", "fabric.stretch_stiffness", "fabric.shear_stiffness",
-                             "fabric.bend_stiffness", "fabric.damping_time", "cloth.pattern", "event.wind", "event.detach"}) {
+    for (const char* path : {"fabric.preset", "fabric.stretch_stiffness", "fabric.shear_stiffness", "fabric.bend_stiffness",
+                             "fabric.damping_time", "cloth.pattern", "event.wind", "event.detach"}) {
         CAPTURE(path);
         CHECK(lacks_key(path));
         CHECK(find_scene_key(path) == nullptr);

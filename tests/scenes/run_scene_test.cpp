@@ -47,6 +47,34 @@ Recorded record(const Scene& scene) {
 
 }  // namespace
 
+TEST_CASE("adaptive steps end at every frame and every event, and at the scene's end") {
+    // Frames at multiples of 1/43 s, an event between them, an end beside them.
+    const std::string event =
+        "[[event]]\ntime = 0.0537\nmove = { cloth = \"sheet\", vertices = [0], to = [0.0, 0.01, 0.0], over = 0.02 }\n";
+    const Recorded recorded = record(scene_of(sheet_on_box() + event, {{"step.time_step", "auto"},
+                                                                       {"step.tolerance", "0.01"},
+                                                                       {"duration", "0.11"},
+                                                                       {"cloth.sheet.pin", "[0]"},
+                                                                       {"output.fps", "43"}}));
+    REQUIRE(recorded.result.status == RunStatus::finished);
+    REQUIRE(recorded.frames.size() == 5);
+    for (const Frame& frame : recorded.frames) CHECK(frame.time == Approx(frame.index / 43.0).epsilon(1e-12));
+    CHECK(recorded.result.totals.simulated_s == Approx(0.11).epsilon(1e-12));
+    bool at_event = false;
+    int parts = 0, rejected = 0;
+    for (const StepReport& report : recorded.steps) {
+        at_event = at_event || std::abs(report.time - 0.0537) < 1e-12;
+        parts += report.parts;
+        rejected += report.rejected + report.halvings;
+        CHECK(report.dt <= 1.0 / 60.0 + 1e-12);
+    }
+    CHECK(at_event);
+    CHECK(recorded.result.totals.steps == parts);
+    CHECK(recorded.result.totals.rejected_steps == rejected);
+    CHECK(recorded.result.totals.smallest_step_s < recorded.result.totals.largest_step_s);
+    CHECK(recorded.result.measures.intersections == 0);
+}
+
 TEST_CASE("a duration that is a multiple of the step up to rounding takes only full steps") {
     CHECK(count_steps(2.0, 1.0 / 60.0).steps == 120);
     CHECK(count_steps(2.0, 0.016666666666666666).last_dt == 0.016666666666666666);

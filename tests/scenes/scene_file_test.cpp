@@ -68,7 +68,17 @@ TEST_CASE("top-level keys, steps and output are read") {
     CHECK(scene.output.fps == 60.0);
 }
 
+TEST_CASE("a time step of auto means adaptive steps, by tr_bdf2 unless a scheme is set") {
+    const Scene scene = scene_set("step.time_step", "auto");
+    CHECK(scene.step.adaptive);
+    CHECK(scene.step.time_step == StepSettings{}.time_step);
+    CHECK_FALSE(scene_set("step.time_step", "0.01").step.adaptive);
+    CHECK(scene_set("step.tolerance", "1e-4").step.tolerance == 1e-4);
+}
+
 TEST_CASE("every word of a choice means its value") {
+    CHECK(scene_set("step.scheme", "tr_bdf2").step.scheme == Scheme::tr_bdf2);
+    CHECK(scene_set("step.scheme", "auto").step.scheme == Scheme::automatic);
     CHECK(scene_set("step.scheme", "symplectic_euler").step.scheme == Scheme::symplectic_euler);
     CHECK(scene_set("step.scheme", "backward_euler").step.scheme == Scheme::backward_euler);
     CHECK(scene_set("step.linear_solver", "auto").step.linear_solver == LinearSolver::automatic);

@@ -54,8 +54,8 @@ TEST_CASE("a run lists what its plan lists") {
     BuiltScene scene = built(sheet_on_box() + pin_event);
     const ScenePlan plan = plan_of(scene);
     const RunResult result = run_scene(scene);
-    REQUIRE(result.skipped.size() == plan.skipped.size());
-    for (std::size_t i = 0; i < plan.skipped.size(); ++i) CHECK(result.skipped[i].what == plan.skipped[i].what);
+    REQUIRE(result.plan.skipped.size() == plan.skipped.size());
+    for (std::size_t i = 0; i < plan.skipped.size(); ++i) CHECK(result.plan.skipped[i].what == plan.skipped[i].what);
 }
 
 TEST_CASE("a run that skips nothing ends where one ends that skips what it can") {
@@ -83,6 +83,21 @@ TEST_CASE("a scene without obstacles has a detector only if nothing is skipped, 
     run_scene(whole);
     const auto reference = whole.simulation.positions(whole.cloths[0]);
     CHECK(largest_vertex_distance(skipping.simulation, skipping.cloths, reference) < 1e-9);
+}
+
+TEST_CASE("a plan says which scheme was chosen and why, and warns of steps that are too long") {
+    const BuiltScene open = built(falling_sheet(), {{"step.scheme", "auto"}});
+    CHECK(plan_text(open).find(plan_of(open).scheme_reason) != std::string::npos);
+    CHECK(nlohmann::json::parse(plan_json(open)).at("scheme_reason") == plan_of(open).scheme_reason);
+    CHECK(plan_of(open).scheme != Scheme::automatic);
+    CHECK(plan_of(open).warnings.empty());
+    const BuiltScene stiff = built(falling_sheet(), {{"fabric.sheet.springs.structural", "1e5"}});
+    REQUIRE(plan_of(stiff).warnings.size() == 1);
+    CHECK(plan_text(stiff).find("warning    " + plan_of(stiff).warnings[0]) != std::string::npos);
+    CHECK(nlohmann::json::parse(plan_json(stiff)).at("warnings").size() == 1);
+    const BuiltScene adaptive = built(sheet_on_box(), {{"step.time_step", "auto"}, {"step.tolerance", "0.002"}});
+    CHECK(plan_text(adaptive).find("an error of 0.002 m a second allows, tr_bdf2") != std::string::npos);
+    CHECK(nlohmann::json::parse(plan_json(adaptive)).at("time_step_s") == "auto");
 }
 
 TEST_CASE("text and JSON say the same") {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "percale/fabric.h"
@@ -33,6 +34,9 @@ struct Option {
 
 std::span<const Option<Fabric>> fabric_options();
 std::span<const Option<StepSettings>> step_options();
+
+/// The schemes, one line each: order, kind, contact, cost and stability.
+std::string scheme_table_text();
 
 /// Throw SceneError naming `owner_name`, the key, the value and the allowed range.
 void check_options(const Fabric& fabric, std::string_view owner_name);

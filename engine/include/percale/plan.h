@@ -29,6 +29,7 @@ struct SpringCounts {
 /// What the steps of a simulation will be made of, known without running one.
 struct ScenePlan {
     Scheme scheme = Scheme::backward_euler;  // the one chosen, where the settings leave it open
+    std::string scheme_word = {};            // as in a scene file
     std::string scheme_reason = {};          // why, where they do
     double stable_step = 0.0;                // s, longest stable one of the scheme, estimated; infinity if it is always stable
     std::vector<std::string> warnings = {};  // what will go wrong or be inexact

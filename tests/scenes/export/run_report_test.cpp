@@ -53,6 +53,8 @@ TEST_CASE("a report holds every entry that users may rely on") {
                             "peak_memory_bytes",
                             "stages",
                             "obstacles",
+                            "scheme",
+                            "warnings",
                             "skipped",
                             "contacts_most",
                             "contact_stiffness",

@@ -1,0 +1,131 @@
+#include "scheme_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/plan_costs.h"
+#include "model/schemes.h"
+
+namespace percale {
+namespace {
+
+constexpr int power_iterations = 40;
+constexpr double safety = 0.8;                // of the estimated stable step
+constexpr double usual_implicit = 1.0 / 240;  // s, of adaptive TR-BDF2
+constexpr double most_stiff = 10.0;           // w dt of the trapezoid
+constexpr int fine_sheet = 4000;              // vertices
+
+std::string number_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", value);
+    return text;
+}
+
+/// y = K x with the springs' blocks c d d^T, c stiffness or damping.
+void multiply(const World& world, const std::vector<double>& constant, const Vectors& x, Vectors& y) {
+    const SpringNetwork& springs = world.model.springs;
+    y.resize(world.model.vertex_count());
+    for (int k = 0; k < springs.size(); ++k) {
+        const int i = springs.first[k], j = springs.second[k];
+        const Vec3 span = world.state.positions.at(i) - world.state.positions.at(j);
+        const double length = span.norm();
+        if (length == 0.0) continue;
+        const Vec3 pull = constant[k] * span.dot(x.at(i) - x.at(j)) / (length * length) * span;
+        y.add(i, pull);
+        y.add(j, -pull);
+    }
+}
+
+/// Largest eigenvalue of M^-1 K by power iteration; prescribed vertices stay.
+double largest_eigenvalue(const World& world, const std::vector<double>& constant) {
+    const int count = world.model.vertex_count();
+    Vectors x, y;
+    x.resize(count);
+    // Neighbours of opposite sign in most places, and no symmetry: rich in what is stiffest.
+    for (int i = 0; i < count; ++i) x.set(i, Vec3(std::sin(2.9 * i + 1.0), std::sin(2.3 * i + 2.0), std::sin(2.6 * i + 3.0)));
+    double value = 0.0;
+    for (int iteration = 0; iteration < power_iterations; ++iteration) {
+        const double size = std::sqrt(sum_terms(0, count, [&](int i) { return square_at(x, i); }));
+        if (size == 0.0) return 0.0;
+        multiply(world, constant, x, y);
+        for (int i = 0; i < count; ++i) y.set(i, world.script.free[i] / world.model.mass[i] * y.at(i));
+        value = std::sqrt(sum_terms(0, count, [&](int i) { return square_at(y, i); })) / size;
+        for (int i = 0; i < count; ++i) x.set(i, value > 0.0 ? Vec3(y.at(i) / (value * size)) : Vec3(Vec3::Zero()));
+    }
+    return value;
+}
+
+std::string word(Scheme scheme) { return std::string(facts_of(scheme).word); }
+
+/// Cost of a second by an implicit scheme, in evaluations of all springs.
+double implicit_cost(const World& world, const SceneFacts& facts, Scheme scheme, double dt) {
+    StepSettings settings = world.settings;
+    settings.scheme = scheme;
+    return predicted_evaluations(make_step_plan(settings, facts), settings) / dt;
+}
+
+bool has_contact(const World& world) {
+    return !world.script.obstacles.empty() || std::any_of(world.model.cloths.begin(), world.model.cloths.end(),
+                                                          [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
+}
+
+}  // namespace
+
+double stable_step(const World& world, Scheme scheme) {
+    const double limit = facts_of(scheme).stable_up_to;
+    if (limit == 0.0 || std::isinf(limit)) return limit;
+    const double square = largest_eigenvalue(world, world.model.springs.stiffness);
+    if (square == 0.0) return std::numeric_limits<double>::infinity();
+    const double damping = largest_eigenvalue(world, world.model.springs.damping);
+    // Symplectic Euler with damping explicit: (w dt)^2 + 2 c dt < 4, c the eigenvalue of damping; likewise with another limit.
+    return (std::sqrt(damping * damping + limit * limit * square) - damping) / square;
+}
+
+SchemeChoice choose_scheme(const World& world, const SceneFacts& facts) {
+    const bool adaptive = world.settings.adaptive;
+    const Scheme implicit = adaptive ? Scheme::tr_bdf2 : Scheme::backward_euler;
+    if (has_contact(world)) return {implicit, 1, "explicit schemes take no contact"};
+    const Scheme short_steps = adaptive ? Scheme::rk4 : Scheme::symplectic_euler;
+    const double stable = safety * stable_step(world, short_steps), dt = world.settings.time_step;
+    const double parts = adaptive ? 1.0 : std::max(1.0, std::ceil(dt / stable));
+    const double tries = adaptive ? 3.0 : 1.0;  // a whole step and two halves
+    const double length = adaptive ? stable : dt / parts;
+    const double explicit_cost = tries * facts_of(short_steps).force_evaluations / length;
+    const double other_cost = implicit_cost(world, facts, implicit, adaptive ? std::min(dt, usual_implicit) : dt);
+    const bool cheaper = explicit_cost < other_cost;
+    std::string reason = "a second of " + word(short_steps) + " in steps of " + number_text(length) + " s costs " +
+                         number_text(explicit_cost) + " evaluations of all springs, one of " + word(implicit) + " " +
+                         number_text(other_cost);
+    return {cheaper ? short_steps : implicit, cheaper ? static_cast<int>(parts) : 1, std::move(reason)};
+}
+
+std::vector<std::string> step_warnings(const World& world, const StepPlan& plan) {
+    std::vector<std::string> warnings;
+    const double dt = world.settings.time_step / plan.parts;
+    const std::string step = "time_step " + number_text(dt) + " s";
+    if (!plan.implicit && !world.settings.adaptive) {
+        const double stable = stable_step(world, plan.scheme);
+        if (stable == 0.0)
+            warnings.push_back(word(plan.scheme) + " makes every oscillation grow; use rk4 or an implicit scheme");
+        else if (dt > stable) {
+            warnings.push_back(step + " is longer than the longest stable one of " + word(plan.scheme) + ", about " +
+                               number_text(stable) + " s: the cloth will fly apart");
+        }
+    }
+    if (plan.scheme == Scheme::trapezoid && !world.settings.adaptive) {
+        const double stiff = dt * std::sqrt(largest_eigenvalue(world, world.model.springs.stiffness));
+        if (stiff > most_stiff) {
+            warnings.push_back(step + " is " + number_text(stiff) +
+                               " over the highest frequency: what is as stiff rings under the "
+                               "trapezoid and can gain energy; use tr_bdf2");
+        }
+    }
+    if (plan.implicit && world.settings.newton_iterations == 1 && world.model.vertex_count() > fine_sheet) {
+        warnings.push_back("newton_iterations = 1 with " + std::to_string(world.model.vertex_count()) +
+                           " vertices: one linear solve leaves fine cloth far from the end of its step; allow more");
+    }
+    return warnings;
+}
+
+}  // namespace percale

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "world.h"
+
+namespace percale {
+
+/// Estimated longest stable step of a scheme for the cloth as it is now, s: stable_up_to/w with the largest angular frequency w
+/// of the springs, shorter where damping takes its share. Infinity for schemes that are always stable, 0 for those that never
+/// are.
+double stable_step(const World& world, Scheme scheme);
+
+/// What stands for Scheme::automatic, and why.
+struct SchemeChoice {
+    Scheme scheme = Scheme::backward_euler;
+    int parts = 1;  // equal ones that a step of an explicit scheme is made in
+    std::string reason = {};
+};
+
+/// Without contact the explicit scheme if all its short steps cost less than one implicit step by the fixed cost model
+/// (plan_costs.h): symplectic_euler against backward_euler; of adaptive steps rk4 against tr_bdf2.
+SchemeChoice choose_scheme(const World& world, const SceneFacts& facts);
+
+/// What the settings will make go wrong or inexact, one sentence each.
+std::vector<std::string> step_warnings(const World& world, const StepPlan& plan);
+
+}  // namespace percale

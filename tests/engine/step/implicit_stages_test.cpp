@@ -1,0 +1,158 @@
+#include "engine/step/implicit_stages.h"
+
+#include <cmath>
+
+#include "engine/step/scripted_motion.h"
+#include "engine/step/step.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+#include "tests/support/plane_detector.h"
+
+namespace percale::test {
+namespace {
+
+constexpr std::array implicit_schemes = {Scheme::backward_euler, Scheme::implicit_midpoint, Scheme::trapezoid, Scheme::bdf2,
+                                         Scheme::tr_bdf2};
+
+World sheet(const StepSettings& settings, double height = 0.0) {
+    TriangleMesh grid = make_grid(0.2, 0.2, 5, 5);
+    for (Vec3& x : grid.vertices) x.y() += height;
+    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, settings);
+    world.before = world.state;
+    return world;
+}
+
+/// A sheet above a plane at 0.
+World sheet_over_plane(const StepSettings& settings, double height) {
+    World world = sheet(settings, height);
+    world.detector = std::make_unique<PlaneDetector>();
+    world.detector->set_cloth(world.model.triangles, world.model.thickness);
+    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
+    world.script.obstacles.push_back({"plane", {}, {}});
+    return world;
+}
+
+double mean_height_rate(const World& world) {
+    double sum = 0.0;
+    for (int i = 0; i < world.model.vertex_count(); ++i) sum += world.model.mass[i] * world.state.velocities.y[i];
+    return sum / world.model.cloths[0].mass;
+}
+
+}  // namespace
+
+TEST_CASE("A span goes to its end only, its pins to where they are then, and can be taken back") {
+    for (const Scheme scheme : implicit_schemes) {
+        World world = sheet({.scheme = scheme, .newton_tolerance = 1e-8});
+        world.script.free[0] = 0.0;
+        world.script.pin_targets.set(0, world.state.positions.at(0) + Vec3(0.01, 0, 0));
+        const ClothState start = world.state;
+        set_targets(world);
+        REQUIRE(solve_implicit_span(world, {0.0, 0.5}, false) == NewtonEnd::converged);
+        CAPTURE(static_cast<int>(scheme));
+        CHECK((world.state.positions.at(0) - start.positions.at(0) - Vec3(0.005, 0, 0)).norm() < 1e-15);
+        CHECK((world.state.velocities.at(0) - Vec3(0.6, 0, 0)).norm() < 1e-12);
+        CHECK(world.state.velocities.y[24] == Approx(-9.81 / 120.0).epsilon(0.01));
+        restore_span_start(world);
+        CHECK(same_bits(world.state.positions, start.positions));
+        CHECK(same_bits(world.state.velocities, start.velocities));
+        CHECK(world.state.points == start.points);
+    }
+}
+
+TEST_CASE("BDF2 is the same whether a span is solved at once or its history is forgotten, to its order") {
+    World kept = sheet({.time_step = 1e-3, .scheme = Scheme::bdf2, .newton_tolerance = 1e-10});
+    World forgetful = sheet({.time_step = 1e-3, .scheme = Scheme::bdf2, .newton_tolerance = 1e-10});
+    for (World* world : {&kept, &forgetful}) {
+        world->script.free[0] = 0.0;
+        for (int n = 0; n < 20; ++n) {
+            if (world == &forgetful) world->stages.earlier_length = 0.0;
+            REQUIRE(step(*world).status == StepStatus::ok);
+        }
+    }
+    CHECK(kept.stages.earlier_length == 1e-3);
+    const double apart = largest_difference(kept.state.points, forgetful.state.points);
+    CHECK(apart > 0.0);
+    CHECK(apart < 1e-5);
+}
+
+TEST_CASE("TR-BDF2 on a plane: no energy is gained, impacts die out, cloth at rest stays at rest") {
+    World world = sheet_over_plane({.time_step = 1.0 / 120.0, .scheme = Scheme::tr_bdf2}, 0.05);
+    double energy = 0.2 * 0.04 * 9.81 * 0.05, rebound = 0.0;
+    bool met = false;
+    for (int n = 0; n < 120; ++n) {
+        const StepReport report = step(world);
+        REQUIRE(report.ok());
+        CHECK(report.energy.total() <= energy + 1e-9);
+        energy = report.energy.total();
+        met = met || report.contacts > 0;
+        if (met) rebound = std::max(rebound, mean_height_rate(world));
+        CHECK(report.smallest_distance > 0.0);
+    }
+    CHECK(met);
+    CHECK(rebound < 0.35);  // of 1 m/s
+    CHECK(std::abs(mean_height_rate(world)) < 1e-4);
+    CHECK(world.state.positions.y[12] > 0.74 * 0.005);
+    CHECK(world.state.positions.y[12] < 0.005);
+}
+
+TEST_CASE("A moving plane lifts cloth by TR-BDF2 and does the work that the energy gained") {
+    World world = sheet_over_plane({.time_step = 1.0 / 240.0, .scheme = Scheme::tr_bdf2}, 0.00375);
+    double work = 0.0, before = 0.0, after = 0.0;
+    for (int n = 0; n < 60; ++n) {
+        ObstacleState& plane = world.script.obstacles[0];
+        plane.end.translation = Vec3(0, 0.2 * (n + 1) / 240.0, 0);
+        const StepReport report = step(world);
+        REQUIRE(report.ok());
+        if (n == 29) before = report.energy.total();
+        if (n > 29) work += report.energy.work;
+        after = report.energy.total();
+    }
+    CHECK(after - before == Approx(0.2 * 0.04 * 9.81 * 0.2 * 30.0 / 240.0).epsilon(0.02));
+    CHECK(work == Approx(after - before).epsilon(0.05));
+}
+
+TEST_CASE("A stage that fails is redone in halves by every scheme") {
+    for (const Scheme scheme : implicit_schemes) {
+        World world = sheet({.time_step = 1.0 / 60.0, .scheme = scheme, .newton_tolerance = 1e-6, .newton_iterations = 3});
+        Random random(5);
+        for (int i = 0; i < 25; ++i) world.state.velocities.set(i, random.point(2.0));
+        const StepReport report = step(world);
+        CAPTURE(static_cast<int>(scheme), report.residual);
+        CHECK(report.status == StepStatus::halved);
+        CHECK(report.smallest_dt < 1.0 / 60.0);
+    }
+}
+
+TEST_CASE("The error that adaptive steps estimate is near the true one") {
+    for (const Scheme scheme : implicit_schemes) {
+        const auto pendulum = [&](const StepSettings& settings) {
+            World world = linked_world(linked_masses({0.1, 0.2}, {{0, 1, 1.0, 50.0, 0.3}}), {Vec3(0, 0, 0), Vec3(1.2, 0, 0)}, {0},
+                                       settings);
+            world.state.velocities.set(1, Vec3(0.5, -0.3, 0.2));
+            world.before = world.state;
+            set_targets(world);
+            return world;
+        };
+        World world = pendulum({.time_step = 0.02, .adaptive = true, .scheme = scheme, .newton_tolerance = 1e-10});
+        World exact = pendulum({.time_step = 1e-4, .scheme = Scheme::rk4});
+        if (scheme == Scheme::bdf2) {  // its first step is one of TR-BDF2
+            for (World* one : {&world, &exact}) REQUIRE(one->plan.implicit == (one == &world));
+            solve_implicit_span(world, {0.0, 0.5}, true);
+            world.stages.error = 0.0;
+            for (int n = 0; n < 100; ++n) REQUIRE(step(exact).ok());
+            const Vec3 off = world.state.positions.at(1) - exact.state.positions.at(1);
+            solve_implicit_span(world, {0.5, 1.0}, true);
+            for (int n = 0; n < 100; ++n) REQUIRE(step(exact).ok());
+            CHECK(off.norm() < 1e-5);
+        } else {
+            solve_implicit_span(world, {0.0, 1.0}, true);
+            for (int n = 0; n < 200; ++n) REQUIRE(step(exact).ok());
+        }
+        const double error = (world.state.positions.at(1) - exact.state.positions.at(1)).norm() * std::sqrt(0.2 / 0.3);
+        CAPTURE(static_cast<int>(scheme), error, world.stages.error);
+        CHECK(world.stages.error > 0.4 * error);
+        CHECK(world.stages.error < 4.0 * error);
+    }
+}
+
+}  // namespace percale::test
