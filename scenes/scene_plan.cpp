@@ -48,7 +48,7 @@ std::string springs_text(const SpringCounts& springs) {
 
 std::string steps_text(const Scene& scene) {
     const StepSettings& step = scene.step;
-    if (step.adaptive) return "as long as an error of " + short_number(step.tolerance) + " m a second allows";
+    if (step.adaptive) return "steps as long as an error of " + short_number(step.tolerance) + " m a second allows";
     const StepCount count = count_steps(scene.duration, step.time_step);
     return counted(count.steps, "step") + " of " + short_number(step.time_step) + " s";
 }

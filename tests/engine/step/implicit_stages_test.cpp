@@ -42,7 +42,7 @@ double mean_height_rate(const World& world) {
 
 TEST_CASE("A span goes to its end only, its pins to where they are then, and can be taken back") {
     for (const Scheme scheme : implicit_schemes) {
-        World world = sheet({.scheme = scheme, .newton_tolerance = 1e-8});
+        World world = sheet({.scheme = scheme});
         world.script.free[0] = 0.0;
         world.script.pin_targets.set(0, world.state.positions.at(0) + Vec3(0.01, 0, 0));
         const ClothState start = world.state;
@@ -126,7 +126,7 @@ TEST_CASE("A stage that fails is redone in halves by every scheme") {
 TEST_CASE("The error that adaptive steps estimate is near the true one") {
     for (const Scheme scheme : implicit_schemes) {
         const auto pendulum = [&](const StepSettings& settings) {
-            World world = linked_world(linked_masses({0.1, 0.2}, {{0, 1, 1.0, 50.0, 0.3}}), {Vec3(0, 0, 0), Vec3(1.2, 0, 0)}, {0},
+            World world = linked_world(linked_masses({0.1, 0.2}, {{0, 1, 1.0, 50.0, 0.3}}), {Vec3(0, 0, 0), Vec3(1.0, 0, 0)}, {0},
                                        settings);
             world.state.velocities.set(1, Vec3(0.5, -0.3, 0.2));
             world.before = world.state;
