@@ -95,13 +95,13 @@ void check_errors(const char* name, Run (*scene)(const StepSettings&), const std
 
 }  // namespace
 
-TEST_CASE("Adaptive TR-BDF2 errs by no more than three times what was asked for") {
+TEST_CASE("Adaptive TR-BDF2 errs by no more than three times what was asked for", "[law]") {
     const StepSettings fine{.time_step = 1e-4, .scheme = Scheme::rk4};
     check_errors("hanging sheet", hanging_sheet, hanging_sheet(fine).positions, {1e-2, 1e-3});
     check_errors("taut sheet", taut_sheet, taut_sheet(fine).positions, {1e-2, 1e-3, 1e-4});
 }
 
-TEST_CASE("Adaptive TR-BDF2 slides as steps a hundred times more exact do") {
+TEST_CASE("Adaptive TR-BDF2 slides as steps a hundred times more exact do", "[law]") {
     const Run exact = sliding_sheet({.adaptive = true, .tolerance = 1e-6, .scheme = Scheme::tr_bdf2});
     check_errors("sliding sheet", sliding_sheet, exact.positions, {1e-2, 1e-3});
 }

@@ -59,7 +59,7 @@ TEST_CASE("The energy ledger of a sheet on a ball that rises and turns closes", 
                                             .rotation = {std::cos(angle), 0.0, std::sin(angle), 0.0}});
             ledger.step(simulation);
         }
-        CHECK(ledger.contacts > 10);
+        CHECK(ledger.contacts > 5);
         CHECK(ledger.sum.work > 0.0);
         CHECK(ledger.sum.dissipated_friction > 0.0);
         check_law("ledger of a sheet on a moving ball, " + form(response) + ": worst step, of its largest term", ledger.worst,
@@ -95,7 +95,7 @@ TEST_CASE("The energy ledger closes through the halved steps of a sheet that a f
         simulation.move_obstacle(ball, {.translation = Vec3(0, 0.1 * n, 0)});
         ledger.step(simulation);
     }
-    CHECK(ledger.contacts > 10);
+    CHECK(ledger.contacts > 5);
     CHECK(ledger.halved > 0);
     check_law("ledger of a sheet hit at 6 m/s, " + std::to_string(ledger.halved) + " steps halved: worst step", ledger.worst,
               1e-10);

@@ -21,13 +21,6 @@ SolverScene pair_of_masses(double stretch, double stiffness, double damping, con
 
 Vec3 span(const SolverScene& scene) { return scene.state.positions.at(0) - scene.state.positions.at(1); }
 
-/// How far n steps of free fall lead, in g dt^2: schemes of first order move with the velocity at one end of the step.
-double fallen(Scheme scheme, int n) {
-    if (scheme == Scheme::forward_euler) return 0.5 * n * (n - 1);
-    const bool late = scheme == Scheme::symplectic_euler || scheme == Scheme::backward_euler;
-    return late ? 0.5 * n * (n + 1) : 0.5 * n * n;
-}
-
 /// Links whose ends are in general positions, thrown about.
 World thrown_links(const StepSettings& settings, double damping) {
     Random random(17);
@@ -91,19 +84,6 @@ TEST_CASE("A damped pair follows the damped oscillator while its centre falls fr
     }
     check_law("damped pair, RK4: distance from the damped oscillator, m", worst, 1e-8);
     check_law("damped pair, RK4: distance of its centre from free fall, m", worst_centre, 1e-11);
-}
-
-TEST_CASE("Free fall is each scheme's parabola", "[law]") {
-    for (const Scheme scheme : all_schemes) {
-        World world = make_world(linked_masses({0.1}, {}), {Vec3(1, 2, 3)}, {.time_step = 0.01, .scheme = scheme});
-        double worst = 0.0;
-        for (int n = 1; n <= 100; ++n) {
-            REQUIRE(step(world).ok());
-            const Vec3 exact(1.0, 2.0 - 9.81 * 1e-4 * fallen(scheme, n), 3.0);
-            worst = std::max(worst, (world.state.positions.at(0) - exact).norm());
-        }
-        check_law("free fall, " + std::string(facts_of(scheme).word) + ": distance from the exact sum, m", worst, 1e-11);
-    }
 }
 
 TEST_CASE("Cloth with rusty springs falls as cloth with clean ones, in every scheme", "[law]") {

@@ -58,7 +58,7 @@ TEST_CASE("The table has one entry a scheme, in the order of the enum, named as 
     }
 }
 
-TEST_CASE("Symplectic Euler keeps the amplitude and turns by 2 asin(a/2) a step") {
+TEST_CASE("Symplectic Euler keeps the amplitude and turns by 2 asin(a/2) a step", "[law]") {
     for (const double a : {0.1, 0.5, 1.0, 1.9}) {
         const std::complex<double> r = amplification(Scheme::symplectic_euler, a);
         CHECK(std::abs(r) == Approx(1.0).epsilon(1e-12));
@@ -66,7 +66,7 @@ TEST_CASE("Symplectic Euler keeps the amplitude and turns by 2 asin(a/2) a step"
     }
 }
 
-TEST_CASE("RK4 turns and damps by the exponential series to fourth order") {
+TEST_CASE("RK4 turns and damps by the exponential series to fourth order", "[law]") {
     for (const double a : {0.1, 0.5, 1.0, 2.5}) {
         const std::complex<double> z(0.0, a), r = amplification(Scheme::rk4, a);
         const std::complex<double> expected = 1.0 + z + z * z / 2.0 + z * z * z / 6.0 + z * z * z * z / 24.0;
@@ -75,7 +75,7 @@ TEST_CASE("RK4 turns and damps by the exponential series to fourth order") {
     }
 }
 
-TEST_CASE("Backward Euler damps by 1/sqrt(1 + a^2) and turns by atan(a) a step, at every a") {
+TEST_CASE("Backward Euler damps by 1/sqrt(1 + a^2) and turns by atan(a) a step, at every a", "[law]") {
     for (const double a : {0.1, 0.5, 1.0, 10.0, 1000.0}) {
         const std::complex<double> r = amplification(Scheme::backward_euler, a);
         CHECK(std::abs(r) == Approx(1.0 / std::sqrt(1.0 + a * a)).epsilon(1e-6));
@@ -83,14 +83,14 @@ TEST_CASE("Backward Euler damps by 1/sqrt(1 + a^2) and turns by atan(a) a step, 
     }
 }
 
-TEST_CASE("Forward Euler grows by sqrt(1 + a^2), the explicit midpoint by sqrt(1 + a^4/4) a step") {
+TEST_CASE("Forward Euler grows by sqrt(1 + a^2), the explicit midpoint by sqrt(1 + a^4/4) a step", "[law]") {
     for (const double a : {0.1, 0.5, 1.0, 1.9}) {
         CHECK(std::abs(amplification(Scheme::forward_euler, a)) == Approx(std::sqrt(1.0 + a * a)).epsilon(1e-10));
         CHECK(std::abs(amplification(Scheme::midpoint, a)) == Approx(std::sqrt(1.0 + a * a * a * a / 4.0)).epsilon(1e-10));
     }
 }
 
-TEST_CASE("Trapezoid and implicit midpoint keep the amplitude and turn by 2 atan(a/2) a step") {
+TEST_CASE("Trapezoid and implicit midpoint keep the amplitude and turn by 2 atan(a/2) a step", "[law]") {
     for (const Scheme scheme : {Scheme::trapezoid, Scheme::implicit_midpoint}) {
         for (const double a : {0.1, 0.5, 1.0, 10.0}) {
             const std::complex<double> r = amplification(scheme, a);
@@ -101,7 +101,7 @@ TEST_CASE("Trapezoid and implicit midpoint keep the amplitude and turn by 2 atan
     }
 }
 
-TEST_CASE("TR-BDF2 amplifies by (1 + (1 - 2h') z) / (1 - h' z)^2, which vanishes for large a") {
+TEST_CASE("TR-BDF2 amplifies by (1 + (1 - 2h') z) / (1 - h' z)^2, which vanishes for large a", "[law]") {
     const double h = 1.0 - std::sqrt(0.5);
     for (const double a : {0.1, 0.5, 1.0, 10.0, 30.0}) {
         const std::complex<double> z(0.0, a), r = amplification(Scheme::tr_bdf2, a);
@@ -112,7 +112,7 @@ TEST_CASE("TR-BDF2 amplifies by (1 + (1 - 2h') z) / (1 - h' z)^2, which vanishes
     }
 }
 
-TEST_CASE("Each scheme is stable up to where the table says and not beyond") {
+TEST_CASE("Each scheme is stable up to where the table says and not beyond", "[law]") {
     for (const Scheme scheme : all_schemes) {
         const SchemeFacts& facts = facts_of(scheme);
         CAPTURE(facts.word);
