@@ -9,7 +9,8 @@
 namespace percale {
 namespace {
 
-constexpr std::string_view scheme_words[] = {"symplectic_euler", "rk4", "backward_euler"};
+constexpr std::string_view scheme_words[] = {"forward_euler",     "symplectic_euler", "midpoint", "rk4",     "backward_euler",
+                                             "implicit_midpoint", "trapezoid",        "bdf2",     "tr_bdf2", "auto"};
 constexpr std::string_view solver_words[] = {"auto", "cg", "multigrid", "direct"};
 constexpr std::string_view response_words[] = {"penalty", "projection"};
 constexpr std::string_view damping_words[] = {"length_rate", "velocity"};
@@ -68,13 +69,24 @@ constexpr Option<Fabric> fabric_list[] = {
 constexpr Option<StepSettings> step_list[] = {
     {.key = "time_step",
      .unit = "s",
-     .sentence = "Length of a step.",
+     .sentence = "Length of a step; auto = as long as `tolerance` allows, 1/60 s at most.",
      .lowest = 1e-7,
      .highest = 1.0,
-     .number = [](StepSettings& s) { return &s.time_step; }},
+     .number = [](StepSettings& s) { return &s.time_step; },
+     .automatic = [](StepSettings& s) { return &s.adaptive; }},
+    {.key = "tolerance",
+     .unit = "m",
+     .sentence = "Requested error of positions, in the mean over a cloth, for each second of simulation; used where time_step is "
+                 "auto.",
+     .lowest = 1e-9,
+     .highest = 1.0,
+     .number = [](StepSettings& s) { return &s.tolerance; }},
     {.key = "scheme",
      .unit = "",
-     .sentence = "Time integration; the explicit ones (symplectic_euler, rk4) need small steps and take no obstacles.",
+     .sentence =
+         "Time integration: forward_euler, symplectic_euler, midpoint and rk4 are explicit and need small steps, the others "
+         "are implicit; backward_euler and tr_bdf2 take obstacles and self_contact; auto = symplectic_euler where that "
+         "is cheaper, else backward_euler.",
      .choices = scheme_words,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.scheme); },
      .set_choice = [](StepSettings& s, int i) { s.scheme = static_cast<Scheme>(i); }},

@@ -127,11 +127,18 @@ struct Simulation::Implementation {
     }
 
     void check_scheme() const {
-        if (facts_of(world.settings.scheme).implicit) return;
-        if (!world.script.obstacles.empty()) {
-            throw SceneError("an explicit scheme takes no obstacles; use scheme backward_euler");
+        if (world.settings.scheme == Scheme::automatic) return;
+        const SchemeFacts& scheme = facts_of(world.settings.scheme);
+        const bool meets = meets_cloth(), any = meets || !world.script.obstacles.empty();
+        if (!any) return;
+        if (!scheme.contact) {
+            const std::string kind = scheme.implicit ? std::string(scheme.word) : "an explicit scheme";
+            throw SceneError(kind + " takes no " + (meets ? "self_contact" : "obstacles") +
+                             "; use scheme backward_euler or tr_bdf2");
         }
-        if (meets_cloth()) throw SceneError("an explicit scheme takes no self_contact; use scheme backward_euler");
+        if (world.settings.contact_response == ContactResponse::projection && scheme.scheme != Scheme::backward_euler) {
+            throw SceneError("contact_response projection needs scheme backward_euler, not " + std::string(scheme.word));
+        }
     }
 };
 
@@ -274,6 +281,7 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     update_points(world.state);
     implementation_->update_views();
     world.contact_energy = 0.0;  // known again after the next step
+    world.stages.earlier_length = 0.0;
     world.changed = true;
     wake(world.rest);
 }
@@ -290,6 +298,7 @@ void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities)
         const bool free = world.script.free[range.index_of(i)] > 0.0;
         world.state.velocities.set(range.index_of(i), free ? velocities[i] : Vec3(Vec3::Zero()));
     }
+    world.stages.earlier_length = 0.0;
     wake(world.rest);
 }
 

@@ -12,15 +12,10 @@ struct Lacking {
     std::span<const std::string_view> words = {};
 };
 
-constexpr std::string_view schemes[] = {"forward_euler", "midpoint", "implicit_midpoint", "trapezoid", "bdf2", "tr_bdf2", "auto"};
-constexpr std::string_view time_steps[] = {"auto"};
 constexpr std::string_view frame_formats[] = {"ply", "glb", "pc2", "mdd", "vtp"};
 
 constexpr Lacking lacking[] = {
-    {.path = "step.scheme", .words = schemes},
-    {.path = "step.time_step", .words = time_steps},
     {.path = "output.frames", .words = frame_formats},
-    {.path = "step.tolerance"},
     {.path = "fabric.preset"},
     {.path = "fabric.stretch_stiffness"},
     {.path = "fabric.shear_stiffness"},

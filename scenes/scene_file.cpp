@@ -29,7 +29,8 @@ void read_option(const TomlNode& table, const Option<Owner>& option, Owner& owne
     const TomlNode* node = find_value(table, option.key);
     if (node == nullptr) return;
     if (option.number) {
-        *option.number(owner) = node->number;
+        if (node->is_number()) *option.number(owner) = node->number;
+        if (option.automatic) *option.automatic(owner) = !node->is_number();
     } else if (option.integer) {
         *option.integer(owner) = static_cast<int>(node->integer);
     } else if (option.flag) {

@@ -29,7 +29,7 @@ SceneKey option_key(const std::string& table, const Option<Owner>& option) {
     key.choices.assign(option.choices.begin(), option.choices.end());
     Owner defaults;
     if (option.number) {
-        key.kind = KeyKind::number;
+        key.kind = option.automatic ? KeyKind::number_or_auto : KeyKind::number;
         key.default_text = number_text(*option.number(defaults));
     } else if (option.integer) {
         key.kind = KeyKind::integer;

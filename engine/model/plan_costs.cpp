@@ -25,19 +25,20 @@ constexpr double linear_cost = 1.5, newton_cost = 1.5, step_cost = 8.0;
 
 }  // namespace
 
-double predicted_memory(const StepPlan& plan, const StepSettings& settings, const SceneFacts& facts) {
+double predicted_memory(const StepPlan& plan, const SceneFacts& facts) {
     const MemoryShare share = plan.implicit ? implicit_memory : explicit_memory;
     double bytes = share.vertex * facts.cloth_vertices + share.spring * facts.springs.total();
-    if (settings.scheme == Scheme::rk4) bytes += more_stages * facts.cloth_vertices;
+    if (plan.scheme == Scheme::rk4) bytes += more_stages * facts.cloth_vertices;
     if (plan.contacts) bytes += near_cloth_triangle * facts.cloth_triangles;
     return bytes + obstacle_triangle * static_cast<double>(facts.obstacle_triangles);
 }
 
 double predicted_evaluations(const StepPlan& plan, const StepSettings& settings) {
     if (!plan.solve) return 0.0;
-    if (!plan.implicit) return facts_of(settings.scheme).force_evaluations;
+    const SchemeFacts& facts = facts_of(plan.scheme);
+    if (!plan.implicit) return facts.force_evaluations;
     const int newton = std::min(plan.contacts ? contact_newton : free_newton, settings.newton_iterations);
-    return newton * (linear_iterations * linear_cost + newton_cost) + step_cost;
+    return facts.stages * (newton * (linear_iterations * linear_cost + newton_cost) + step_cost);
 }
 
 }  // namespace percale

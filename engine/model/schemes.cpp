@@ -5,15 +5,28 @@
 namespace percale {
 namespace {
 
-// One entry a scheme, in the order of the enum.
+constexpr double always = std::numeric_limits<double>::infinity();
+
 constexpr SchemeFacts table[] = {
-    {Scheme::symplectic_euler, "symplectic_euler", 1, false, 2.0, 1, "amplitude kept for a < 2, grows beyond"},
-    {Scheme::rk4, "rk4", 4, false, 2.8284271247461903, 4, "damped for a < 2 sqrt 2, grows beyond"},
-    {Scheme::backward_euler, "backward_euler", 1, true, std::numeric_limits<double>::infinity(), 0,
-     "amplitude times 1/sqrt(1 + a^2) a step, at every a"},
+    {Scheme::forward_euler, "forward_euler", 1, false, false, 0.0, 1, 0,
+     "amplitude times sqrt(1 + a^2) a step: grows at every a"},
+    {Scheme::symplectic_euler, "symplectic_euler", 1, false, false, 2.0, 1, 0, "amplitude kept for a < 2, grows beyond"},
+    {Scheme::midpoint, "midpoint", 2, false, false, 0.0, 2, 0,
+     "amplitude times sqrt(1 + a^4/4) a step: grows, slowly for small a"},
+    {Scheme::rk4, "rk4", 4, false, false, 2.8284271247461903, 4, 0, "damped for a < 2 sqrt 2, grows beyond"},
+    {Scheme::backward_euler, "backward_euler", 1, true, true, always, 0, 1, "amplitude times 1/sqrt(1 + a^2) a step, at every a"},
+    {Scheme::implicit_midpoint, "implicit_midpoint", 2, true, false, always, 0, 1,
+     "amplitude kept at every a, angular momentum too; what is faster than the step rings on"},
+    {Scheme::trapezoid, "trapezoid", 2, true, false, always, 0, 1,
+     "amplitude kept at every a in linear systems; stiff cloth (a > 10) can gain energy"},
+    {Scheme::bdf2, "bdf2", 2, true, false, always, 0, 1, "damped at every a, by a^4/4 a step where a is small"},
+    {Scheme::tr_bdf2, "tr_bdf2", 2, true, true, always, 0, 2,
+     "damped at every a, to nothing for large a; the accurate choice of adaptive steps"},
 };
 
 }  // namespace
+
+std::span<const SchemeFacts> scheme_table() { return table; }
 
 const SchemeFacts& facts_of(Scheme scheme) { return table[static_cast<int>(scheme)]; }
 

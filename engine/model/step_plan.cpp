@@ -68,10 +68,11 @@ StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts) {
     const bool everything = !settings.skip;
     StepPlan plan;
     plan.everything = everything;
-    plan.implicit = facts_of(settings.scheme).implicit;
-    plan.contacts = plan.implicit && facts.cloth_vertices > 0 &&
+    plan.scheme = settings.scheme == Scheme::automatic ? facts.chosen : settings.scheme;
+    plan.implicit = facts_of(plan.scheme).implicit;
+    plan.contacts = facts_of(plan.scheme).contact && facts.cloth_vertices > 0 &&
                     (facts.obstacles > 0 || meets_cloth(facts) || (everything && facts.detector));
-    const bool start_lengths = plan.implicit && (facts.damped || everything);
+    const bool start_lengths = plan.scheme == Scheme::backward_euler && (facts.damped || everything);
     plan.damping = start_lengths ? settings.damping_form : DampingForm::velocity;
     plan.pins = facts.pinned_vertices > 0 || facts.changes.pins || everything;
     plan.still_obstacles = everything;
@@ -96,10 +97,10 @@ std::vector<Skip> skipped_by(const StepPlan& plan, const StepSettings& settings,
     add_contacts(plan, facts, skipped);
     add_motion(plan, facts, skipped);
     for (const ClothFacts& cloth : facts.cloths) add_springs(cloth, skipped);
-    if (plan.implicit && plan.damping != settings.damping_form) {
+    if (plan.scheme == Scheme::backward_euler && plan.damping != settings.damping_form) {
         skipped.push_back({"start lengths of springs in each step", "spring_damping is 0 N s/m"});
     }
-    add_solver(plan, facts_of(settings.scheme).word, skipped);
+    add_solver(plan, facts_of(plan.scheme).word, skipped);
     add_measures(plan, skipped);
     return skipped;
 }

@@ -11,6 +11,7 @@ namespace percale {
 
 /// What a step of this scene needs, decided once when the scene changes. Motion alone is known step by step (set_motion).
 struct StepPlan {
+    Scheme scheme = Scheme::backward_euler;
     bool implicit = true;         // Newton and a matrix; otherwise an explicit update
     bool free_vertices = true;    // there are vertices that are not pinned
     bool solve = true;            // the coming step: a vertex is free, a pin moves, or contact has to be checked
@@ -37,6 +38,7 @@ struct ClothFacts {
 
 /// What the plan is made from.
 struct SceneFacts {
+    Scheme chosen = Scheme::backward_euler;  // where the settings leave it open
     int cloth_vertices = 0;
     int pinned_vertices = 0;
     int cloth_triangles = 0;

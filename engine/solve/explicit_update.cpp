@@ -46,23 +46,33 @@ void finish(const ExplicitPart& part, ClothState& state) {
     update_points(state);
 }
 
-}  // namespace
-
 void step_symplectic_euler(const ExplicitPart& part, ExplicitSpace& space, ClothState& state) {
-    start(part, space, state);
-    set_prescribed_velocities(part, state);
     evaluate(part, state, space);
     for (int i = 0; i < part.model->vertex_count(); ++i) {
         if (!is_free(part, i)) continue;
         state.velocities.add(i, part.dt * space.forces.total.at(i) / part.model->mass[i]);
     }
     add_scaled(state.positions, part.dt, state.velocities);
-    finish(part, state);
+}
+
+void step_forward_euler(const ExplicitPart& part, ExplicitSpace& space, ClothState& state) {
+    accelerate(part, state, space);
+    add_scaled(state.positions, part.dt, state.velocities);
+    add_scaled(state.velocities, part.dt, space.acceleration);
+}
+
+void step_midpoint(const ExplicitPart& part, ExplicitSpace& space, ClothState& state) {
+    accelerate(part, state, space);
+    space.stage.positions = state.positions;
+    space.stage.velocities = state.velocities;
+    add_scaled(space.stage.positions, 0.5 * part.dt, state.velocities);
+    add_scaled(space.stage.velocities, 0.5 * part.dt, space.acceleration);
+    accelerate(part, space.stage, space);
+    add_scaled(state.positions, part.dt, space.stage.velocities);
+    add_scaled(state.velocities, part.dt, space.acceleration);
 }
 
 void step_rk4(const ExplicitPart& part, ExplicitSpace& space, ClothState& state) {
-    start(part, space, state);
-    set_prescribed_velocities(part, state);
     space.velocity_sum.resize(part.model->vertex_count());
     space.acceleration_sum.resize(part.model->vertex_count());
     space.stage = state;
@@ -81,6 +91,17 @@ void step_rk4(const ExplicitPart& part, ExplicitSpace& space, ClothState& state)
     }
     add_scaled(state.positions, part.dt, space.velocity_sum);
     add_scaled(state.velocities, part.dt, space.acceleration_sum);
+}
+
+}  // namespace
+
+void step_explicit(Scheme scheme, const ExplicitPart& part, ExplicitSpace& space, ClothState& state) {
+    start(part, space, state);
+    set_prescribed_velocities(part, state);
+    if (scheme == Scheme::forward_euler) step_forward_euler(part, space, state);
+    if (scheme == Scheme::symplectic_euler) step_symplectic_euler(part, space, state);
+    if (scheme == Scheme::midpoint) step_midpoint(part, space, state);
+    if (scheme == Scheme::rk4) step_rk4(part, space, state);
     finish(part, state);
 }
 

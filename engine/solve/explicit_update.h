@@ -26,10 +26,11 @@ struct ExplicitSpace {
     Vectors start_forces;      // N, for the work of pins
 };
 
-/// Symplectic (semi-implicit) Euler: v' = v + dt f(q, v)/m, q' = q + dt v'. Damping by velocity.
-void step_symplectic_euler(const ExplicitPart& part, ExplicitSpace& space, ClothState& state);
-
-/// Classical Runge-Kutta of order 4 on (q, v). Damping by velocity.
-void step_rk4(const ExplicitPart& part, ExplicitSpace& space, ClothState& state);
+/// One step of an explicit scheme. Damping by velocity; velocities of free vertices v, accelerations a(q, v) = f/m.
+/// forward_euler:    q' = q + dt v, v' = v + dt a(q, v)
+/// symplectic_euler: v' = v + dt a(q, v), q' = q + dt v'
+/// midpoint:         the slopes at q + dt/2 v, v + dt/2 a
+/// rk4:              classical Runge-Kutta of order 4
+void step_explicit(Scheme scheme, const ExplicitPart& part, ExplicitSpace& space, ClothState& state);
 
 }  // namespace percale

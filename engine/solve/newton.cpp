@@ -4,16 +4,14 @@
 #include <cmath>
 
 #include "line_search.h"
+#include "newton_stop.h"
 #include "support/stage_timer.h"
 
 namespace percale {
 namespace {
 
-constexpr double energy_accuracy = 0.05;      // of the linear solve, in the energy norm
 constexpr double share_of_time_error = 0.25;  // solver error over time error
 constexpr double estimated_share = 0.1;       // likewise where the solver error is only estimated
-constexpr double smallest_change = 1e-7;      // m, below it iterations are pointless
-constexpr double smallest_share = 2e-4;       // likewise in contact, of the thickness
 constexpr int most_rounds = 6;                // of contact multipliers in one solve
 constexpr double round_share = 0.01;          // of the thickness at most: contact less exact takes another round
 constexpr int most_trials = 10;               // of one line search
@@ -42,6 +40,14 @@ private:
         space_.current.velocities = state.velocities;
         space_.current.points = state.points;
         space_.trial.points = state.points;
+        base_positions_ = part_.base ? &part_.base->positions : &space_.start_positions;
+        base_velocities_ = part_.base ? &part_.base->velocities : &space_.start_velocities;
+        error_ = {.model = &model_,
+                  .free = part_.free,
+                  .dt = part_.dt,
+                  .start = &space_.start_velocities,
+                  .foreseen = part_.base ? &part_.base->foreseen : nullptr,
+                  .foreseen_share = part_.base ? part_.base->error_share : 1.0};
         space_.current.fraction = moves_are_scripted() ? part_.span.from : part_.span.to;
         space_.frozen_diagonal.padded = 0;
         if (!space_.solver.is_for(model_)) space_.solver.set_model(*part_.compute, model_, part_.settings->linear_solver);
@@ -58,16 +64,22 @@ private:
     bool moves_are_scripted() const { return part_.plan->obstacles_move || part_.plan->pins_move; }
     bool arrived() const { return space_.current.fraction >= part_.span.to; }
 
-    /// Free vertices go to q_n + dt v_n (without gravity: in the prediction it would press into the contact, and friction would
+    /// Free vertices go to q* + h v_n (without gravity: in the prediction it would press into the contact, and friction would
     /// then freeze everything), prescribed ones and obstacles to their ends, all cut where something would cross.
     void predict(const ClothState& state) {
         for (int i = 0; i < model_.vertex_count(); ++i) {
             const bool free = (*part_.free)[i] > 0.0;
-            const Vec3 velocity = free ? state.velocities.at(i) : Vec3((part_.targets->at(i) - state.positions.at(i)) / part_.dt);
+            const Vec3 velocity =
+                free ? state.velocities.at(i) : Vec3((part_.targets->at(i) - base_positions_->at(i)) / part_.dt);
             space_.direction.set(i, velocity);
         }
-        // Velocities along the way are (q - q_n)/dt: what a cut takes from the move is not stored as energy.
+        // Velocities along the way are (q - q*)/h: what a cut takes from the move is not stored as energy.
         space_.current.velocities.resize(model_.vertex_count());
+        if (part_.base) {
+            set_extrapolated(space_.current.velocities, 1.0 / part_.dt, state.positions, *base_positions_,
+                             space_.current.velocities);
+            add_scaled(space_.direction, -1.0, space_.current.velocities);
+        }
         move(1.0);
         if (part_.plan->contacts) {
             StageTimer timer(stages_.refresh);
@@ -89,7 +101,7 @@ private:
 
     void place_trial() {
         NewtonPoint& trial = space_.trial;
-        trial.positions = space_.start_positions;
+        trial.positions = *base_positions_;
         add_scaled(trial.positions, part_.dt, trial.velocities);
         if (part_.plan->contacts) copy_out(trial.positions, trial.points);
     }
@@ -139,7 +151,7 @@ private:
     bool projects() const { return part_.plan->contacts && part_.settings->contact_response == ContactResponse::projection; }
 
     ContactStep contact_step(const NewtonPoint& point, bool first) const {
-        return {.dt = part_.dt,
+        return {.dt = contact_dt_,
                 .stiffness_dt = part_.contact_dt,
                 .obstacle_rate = 1.0 / part_.full_step,
                 .fraction = point.fraction,
@@ -161,9 +173,20 @@ private:
         if (projects()) {
             space_.projection.add(projected(point), projected_forces(point));
         } else {
+            weigh_contact(1.0 / part_.contact_weight, forces);
             add_contact_forces(input, contact_step(point, first), forces);
+            weigh_contact(part_.contact_weight, forces);
         }
         report_.largest_stiffness = std::max(report_.largest_stiffness, forces.contact.largest_stiffness);
+    }
+
+    /// Before and after contact is added, so that the factor of all others is 1.
+    static void weigh_contact(double factor, Forces& forces) {
+        if (factor == 1.0) return;
+        for (auto* axis : {&forces.total.x, &forces.total.y, &forces.total.z}) {
+            for (double& force : *axis) force *= factor;
+        }
+        forces.potential *= factor;
     }
 
     ProjectedPoint projected(const NewtonPoint& point) const {
@@ -181,7 +204,7 @@ private:
         if (!projects() || rounds_ == most_rounds || space_.current.forces.rows.size() == 0) return false;
         NewtonPoint& point = space_.current;
         const double time_error =
-            0.5 * part_.dt * std::sqrt(velocity_change(0, model_.vertex_count(), space_.current.velocities) / total_mass());
+            0.5 * part_.dt * std::sqrt(squared_error(error_, 0, model_.vertex_count(), space_.current.velocities) / total_mass());
         const double thickness = *std::min_element(model_.thickness.begin(), model_.thickness.end());
         const double enough = std::clamp(share_of_time_error * time_error, smallest_share * thickness, round_share * thickness);
         if (space_.projection.mismatch(point.forces.rows, point.row_forces) <= enough) return false;
@@ -192,10 +215,10 @@ private:
         return true;
     }
 
-    /// r = M (v - v_n) - dt f and the incremental potential whose gradient by v it is.
+    /// r = M (v - v*) - h f and the incremental potential whose gradient by v it is.
     void set_residual(NewtonPoint& point) {
         if (point.residual.padded_size() != point.velocities.padded_size()) point.residual.resize(model_.vertex_count());
-        const Vectors &force = point.forces.total, &velocity = point.velocities, &start = space_.start_velocities;
+        const Vectors &force = point.forces.total, &velocity = point.velocities, &start = *base_velocities_;
         const double *free = part_.free->data(), *mass = model_.mass.data();
         const int count = model_.vertex_count();
         const double dt = part_.dt;
@@ -205,7 +228,7 @@ private:
         set_axis(force.x.data(), velocity.x.data(), start.x.data(), point.residual.x.data());
         set_axis(force.y.data(), velocity.y.data(), start.y.data(), point.residual.y.data());
         set_axis(force.z.data(), velocity.z.data(), start.z.data(), point.residual.z.data());
-        point.objective = 0.5 * velocity_change(0, count, velocity) + point.forces.potential;
+        point.objective = 0.5 * squared_distance(error_, velocity, start) + point.forces.potential;
     }
 
     /// |r| in velocity units weighted by mass: sqrt(sum |r_i|^2/m_i).
@@ -279,7 +302,8 @@ private:
             }
         }
         StageTimer timer(stages_.solve);
-        const SolveTarget target = solve_target(iteration, norm, last_norm);
+        const SolveTarget target = solve_target(error_, {iteration, iteration > 0 ? norm / last_norm : 1.0, report_.residual},
+                                                part_.settings->newton_tolerance, point.velocities);
         const SolveReport solved = space_.solver.solve(space_.right_side, target, space_.direction);
         report_.linear_iterations += solved.iterations;
         direction_is_good_ = solved.converged;
@@ -316,28 +340,6 @@ private:
         }
     }
 
-    /// With a residual to reach, the linear residual follows the Newton residual (Eisenstat and Walker 1996, choice 2); else the
-    /// energy gained per iteration decides, which bounds the smooth error that a loose residual leaves behind.
-    SolveTarget solve_target(int iteration, double norm, double last_norm) const {
-        if (part_.settings->newton_tolerance) {
-            const double ratio = iteration > 0 ? norm / last_norm : 1.0;
-            const double wanted = 0.3 * *part_.settings->newton_tolerance / std::max(report_.residual, 1e-300);
-            const double forcing = iteration > 0 ? std::clamp(0.9 * ratio * ratio, 1e-6, 0.1) : 0.1;
-            return {.relative_residual = std::min(0.3, std::max(forcing, wanted))};
-        }
-        const double change = iteration > 0 ? energy_accuracy * energy_accuracy *
-                                                  velocity_change(0, model_.vertex_count(), space_.current.velocities)
-                                            : 0.0;
-        return {.relative_residual = 1e-10, .relative_gain = energy_accuracy, .absolute_gain = change};
-    }
-
-    /// |v - v_n|_M^2 over the free of some vertices, J.
-    double velocity_change(int first, int count, const Vectors& velocities) const {
-        const Vectors& start = space_.start_velocities;
-        const double *free = part_.free->data(), *mass = model_.mass.data();
-        return sum_terms(first, count, [&](int i) { return free[i] * mass[i] * square_between(velocities, start, i); });
-    }
-
     /// Line search and cut along the direction; false when the target is met or nothing more can be gained.
     bool step_along() {
         went_on_ = false;
@@ -346,7 +348,7 @@ private:
         LineTrial line{.start_objective = space_.current.objective, .start_slope = slope};
         double fraction = 1.0, kept = 1.0;
         move(fraction);
-        const bool small = change_is_small(space_.trial.velocities, share_of_time_error);
+        const bool small = is_small(space_.trial.velocities, share_of_time_error);
         bool accepted = false;
         for (int trial = 0; trial < most_trials && !accepted; ++trial) {
             if (trial > 0) move(fraction);
@@ -354,8 +356,7 @@ private:
             evaluate(space_.trial);
             line.objective = space_.trial.objective;
             line.slope = dot(*part_.compute, space_.trial.residual, space_.direction);
-            line.objective_known =
-                !part_.plan->contacts || (space_.current.forces.rows.size() + space_.trial.forces.rows.size() == 0);
+            line.objective_known = !space_.springs.rate_damping && !rows_met();
             // While pins or obstacles are on their way, the objective may have to rise.
             accepted = !part_.options.line_search || !was_arrived || accept_trial(fraction * kept, line);
             if (accepted) break;
@@ -370,6 +371,8 @@ private:
         converged_ = was_arrived && (by_change || by_rounding);
         return !converged_;
     }
+
+    bool rows_met() const { return space_.current.forces.rows.size() + space_.trial.forces.rows.size() > 0; }
 
     /// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and
     /// what the secant says is still missing along the same direction costs an evaluation only.
@@ -395,27 +398,13 @@ private:
         StageTimer timer(stages_.solve);
         if (!space_.solver.estimate(space_.current.residual, space_.direction)) return false;
         add_scaled(space_.direction, -2.0, space_.direction);  // the direction is -A^-1 r
-        return change_is_small(space_.current.velocities, estimated_share);
+        return is_small(space_.current.velocities, estimated_share);
     }
 
-    /// Whether the direction, which leads to the velocities `ahead`, changes every cloth by less than a share of the time error,
-    /// in the mean and at its worst vertex by twice that.
-    bool change_is_small(const Vectors& ahead, double share) const {
-        return std::all_of(model_.cloths.begin(), model_.cloths.end(), [&](const ClothRange& cloth) {
-            const Vectors &residual = space_.current.residual, &direction = space_.direction;
-            const double gain = -sum_terms(cloth.first, cloth.count, [&](int i) {
-                return residual.x[i] * direction.x[i] + residual.y[i] * direction.y[i] + residual.z[i] * direction.z[i];
-            });
-            const double worst = largest_term(cloth.first, cloth.count, [&](int i) { return square_at(direction, i); });
-            const double worst_error =
-                largest_term(cloth.first, cloth.count, [&](int i) { return square_between(ahead, space_.start_velocities, i); });
-            const double change = part_.dt * std::sqrt(std::max(gain, 0.0) / cloth.mass);
-            const double time_error = 0.5 * part_.dt * std::sqrt(velocity_change(cloth.first, cloth.count, ahead) / cloth.mass);
-            const double floor =
-                space_.current.forces.rows.size() > 0 ? smallest_share * model_.thickness[cloth.first] : smallest_change;
-            return change <= share * time_error + floor &&
-                   part_.dt * std::sqrt(worst) <= 2.0 * share * part_.dt * std::sqrt(worst_error) + 10.0 * floor;
-        });
+    /// Whether the direction, which leads to the velocities `ahead`, changes less than a share of the time error.
+    bool is_small(const Vectors& ahead, double share) const {
+        const bool in_contact = space_.current.forces.rows.size() > 0;
+        return change_is_small(error_, {space_.current.residual, space_.direction, ahead, in_contact}, share);
     }
 
     void finish(ClothState& state) {
@@ -425,6 +414,7 @@ private:
             if ((*part_.free)[i] > 0.0 || !arrived()) continue;
             state.positions.set(i, part_.targets->at(i));
         }
+        if (part_.settings->adaptive) report_.time_error = time_error(error_, space_.current.velocities);
         if (part_.plan->contacts) set_grips(space_.current.forces.contact.touches, state.grips);
         update_points(state);
         if (projects()) space_.projection.keep(space_.current.forces.rows, space_.current.row_forces);
@@ -435,6 +425,9 @@ private:
     NewtonSpace& space_;
     StageTimes& stages_;
     NewtonReport report_;
+    const Vectors *base_positions_ = nullptr, *base_velocities_ = nullptr;
+    TimeError error_;
+    double contact_dt_ = part_.dt * std::sqrt(part_.contact_weight);  // s, for which weighted contact has the form of a step's
     bool converged_ = false;
     bool direction_is_good_ = true;  // the linear solve got where it should
     int rounds_ = 0;                 // of multipliers

@@ -10,6 +10,7 @@
 #include "model/step_plan.h"
 #include "percale/contact.h"
 #include "percale/report.h"
+#include "stage_base.h"
 
 namespace percale {
 
@@ -20,8 +21,9 @@ struct NewtonOptions {
     bool predict = true;  // start at q_n + dt v_n; false: at q_n
 };
 
-/// One part of a step, to be solved by backward Euler:
-/// M (v - v_n) = dt f(q_n + dt v, v), with prescribed vertices and obstacles going where the script has them at its end.
+/// One part of a step, to be solved by backward Euler,
+/// M (v - v_n) = dt f(q_n + dt v, v), or another implicit stage of the same form (stage_base.h), with prescribed vertices and
+/// obstacles going where the script has them at its end. The whole way from the state to the stage's end is made safe.
 struct ImplicitPart {
     const Compute* compute = nullptr;
     const ClothModel* model = nullptr;
@@ -30,7 +32,9 @@ struct ImplicitPart {
     ContactDetector* detector = nullptr;          // used if the plan has contacts
     const Vectors* targets = nullptr;             // m, where prescribed vertices are at the end of the part
     const AlignedVector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
-    double dt = 0.0;                              // s, length of this part
+    double dt = 0.0;                              // s, length of this part; h of another stage
+    const StageBase* base = nullptr;              // null: the state itself, backward Euler
+    double contact_weight = 1.0;                  // how often contact forces count in M (v - v*) = h (f + weight contact)
     double full_step = 0.0;                       // s, of the whole step, over which obstacles move
     double contact_dt = 0.0;                      // s, ContactStep::stiffness_dt
     StepFraction span;                            // of the whole step
@@ -53,6 +57,7 @@ struct NewtonReport {
     double residual = 0.0;  // relative to the first, or to gravity's impulse where that is larger
     double smallest_fraction = 1.0;
     double largest_stiffness = 0.0;  // N/m, of contact
+    double time_error = 0.0;         // m, estimated error of the stage's length, in the mean of the worst cloth
 };
 
 /// One point of the search: velocities v, positions q_n + dt v, how far pins and obstacles are, and all forces there.
@@ -62,8 +67,8 @@ struct NewtonPoint {
     double fraction = 0.0;  // of the whole step
     Forces forces;
     std::vector<RowForce> row_forces;  // with contact_response projection
-    Vectors residual;                  // M (v - v_n) - dt f, kg m/s; 0 at prescribed vertices
-    double objective = 0.0;            // J: 1/2 |v - v_n|_M^2 + potential
+    Vectors residual;                  // M (v - v*) - h f, kg m/s; 0 at prescribed vertices
+    double objective = 0.0;            // J: 1/2 |v - v*|_M^2 + potential
 };
 
 /// Work space of the solve, kept from step to step so that nothing is allocated once sizes are known.

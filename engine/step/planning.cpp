@@ -65,20 +65,21 @@ void update_plan(World& world) {
 
 void scene_changed(World& world) {
     world.plan_outdated = true;
+    world.stages.earlier_length = 0.0;
     wake(world.rest);
 }
 
 ScenePlan scene_plan(const World& world, const ScriptedChanges& to_come) {
     const SceneFacts facts = scene_facts(world, to_come);
     const StepPlan plan = make_step_plan(world.settings, facts);
-    return {.scheme = world.settings.scheme,
+    return {.scheme = plan.scheme,
             .vertices = facts.cloth_vertices,
             .pinned_vertices = facts.pinned_vertices,
             .springs = facts.springs,
             .obstacles = facts.obstacles,
             .obstacle_triangles = facts.obstacle_triangles,
             .skipped = skipped_by(plan, world.settings, facts),
-            .memory_bytes = predicted_memory(plan, world.settings, facts),
+            .memory_bytes = predicted_memory(plan, facts),
             .evaluations_a_step = predicted_evaluations(plan, world.settings)};
 }
 

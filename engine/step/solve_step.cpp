@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "scripted_motion.h"
-#include "support/stage_timer.h"
+#include "explicit_span.h"
+#include "implicit_stages.h"
+#include "model/schemes.h"
 
 namespace percale {
 namespace {
@@ -14,109 +15,6 @@ constexpr int most_halvings = 6;  // of one step, one inside the other
 /// s per second: how fast the time step that contact stiffness is made for may become shorter. Stiffness goes as 1/dt^2, and what
 /// a stiffer contact stores nobody has paid for; slowly against its own period, 2 pi sqrt(2) dt, it stores nothing.
 constexpr double fastest_shortening = 0.05;
-
-/// space.forces at a state of an explicit scheme.
-void evaluate_at(World& world, const ClothState& state) {
-    ExplicitSpace& space = world.explicit_space;
-    const ForceInput input{.compute = &world.compute,
-                           .model = &world.model,
-                           .springs = &space.springs,
-                           .positions = &state.positions,
-                           .velocities = &state.velocities,
-                           .gravity = world.settings.gravity,
-                           .dt = world.settings.time_step,
-                           .with_matrix = false};
-    evaluate_forces(input, space.forces);
-}
-
-/// Work of moving pins in an explicit step, J: what their kinetic energy gained less the work of the mean of the forces at both
-/// ends.
-double explicit_work(World& world) {
-    evaluate_at(world, world.before);
-    world.explicit_space.start_forces = world.explicit_space.forces.total;
-    evaluate_at(world, world.state);
-    double work = 0.0;
-    for (int i = 0; i < world.model.vertex_count(); ++i) {
-        if (world.script.free[i] > 0.0) continue;
-        const Vec3 force = 0.5 * (world.explicit_space.start_forces.at(i) + world.explicit_space.forces.total.at(i));
-        const double before = world.before.velocities.at(i).squaredNorm(), after = world.state.velocities.at(i).squaredNorm();
-        work +=
-            0.5 * world.model.mass[i] * (after - before) - force.dot(world.state.positions.at(i) - world.before.positions.at(i));
-    }
-    return work;
-}
-
-void solve_explicit(World& world) {
-    StageTimer timer(world.report.stages.force);
-    set_part_targets(world, 1.0);
-    const ExplicitPart part{.compute = &world.compute,
-                            .model = &world.model,
-                            .settings = &world.settings,
-                            .targets = &world.part_targets,
-                            .free = &world.script.free,
-                            .dt = world.settings.time_step};
-    if (world.settings.scheme == Scheme::rk4) {
-        step_rk4(part, world.explicit_space, world.state);
-    } else {
-        step_symplectic_euler(part, world.explicit_space, world.state);
-    }
-    if (world.plan.pin_work) world.report.energy.work = explicit_work(world);
-}
-
-/// Work of pins and obstacles during the part just solved, J: a pin's reaction is what its residual lacks, M (v - v_n) - dt f.
-double script_work(const World& world, double dt) {
-    const NewtonPoint& end = world.newton.current;
-    double work = world.plan.contacts ? dt * end.forces.contact.obstacle_power : 0.0;
-    if (!world.plan.pin_work) return work;
-    for (int i = 0; i < world.model.vertex_count(); ++i) {
-        if (world.script.free[i] > 0.0) continue;
-        const Vec3 change = end.velocities.at(i) - world.newton.start_velocities.at(i);
-        const Vec3 impulse = world.model.mass[i] * change - dt * end.forces.total.at(i);
-        work += impulse.dot(end.velocities.at(i));
-    }
-    return work;
-}
-
-void add_figures(const NewtonReport& part, StepReport& report) {
-    report.newton_iterations += part.newton_iterations;
-    report.linear_iterations += part.linear_iterations;
-    report.line_search_cuts += part.line_search_cuts;
-    report.residual = part.residual;
-    report.smallest_fraction = std::min(report.smallest_fraction, part.smallest_fraction);
-    report.contact_stiffness = std::max(report.contact_stiffness, part.largest_stiffness);
-}
-
-void set_flows(World& world, double fraction) {
-    world.flows.clear();
-    if (!world.plan.obstacles_move) return;
-    for (const ObstacleState& obstacle : world.script.obstacles) {
-        world.flows.push_back(obstacle_flow(obstacle.start, obstacle.end, fraction));
-    }
-}
-
-NewtonReport solve_part(World& world, StepFraction span) {
-    const double dt = world.settings.time_step * (span.to - span.from);
-    set_part_targets(world, span.to);
-    set_flows(world, span.from);
-    const ImplicitPart part{.compute = &world.compute,
-                            .model = &world.model,
-                            .settings = &world.settings,
-                            .plan = &world.plan,
-                            .detector = world.detector.get(),
-                            .targets = &world.part_targets,
-                            .free = &world.script.free,
-                            .dt = dt,
-                            .full_step = world.settings.time_step,
-                            .contact_dt = world.contact_dt,
-                            .span = span,
-                            .flows = world.flows,
-                            .options = {}};
-    const NewtonReport part_report = solve_implicit(part, world.newton, world.state, world.report.stages);
-    add_figures(part_report, world.report);
-    world.report.linear_solver = world.newton.solver.in_use();
-    world.report.smallest_dt = std::min(world.report.smallest_dt, dt);
-    return part_report;
-}
 
 /// Names the pin that is farthest from where it should be.
 void name_blocked_pin(World& world) {
@@ -176,35 +74,86 @@ bool may_halve(const World& world, int depth) { return depth < most_halvings && 
 
 /// Solves a span of the step; false after a failure that halving could not mend.
 bool solve_span(World& world, StepFraction span, int depth) {
-    const NewtonReport part = solve_part(world, span);
-    if (part.end == NewtonEnd::converged) {
-        world.report.energy.work += script_work(world, world.settings.time_step * (span.to - span.from));
+    const bool halve = may_halve(world, depth);
+    const NewtonEnd end = solve_implicit_span(world, span, !halve);
+    if (end == NewtonEnd::converged || (end == NewtonEnd::iterations_used && !halve)) {
+        const double length = world.settings.time_step * (span.to - span.from);
+        world.report.smallest_dt = std::min(world.report.smallest_dt, length);
+        world.report.largest_dt = std::max(world.report.largest_dt, length);
+        world.report.energy.work += span_work(world, span);
+        if (end != NewtonEnd::converged) world.report.status = StepStatus::not_converged;
         return true;
     }
-    if (may_halve(world, depth)) {
+    if (halve) {
         ++world.report.halvings;
-        world.state.positions = world.newton.start_positions;
-        world.state.velocities = world.newton.start_velocities;
-        world.state.grips = world.newton.start_grips;
-        update_points(world.state);
+        restore_span_start(world);
         const double middle = 0.5 * (span.from + span.to);
         return solve_span(world, {span.from, middle}, depth + 1) && solve_span(world, {middle, span.to}, depth + 1);
     }
-    if (part.end == NewtonEnd::iterations_used) {
-        world.report.status = StepStatus::not_converged;
-        world.report.energy.work += script_work(world, world.settings.time_step * (span.to - span.from));
-        return true;
-    }
-    fail(world, part.end);
+    fail(world, end);
     return false;
+}
+
+/// One step of the scheme over a span; false if it failed.
+bool cover(World& world, StepFraction span) {
+    if (world.plan.implicit) return solve_span(world, span, 0);
+    solve_explicit_span(world, span);
+    return true;
+}
+
+void save_attempt(World& world) {
+    ClothState& attempt = world.stages.attempt;
+    attempt.positions = world.state.positions;
+    attempt.velocities = world.state.velocities;
+    attempt.grips = world.state.grips;
+    world.stages.error = 0.0;
+}
+
+void take_back(World& world, StepStatus status, double work) {
+    const ClothState& attempt = world.stages.attempt;
+    world.state.positions = attempt.positions;
+    world.state.velocities = attempt.velocities;
+    world.state.grips = attempt.grips;
+    update_points(world.state);
+    world.stages.earlier_length = 0.0;
+    world.report.status = status;
+    world.report.energy.work = work;
+    ++world.report.rejected;
+}
+
+/// Covers the step by as many spans as the tolerance asks for.
+bool cover_adaptively(World& world) {
+    const double whole = world.settings.time_step;
+    StepReport& report = world.report;
+    double shortest = whole, longest = 0.0;
+    report.parts = 0;
+    for (double at = 0.0; at < 1.0;) {
+        save_attempt(world);
+        const StepStatus status = report.status;
+        const double work = report.energy.work;
+        const double length = next_length(world.stages.control, whole * (1.0 - at));
+        const double share = length / whole, to = at + share > 1.0 - 1e-9 ? 1.0 : at + share;
+        if (!cover(world, {at, to})) return false;
+        const StepAttempt attempt{length, world.stages.error, facts_of(world.plan.scheme).order};
+        if (!accept_attempt(attempt, world.settings.tolerance, world.stages.control)) {
+            take_back(world, status, work);
+            continue;
+        }
+        ++report.parts;
+        shortest = std::min(shortest, length);
+        longest = std::max(longest, length);
+        at = to;
+    }
+    report.smallest_dt = shortest;
+    report.largest_dt = longest;
+    return true;
 }
 
 }  // namespace
 
 void solve_step(World& world) {
     if (!world.plan.solve) return world.state.velocities.resize(world.model.vertex_count());
-    if (!world.plan.implicit) return solve_explicit(world);
-    if (!world.plan.keep_work_space) {
+    if (world.plan.implicit && !world.plan.keep_work_space) {
         const LinearSolver solver = world.newton.solver.in_use();
         ContactProjection projection = std::move(world.newton.projection);
         world.newton = NewtonSpace{};
@@ -212,7 +161,8 @@ void solve_step(World& world) {
         world.newton.solver.begin_with(solver);
     }
     world.contact_dt = std::max(world.settings.time_step, world.contact_dt - fastest_shortening * world.settings.time_step);
-    const bool good = solve_span(world, {0.0, 1.0}, 0);
+    const bool good = world.settings.adaptive ? cover_adaptively(world) : cover(world, {0.0, 1.0});
+    if (!good) world.stages.earlier_length = 0.0;
     if (good && world.report.halvings > 0 && world.report.status == StepStatus::ok) world.report.status = StepStatus::halved;
 }
 

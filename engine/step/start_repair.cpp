@@ -28,6 +28,8 @@ public:
           targets_(world.script.pin_targets),
           obstacles_(world.script.obstacles) {
         world.settings.time_step = relaxation_step;
+        world.settings.scheme = Scheme::backward_euler;
+        world.settings.adaptive = false;
         world.settings.gravity = Vec3::Zero();
         world.settings.newton_tolerance.reset();
         world.script.pin_targets = world.state.positions;

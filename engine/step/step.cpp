@@ -36,7 +36,7 @@ StepReport step(World& world) {
         return sleep_through(world);
     }
     world.report = {};
-    world.report.dt = world.report.smallest_dt = world.settings.time_step;
+    world.report.dt = world.report.smallest_dt = world.report.largest_dt = world.settings.time_step;
     world.before = world.state;
     set_targets(world);  // where pins and obstacles have to be at the end; nothing moves yet
     solve_step(world);   // explicit update, or Newton on the implicit scheme; every move is cut safe

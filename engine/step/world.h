@@ -12,6 +12,7 @@
 #include "rest_detection.h"
 #include "solve/explicit_update.h"
 #include "solve/newton.h"
+#include "step_control.h"
 
 namespace percale {
 
@@ -36,6 +37,19 @@ struct UserViews {
     std::vector<double> masses;    // kg
 };
 
+/// What implicit schemes other than backward Euler, and adaptive steps, need beside it.
+struct StageSpace {
+    StageBase base;
+    ClothState start, earlier;    // of the span being solved, and one before it; without points
+    double earlier_length = 0.0;  // s, from `earlier` to the present state; 0: nothing is known of it
+    Vectors acceleration;         // m/s^2, at the start of the stage; of BDF2 kept to the next step
+    Vectors scratch;
+    double obstacle_work = 0.0;  // J, of the span
+    double error = 0.0;          // m, estimated, of the spans since it was set to 0
+    ClothState attempt;          // before an adaptive attempt
+    StepControl control;
+};
+
 /// Everything one simulation holds.
 struct World {
     std::unique_ptr<ThreadPool> pool;  // with more than one thread
@@ -55,6 +69,7 @@ struct World {
     // Work space and what the running step found so far.
     NewtonSpace newton;
     ExplicitSpace explicit_space;
+    StageSpace stages;
     ClothState before;  // the state at the start of the running step
     Vectors part_targets;
     std::vector<ObstacleFlow> flows;

@@ -14,6 +14,7 @@ ordered_json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 template <class Owner>
 ordered_json option_value(Owner& owner, const Option<Owner>& option) {
+    if (option.automatic && *option.automatic(owner)) return "auto";
     if (option.number) return *option.number(owner);
     if (option.integer) return *option.integer(owner);
     if (option.flag) return *option.flag(owner);

@@ -21,7 +21,12 @@ namespace percale::test {
 inline const Compute compute;
 
 /// In the order of the enum.
-inline constexpr std::array all_schemes = {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler};
+inline constexpr std::array all_schemes = {Scheme::forward_euler,  Scheme::symplectic_euler,  Scheme::midpoint,  Scheme::rk4,
+                                           Scheme::backward_euler, Scheme::implicit_midpoint, Scheme::trapezoid, Scheme::bdf2,
+                                           Scheme::tr_bdf2};
+
+/// Those that a SolverScene steps by.
+inline constexpr std::array basic_schemes = {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler};
 
 /// The sheet that every measured figure refers to.
 inline Fabric sheet_fabric() {
@@ -156,8 +161,8 @@ struct SolverScene {
                                 .targets = &targets,
                                 .free = &free,
                                 .dt = settings.time_step};
-        settings.scheme == Scheme::rk4 ? step_rk4(part, explicit_space, state)
-                                       : step_symplectic_euler(part, explicit_space, state);
+        percale::step_explicit(settings.scheme == Scheme::backward_euler ? Scheme::symplectic_euler : settings.scheme, part,
+                               explicit_space, state);
     }
 
     void step() {
@@ -194,6 +199,14 @@ inline World make_world(ClothModel model, const std::vector<Vec3>& positions, co
     world.state = std::move(scene.state);
     world.script.free = std::move(scene.free);
     world.script.pin_targets = std::move(scene.targets);
+    return world;
+}
+
+/// Masses and springs, some of them held, as a World.
+inline World linked_world(ClothModel model, const std::vector<Vec3>& positions, const std::vector<int>& held,
+                          const StepSettings& settings) {
+    World world = make_world(std::move(model), positions, settings);
+    for (const int vertex : held) world.script.free[vertex] = 0.0;
     return world;
 }
 

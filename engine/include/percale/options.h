@@ -21,8 +21,9 @@ struct Option {
     double highest = std::numeric_limits<double>::infinity();
     std::span<const std::string_view> choices = {};  // allowed words, for choices
 
-    // Exactly one of these is set; it names the field.
+    // Exactly one of these is set (`automatic` beside `number`); it names the field.
     double* (*number)(Owner&) = nullptr;
+    bool* (*automatic)(Owner&) = nullptr;  // beside `number`: the word "auto" sets it and leaves the number as it is
     int* (*integer)(Owner&) = nullptr;
     bool* (*flag)(Owner&) = nullptr;
     std::optional<double>* (*number_or_auto)(Owner&) = nullptr;  // the word "auto" stands for empty

@@ -28,7 +28,10 @@ struct SpringCounts {
 
 /// What the steps of a simulation will be made of, known without running one.
 struct ScenePlan {
-    Scheme scheme = Scheme::backward_euler;
+    Scheme scheme = Scheme::backward_euler;  // the one chosen, where the settings leave it open
+    std::string scheme_reason = {};          // why, where they do
+    double stable_step = 0.0;                // s, longest stable one of the scheme, estimated; infinity if it is always stable
+    std::vector<std::string> warnings = {};  // what will go wrong or be inexact
     int vertices = 0;
     int pinned_vertices = 0;
     SpringCounts springs = {};

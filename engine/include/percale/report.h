@@ -48,6 +48,9 @@ struct StepReport {
     double time = 0.0;         // s, at the end of the step
     double dt = 0.0;           // s
     double smallest_dt = 0.0;  // s, of the parts the step was solved in
+    double largest_dt = 0.0;   // s, likewise
+    int parts = 1;             // accepted lengths that an adaptive step consists of
+    int rejected = 0;          // lengths that it tried and found too inexact
     int newton_iterations = 0;
     int linear_iterations = 0;
     int line_search_cuts = 0;

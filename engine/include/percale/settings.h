@@ -6,7 +6,20 @@
 
 namespace percale {
 
-enum class Scheme { symplectic_euler, rk4, backward_euler };
+/// `automatic` is the cheapest of symplectic_euler and backward_euler that is stable; the others are described by
+/// `percale explain scheme`.
+enum class Scheme {
+    forward_euler,
+    symplectic_euler,
+    midpoint,
+    rk4,
+    backward_euler,
+    implicit_midpoint,
+    trapezoid,
+    bdf2,
+    tr_bdf2,
+    automatic,
+};
 enum class LinearSolver { automatic, cg, multigrid, direct };
 enum class ContactResponse { penalty, projection };
 enum class DampingForm { length_rate, velocity };
@@ -15,14 +28,18 @@ enum class StartRule { repair, refuse };
 
 /// How the simulation steps. Ranges and sentences of every field: options.h.
 struct StepSettings {
-    double time_step = 1.0 / 60.0;  // s
+    double time_step = 1.0 / 60.0;  // s, what one call of Simulation::step advances by
+    /// Divide each step into as many shorter ones as `tolerance` asks for.
+    bool adaptive = false;
+    double tolerance = 1e-3;  // m of position error for each second of simulation; used if adaptive
     Scheme scheme = Scheme::backward_euler;
     /// Residual relative to the first of the step; empty = solver error below a quarter of the step's time error.
     std::optional<double> newton_tolerance = {};
     int newton_iterations = 50;  // at most; 1 = linearly implicit
     LinearSolver linear_solver = LinearSolver::automatic;
     ContactResponse contact_response = ContactResponse::penalty;
-    /// length_rate: kd (l - l_n)/dt along the current direction, backward Euler only; velocity: kd (v_ij . d).
+    /// length_rate: kd (l - l_n)/dt along the current direction, backward Euler only; velocity: kd (v_ij . d), as all others
+    /// have it.
     DampingForm damping_form = DampingForm::length_rate;
     int threads = 1;  // of one simulation; same bits for any number
     /// none: a step report has no energy, strain and speed (NaN); Simulation::energy still tells on demand.

@@ -62,7 +62,7 @@ TEST_CASE("Predicted memory is what is allocated to within a fifth") {
 
 TEST_CASE("Predicted memory grows by every triangle of cloth and obstacle only where there is contact") {
     SceneFacts facts{.cloth_vertices = 100, .cloth_triangles = 162};
-    const auto memory = [&] { return predicted_memory(make_step_plan({}, facts), {}, facts); };
+    const auto memory = [&] { return predicted_memory(make_step_plan({}, facts), facts); };
     const double alone = memory();
     facts.cloth_triangles = 200;
     CHECK(memory() == alone);

@@ -53,10 +53,10 @@ TEST_CASE("Symplectic Euler falls y0 - g dt^2 n(n+1)/2, RK4 along the exact para
     }
 }
 
-TEST_CASE("The measured order of each scheme is that of the table") {
+TEST_CASE("The measured order of each explicit scheme is that of the table") {
     constexpr double time = 0.2;
     const std::vector<Vec3> exact = string_after(Scheme::rk4, time, 6400);
-    for (const Scheme scheme : all_schemes) {
+    for (const Scheme scheme : {Scheme::forward_euler, Scheme::symplectic_euler, Scheme::midpoint, Scheme::rk4}) {
         const SchemeFacts& facts = facts_of(scheme);
         const int first = facts.order == 4 ? 50 : 200;
         double coarser = largest_difference(string_after(facts.scheme, time, first), exact);

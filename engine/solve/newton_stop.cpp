@@ -1,0 +1,79 @@
+#include "newton_stop.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace percale {
+namespace {
+
+constexpr double smallest_change = 1e-7;  // m, below it iterations are pointless
+constexpr double energy_accuracy = 0.05;  // of the linear solve, in the energy norm
+
+double squared_from(const TimeError& error, int first, int count, const Vectors& velocities, const Vectors& from) {
+    const double *free = error.free->data(), *mass = error.model->mass.data();
+    return sum_terms(first, count, [&](int i) { return free[i] * mass[i] * square_between(velocities, from, i); });
+}
+
+/// The same for the worst vertex of a cloth, m^2/s^2.
+double largest_error(const TimeError& error, const ClothRange& cloth, const Vectors& velocities) {
+    const auto largest_from = [&](const Vectors& from) {
+        return largest_term(cloth.first, cloth.count, [&](int i) { return square_between(velocities, from, i); });
+    };
+    const double change = largest_from(*error.start);
+    if (!error.foreseen) return change;
+    return std::min(change, error.foreseen_share * error.foreseen_share * largest_from(*error.foreseen));
+}
+
+}  // namespace
+
+double squared_error(const TimeError& error, int first, int count, const Vectors& velocities) {
+    const double change = squared_from(error, first, count, velocities, *error.start);
+    if (!error.foreseen) return change;
+    const double unforeseen = squared_from(error, first, count, velocities, *error.foreseen);
+    return std::min(change, error.foreseen_share * error.foreseen_share * unforeseen);
+}
+
+double squared_distance(const TimeError& error, const Vectors& a, const Vectors& b) {
+    return squared_from(error, 0, error.model->vertex_count(), a, b);
+}
+
+bool change_is_small(const TimeError& error, const NewtonChange& change, double share) {
+    const ClothModel& model = *error.model;
+    return std::all_of(model.cloths.begin(), model.cloths.end(), [&](const ClothRange& cloth) {
+        const Vectors &residual = change.residual, &direction = change.direction;
+        const double gain = -sum_terms(cloth.first, cloth.count, [&](int i) {
+            return residual.x[i] * direction.x[i] + residual.y[i] * direction.y[i] + residual.z[i] * direction.z[i];
+        });
+        const double worst = largest_term(cloth.first, cloth.count, [&](int i) { return square_at(direction, i); });
+        const double worst_error = largest_error(error, cloth, change.ahead);
+        const double moved = error.dt * std::sqrt(std::max(gain, 0.0) / cloth.mass);
+        const double time_error =
+            0.5 * error.dt * std::sqrt(squared_error(error, cloth.first, cloth.count, change.ahead) / cloth.mass);
+        const double floor = change.in_contact ? smallest_share * model.thickness[cloth.first] : smallest_change;
+        return moved <= share * time_error + floor &&
+               error.dt * std::sqrt(worst) <= 2.0 * share * error.dt * std::sqrt(worst_error) + 10.0 * floor;
+    });
+}
+
+double time_error(const TimeError& error, const Vectors& velocities) {
+    double largest = 0.0;
+    for (const ClothRange& cloth : error.model->cloths) {
+        largest = std::max(largest, squared_error(error, cloth.first, cloth.count, velocities) / cloth.mass);
+    }
+    return 0.5 * error.dt * std::sqrt(largest);
+}
+
+SolveTarget solve_target(const TimeError& error, const NewtonProgress& progress, const std::optional<double>& tolerance,
+                         const Vectors& velocities) {
+    const bool first = progress.iteration == 0;
+    if (tolerance) {
+        const double wanted = 0.3 * *tolerance / std::max(progress.residual, 1e-300);
+        const double forcing = first ? 0.1 : std::clamp(0.9 * progress.ratio * progress.ratio, 1e-6, 0.1);
+        return {.relative_residual = std::min(0.3, std::max(forcing, wanted))};
+    }
+    const double change =
+        first ? 0.0 : energy_accuracy * energy_accuracy * squared_error(error, 0, error.model->vertex_count(), velocities);
+    return {.relative_residual = 1e-10, .relative_gain = energy_accuracy, .absolute_gain = change};
+}
+
+}  // namespace percale

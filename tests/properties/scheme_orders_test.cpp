@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "engine/model/schemes.h"
+#include "engine/step/step.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+// What each scheme promises, measured: orders, free fall, momentum.
+
+namespace percale::test {
+namespace {
+
+/// A taut string of stretched, damped springs between two held ends, displaced sideways: no spring ever goes slack.
+World taut_string(const StepSettings& settings) {
+    constexpr int count = 11;
+    std::vector<Link> links;
+    std::vector<Vec3> places;
+    for (int i = 0; i < count; ++i) {
+        const double s = static_cast<double>(i) / (count - 1);
+        places.emplace_back(s, 0.1 * std::sin(std::numbers::pi * s), 0.05 * std::sin(2.0 * std::numbers::pi * s));
+        if (i > 0) links.push_back({i - 1, i, 0.06, 20.0, 0.02});
+    }
+    return linked_world(linked_masses(std::vector<double>(count, 0.01), links), places, {0, count - 1}, settings);
+}
+
+std::vector<Vec3> string_after(StepSettings settings, double time, int steps) {
+    settings.time_step = time / steps;
+    settings.measure = StepMeasures::none;
+    if (!settings.newton_tolerance) settings.newton_tolerance = 1e-10;
+    World world = taut_string(settings);
+    for (int n = 0; n < steps; ++n) REQUIRE(step(world).ok());
+    return to_points(world.state.positions, world.model.vertex_count());
+}
+
+/// Three masses thrown about, nothing held, no gravity.
+World thrown_masses(Scheme scheme, double time_step) {
+    World world =
+        make_world(linked_masses({0.2, 0.3, 0.1}, {{0, 1, 1.0, 40.0, 0.1}, {1, 2, 0.7, 60.0, 0.1}, {2, 0, 0.8, 50.0, 0.1}}),
+                   {Vec3(0, 0, 0), Vec3(1.1, 0, 0), Vec3(0.5, 0.8, 0.1)},
+                   {.time_step = time_step, .scheme = scheme, .newton_tolerance = 1e-12, .gravity = Vec3::Zero()});
+    world.state.velocities.set(0, Vec3(0.5, -1.0, 0.2));
+    world.state.velocities.set(1, Vec3(-0.3, 1.5, 0.4));
+    world.state.velocities.set(2, Vec3(0.1, 0.2, -1.1));
+    return world;
+}
+
+Vec3 momentum(const World& world) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < world.model.vertex_count(); ++i) sum += world.model.mass[i] * world.state.velocities.at(i);
+    return sum;
+}
+
+Vec3 angular_momentum(const World& world) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < world.model.vertex_count(); ++i) {
+        sum += world.model.mass[i] * world.state.positions.at(i).cross(world.state.velocities.at(i));
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("Each scheme has the order that the table says, over five halvings") {
+    constexpr double time = 0.2;
+    const std::vector<Vec3> exact = string_after({.scheme = Scheme::rk4}, time, 6400);
+    for (const SchemeFacts& facts : scheme_table()) {
+        const int first = facts.order == 4 ? 20 : 40;
+        double coarser = largest_difference(string_after({.scheme = facts.scheme}, time, first), exact);
+        std::printf("%-18s", std::string(facts.word).c_str());
+        const int halvings = facts.order == 4 ? 3 : 5;
+        for (int halving = 1; halving <= halvings; ++halving) {
+            const double finer = largest_difference(string_after({.scheme = facts.scheme}, time, first << halving), exact);
+            const double order = std::log2(coarser / finer);
+            std::printf(" %.2f", order);
+            CAPTURE(facts.word, halving, coarser, finer);
+            CHECK(order == Approx(facts.order).margin(halving < 3 ? 0.4 : 0.12));
+            coarser = finer;
+        }
+        std::printf("   error at the finest %.1e m\n", coarser);
+    }
+}
+
+TEST_CASE("In free fall Euler's schemes are off by g dt^2 n/2 either way, all of higher order exact") {
+    for (const SchemeFacts& facts : scheme_table()) {
+        const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
+        World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices,
+                                 {.time_step = 1e-3, .scheme = facts.scheme, .newton_tolerance = 1e-12});
+        for (int n = 1; n <= 50; ++n) REQUIRE(step(world).ok());
+        const double g = 9.81 * 1e-6, n = 50.0;
+        double fall = g * n * n / 2.0;
+        if (facts.order == 1) fall += (facts.scheme == Scheme::forward_euler ? -1.0 : 1.0) * g * n / 2.0;
+        CAPTURE(facts.word);
+        for (int i = 0; i < 9; ++i) {
+            CHECK((world.state.positions.at(i) - grid.vertices[i] + Vec3(0, fall, 0)).norm() < 1e-9);
+            CHECK(world.state.velocities.at(i).y() == Approx(-9.81e-3 * n).epsilon(1e-9));
+        }
+    }
+}
+
+TEST_CASE("Every scheme keeps linear momentum; symplectic Euler and the implicit midpoint angular momentum too") {
+    for (const SchemeFacts& facts : scheme_table()) {
+        World world = thrown_masses(facts.scheme, facts.implicit ? 1e-2 : 1e-3);
+        const Vec3 linear = momentum(world), angular = angular_momentum(world);
+        for (int n = 0; n < 200; ++n) REQUIRE(step(world).ok());
+        CAPTURE(facts.word);
+        CHECK((momentum(world) - linear).norm() < 1e-12);
+        const double change = (angular_momentum(world) - angular).norm() / angular.norm();
+        std::printf("%-18s angular momentum changed by %.1e\n", std::string(facts.word).c_str(), change);
+        const bool keeps = facts.scheme == Scheme::symplectic_euler || facts.scheme == Scheme::implicit_midpoint;
+        if (keeps) CHECK(change < 1e-10);
+    }
+}
+
+TEST_CASE("A rotating pair keeps its angular momentum by the implicit midpoint and loses it by backward Euler") {
+    const auto kept = [](Scheme scheme) {
+        World world = make_world(linked_masses({0.2, 0.2}, {{0, 1, 0.8, 400.0, 0.0}}), {Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)},
+                                 {.time_step = 1.0 / 60.0, .scheme = scheme, .newton_tolerance = 1e-12, .gravity = Vec3::Zero()});
+        world.state.velocities.set(0, Vec3(0, 0, -5.0));
+        world.state.velocities.set(1, Vec3(0, 0, 5.0));
+        const double start = angular_momentum(world).norm();
+        for (int n = 0; n < 120; ++n) REQUIRE(step(world).ok());
+        return angular_momentum(world).norm() / start;
+    };
+    const double midpoint = kept(Scheme::implicit_midpoint), euler = kept(Scheme::backward_euler);
+    std::printf("spinning pair after 2 s at 1/60 s: implicit midpoint keeps %.12f of L, backward Euler %.3f\n", midpoint, euler);
+    CHECK(midpoint == Approx(1.0).epsilon(1e-10));
+    CHECK(euler < 0.7);
+}
+
+}  // namespace percale::test
