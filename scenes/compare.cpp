@@ -10,19 +10,16 @@ namespace percale::scenes {
 
 namespace {
 
-constexpr int default_steps = 4;  // of each scheme
-
-const Option<StepSettings>* step_option(std::string_view key) {
-    for (const Option<StepSettings>& option : step_options())
-        if (option.key == key) return &option;
-    return nullptr;
-}
+constexpr int default_steps = 4;                             // of each scheme
+constexpr double default_tolerances[] = {1e-2, 1e-3, 1e-4};  // m/s, of adaptive steps
 
 void add_default_steps(const SceneSource& source, const std::string& scheme, const CompareHooks& hooks,
                        std::vector<Variant>& variants) {
     const std::optional<Survivor> survivor = largest_surviving_step(source, scheme, hooks.stop_asked);
     double step = survivor ? survivor->step : 1.0 / 60.0;
     for (int k = 0; k < (survivor ? default_steps : 1); ++k, step *= 0.5) variants.push_back({scheme, step, 0.0});
+    if (scheme != "tr_bdf2") return;
+    for (const double tolerance : default_tolerances) variants.push_back({scheme, 0.0, tolerance});
 }
 
 /// Whether a scheme takes the scene at all.
@@ -79,12 +76,11 @@ ComparedRun judged(const Variant& variant, VariantRun run, const Reference& refe
 
 std::vector<std::string> scheme_words() {
     std::vector<std::string> words;
-    for (const std::string_view word : step_option("scheme")->choices)
-        if (word != "auto") words.emplace_back(word);
+    for (const Option<StepSettings>& option : step_options())
+        if (option.key == "scheme") words.assign(option.choices.begin(), option.choices.end());
+    std::erase(words, "auto");
     return words;
 }
-
-bool has_adaptive_steps() { return step_option("tolerance") != nullptr; }
 
 Comparison compare_scene(const SceneSource& source, const CompareSettings& settings, const CompareHooks& hooks) {
     const Scene scene = source({});

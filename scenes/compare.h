@@ -12,9 +12,9 @@ namespace percale::scenes {
 
 struct CompareSettings {
     std::vector<std::string> schemes;  // empty: all that take the scene
-    std::vector<double> steps;         // s; empty: of each scheme the largest of 1/60 s / 2^k that survives and three halvings,
-                                       // if there are no tolerances either
-    std::vector<double> tolerances;    // m/s, of adaptive steps
+    std::vector<double> steps;         // s
+    std::vector<double> tolerances;    // m/s, of adaptive steps. Both empty: of each scheme the largest of 1/60 s / 2^k that
+                                       // survives and three halvings, and of tr_bdf2 three tolerances
     int repeats = 3;                   // runs of each, of which the fastest counts
     double reference_error = 1e-9;     // m rms, the reference is refined to
 };
@@ -44,8 +44,6 @@ struct CompareHooks {
 
 /// All words of step.scheme that name one scheme, in the order of the options.
 std::vector<std::string> scheme_words();
-/// Whether time_step = "auto" is there.
-bool has_adaptive_steps();
 
 /// Runs the reference, then every scheme at every step and tolerance, repeats in rounds. A run that failed, blew up or was
 /// refused is a row that says so; one that ends farther from the reference than the cloth is large blew up, too. Throws

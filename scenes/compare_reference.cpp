@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "percale/error.h"
-#include "percale/options.h"
 
 namespace percale::scenes {
 
@@ -100,12 +99,6 @@ bool has_contact(const SceneSource& source) { return source({}).has_contact(); }
 
 }  // namespace
 
-bool is_scheme(const std::string& word) {
-    for (const Option<StepSettings>& option : step_options())
-        if (option.key == "scheme") return std::find(option.choices.begin(), option.choices.end(), word) != option.choices.end();
-    return false;
-}
-
 std::optional<Survivor> largest_surviving_step(const SceneSource& source, const std::string& scheme,
                                                const std::function<bool()>& stop_asked) {
     double step = largest_step;
@@ -125,7 +118,7 @@ Distances richardson(const Distances& change, double before) {
 Reference make_reference(const SceneSource& source, double wanted, const std::function<bool()>& stop_asked) {
     const bool contact = has_contact(source);
     for (const Candidate& candidate : candidates) {
-        if ((contact && !candidate.contact) || !is_scheme(candidate.scheme)) continue;
+        if (contact && !candidate.contact) continue;
         Refinement refinement(source, candidate, stop_asked);
         if (refinement.refine(wanted)) return refinement.reference();
     }

@@ -41,7 +41,4 @@ Reference make_reference(const SceneSource& source, double wanted, const std::fu
 /// `before`: that, m rms; infinity if there was none.
 Distances richardson(const Distances& change, double before);
 
-/// Whether a word is one of step.scheme.
-bool is_scheme(const std::string& word);
-
 }  // namespace percale::scenes

@@ -58,7 +58,7 @@ Row table_row(const Comparison& comparison, const ComparedRun& compared) {
     const RunTotals& totals = compared.run.totals;
     Row row{compared.variant.scheme,
             length_text(compared.variant),
-            std::to_string(totals.steps),
+            std::to_string(compared.run.steps),
             std::to_string(totals.newton_iterations),
             std::to_string(totals.linear_iterations),
             formatted("%.3g", totals.cpu_s)};
@@ -95,14 +95,14 @@ std::string csv_text(const std::string& text) {
     return quoted + "\"";
 }
 
-std::string csv_line(const Variant& variant, const std::string& status, const Distances& error, const RunTotals* totals) {
+std::string csv_line(const Variant& variant, const std::string& status, const Distances& error, const VariantRun* run) {
     std::string line = variant.scheme + "," + (variant.time_step > 0.0 ? number_text(variant.time_step) : "") + "," +
                        (variant.time_step > 0.0 ? "" : number_text(variant.tolerance)) + "," + status;
-    if (totals) {
-        for (const long count : {static_cast<long>(totals->steps), static_cast<long>(totals->rejected_steps),
-                                 totals->newton_iterations, totals->linear_iterations})
+    if (run) {
+        for (const long count : {static_cast<long>(run->steps), static_cast<long>(run->rejected), run->totals.newton_iterations,
+                                 run->totals.linear_iterations})
             line += "," + std::to_string(count);
-        line += "," + csv_number(totals->cpu_s);
+        line += "," + csv_number(run->totals.cpu_s);
     } else {
         line += ",,,,,";
     }
@@ -148,7 +148,7 @@ std::string comparison_csv(const Comparison& comparison) {
     const std::string kind = reference.chaotic ? "chaotic: compare invariants, not positions" : "errors are the uncertainty";
     text += csv_line(reference.variant, "reference", reference.uncertainty, nullptr) + "," + kind + "\n";
     for (const ComparedRun& compared : comparison.runs) {
-        text += csv_line(compared.variant, end_word(compared.run.end), compared.error, &compared.run.totals) + "," +
+        text += csv_line(compared.variant, end_word(compared.run.end), compared.error, &compared.run) + "," +
                 csv_text(compared.run.reason) + "\n";
     }
     return text;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "percale/error.h"
 #include "scene_text.h"
@@ -119,12 +120,19 @@ VariantEnd end_of(RunStatus status, bool finite) {
 
 /// Steps a built scene to its end.
 VariantRun run_built(BuiltScene& built, const std::function<bool()>& stop_asked) {
+    VariantRun run;
     bool finite = true;
     RunHooks hooks;
     hooks.stop_asked = stop_asked;
-    hooks.step = [&](const StepReport& report, const Simulation&) { finite = report.status != StepStatus::not_finite; };
-    const RunResult result = run_scene(built, hooks);
-    VariantRun run{.end = end_of(result.status, finite), .reason = result.reason, .state = {}, .totals = result.totals};
+    hooks.step = [&](const StepReport& report, const Simulation&) {
+        finite = report.status != StepStatus::not_finite;
+        run.steps += report.ok() ? report.parts : 0;
+        run.rejected += report.rejected + report.halvings;
+    };
+    RunResult result = run_scene(built, hooks);
+    run.end = end_of(result.status, finite);
+    run.reason = std::move(result.reason);
+    run.totals = std::move(result.totals);
     if (run.end == VariantEnd::finished) run.state = end_of(built);
     return run;
 }
@@ -140,7 +148,10 @@ VariantRun run_variant(const SceneSource& source, const Variant& variant, const 
         if (disturbance > 0.0) disturb(built, disturbance);
         return run_built(built, stop_asked);
     } catch (const SceneError& error) {
-        return {.end = VariantEnd::refused, .reason = error.what(), .state = {}, .totals = {}};
+        VariantRun refused;
+        refused.end = VariantEnd::refused;
+        refused.reason = error.what();
+        return refused;
     }
 }
 

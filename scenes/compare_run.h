@@ -51,6 +51,8 @@ struct VariantRun {
     std::string reason;  // why, if not finished
     EndState state;      // of a finished run
     RunTotals totals;
+    int steps = 0;     // accepted, those that an adaptive step consists of each
+    int rejected = 0;  // tried and found too inexact, or redone as shorter ones
 };
 
 /// Steps a scene to its end without writing, measuring or judging anything. `disturbance`: every free vertex starts so far, m,

@@ -57,8 +57,6 @@ std::vector<double> read_numbers(const char* option, const std::vector<std::stri
 }
 
 CompareSettings settings_of(const CompareOptions& options) {
-    if (!options.tolerances.empty() && !has_adaptive_steps())
-        throw SceneError("--tolerances: this build lacks adaptive steps (step.tolerance)");
     if (options.repeats < 1 || options.repeats > 1000)
         throw SceneError("--repeats " + std::to_string(options.repeats) + " is outside the allowed range 1 ... 1000");
     if (!(options.reference_error >= 1e-14 && options.reference_error <= 1.0))

@@ -13,9 +13,9 @@ constexpr double width = 860.0, height = 540.0;  // pixels
 constexpr double left = 90.0, right = 640.0, top = 50.0, bottom = 470.0;
 constexpr double legend_left = 660.0, legend_line = 24.0;
 
-// Told apart with any colour vision, dark enough on white (Okabe and Ito 2008, and four more).
-constexpr std::array<const char*, 10> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000",
-                                                 "#b8860b", "#56b4e9", "#7b3294", "#a50026", "#666666"};
+// Dark enough on white; the first seven told apart with any colour vision (Okabe and Ito 2008), the others by their markers, too.
+constexpr std::array<const char*, 12> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#b8860b",
+                                                 "#56b4e9", "#7b3294", "#a50026", "#666666", "#1b7837", "#e377c2"};
 
 std::string number(double value) {
     char text[32];

@@ -19,7 +19,7 @@ struct PlotSeries {
 
 struct Plot {
     std::string title, x_label, y_label;  // labels with their units
-    std::vector<PlotSeries> series;       // each in a colour and with a marker of its own, ten of them
+    std::vector<PlotSeries> series;       // each in a colour of its own, twelve of them, and with a marker
     double floor = 0.0;                   // a dashed line at this y; none if 0
     std::string floor_label;
 };

@@ -12,6 +12,8 @@
 
 #include "percale/options.h"
 #include "percale/simulation.h"
+#include "scenes/report/plot_svg.h"
+#include "scenes/whole_file.h"
 #include "tests/bench/bench_report.h"
 #include "tests/bench/plain_rk4.h"
 #ifdef PERCALE_HAS_BULLET_SOFT_BODY
@@ -195,7 +197,29 @@ Figures compare_with_bullet(const std::vector<Row>& rows, const Task& task) {
     return ratios;
 }
 
-Figures measure_all(const Task& task, int rounds) {
+scenes::Plot plot_of(const std::vector<Row>& rows, const Task& task, double uncertainty) {
+    char label[64];
+    std::snprintf(label, sizeof label, "CPU time of %g s, s", task.duration);
+    scenes::Plot plot{
+        .title = "a sheet of " + std::to_string(task.n) + " x " + std::to_string(task.n) + " hanging from two corners",
+        .x_label = label,
+        .y_label = "error, rms over vertices, m",
+        .series = {},
+        .floor = uncertainty,
+        .floor_label = "reference"};
+    for (const Row& row : rows) {
+        const std::string name = row.engine == "Percale" ? row.setting : row.engine + ", " + row.setting;
+        if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, {}});
+        plot.series.back().points.push_back({row.seconds, row.error, name + ", " + std::to_string(row.steps) + " steps"});
+    }
+    std::erase_if(plot.series, [](const scenes::PlotSeries& series) {
+        return std::none_of(series.points.begin(), series.points.end(),
+                            [](const scenes::PlotPoint& point) { return std::isfinite(point.y); });
+    });
+    return plot;
+}
+
+Figures measure_all(const Task& task, int rounds, const std::string& svg) {
     const int finest = static_cast<int>(std::lround(task.duration / 1e-5));
     const std::vector<Vec3> reference = run_plain(task, finest);
     const double uncertainty = rms_between(run_plain(task, finest / 2), reference) / 15.0;
@@ -209,6 +233,7 @@ Figures measure_all(const Task& task, int rounds) {
     print_rows(rows, task);
     Figures figures{{"n", task.n}, {"duration", task.duration}, {"reference_uncertainty_m", uncertainty}};
     for (const Row& row : rows) figures["rows"].push_back(figures_of(row, task));
+    if (!svg.empty()) scenes::write_whole_file(svg, scenes::plot_svg(plot_of(rows, task, uncertainty)));
     figures["against_plain"] = compare_with_plain(rows, task);
     figures["against_bullet"] = compare_with_bullet(rows, task);
     return figures;
@@ -220,9 +245,11 @@ int main(int argc, char** argv) {
     CLI::App app("Error against CPU time on the hanging sheet, beside a plain Runge-Kutta and Bullet.", "percale_work_precision");
     Task task{.n = 33, .duration = 0.5};
     int rounds = 3;
+    std::string svg;
     app.add_option("--vertices", task.n, "vertices a side")->capture_default_str()->check(CLI::Range(3, 129));
     app.add_option("--rounds", rounds, "runs of each, of which the fastest counts")
         ->capture_default_str()
         ->check(CLI::Range(1, 100));
-    return test::run_bench(app, argc, argv, [&] { return measure_all(task, rounds); });
+    app.add_option("--svg", svg, "also draw the diagram into this file");
+    return test::run_bench(app, argc, argv, [&] { return measure_all(task, rounds, svg); });
 }

@@ -66,10 +66,4 @@ TEST_CASE("With an obstacle the reference is implicit and says how well it is kn
     CHECK(reference.uncertainty.rms < 1e-2);
 }
 
-TEST_CASE("Words of step.scheme are schemes, others are not") {
-    CHECK(is_scheme("rk4"));
-    CHECK(is_scheme("backward_euler"));
-    CHECK_FALSE(is_scheme("rk5"));
-}
-
 }  // namespace percale::scenes

@@ -12,7 +12,7 @@ namespace {
 ComparedRun finished_run(const Variant& variant, double error, double cpu_s) {
     ComparedRun run{variant, {}, {error, 2.0 * error, 0.5 * error, 0.1 * error, 3.0 * error, 0.0}};
     run.run.totals.cpu_s = cpu_s;
-    run.run.totals.steps = 120;
+    run.run.steps = 120;
     return run;
 }
 
@@ -26,7 +26,8 @@ Comparison small_comparison() {
     comparison.reference.growth = 10.0;
     comparison.runs = {finished_run({"backward_euler", 1.0 / 60.0, 0.0}, 2e-2, 0.1), finished_run({"rk4", 0.01, 0.0}, 3e-4, 0.5),
                        finished_run({"tr_bdf2", 0.0, 1e-3}, 3e-4, 0.6), finished_run({"rk4", 0.005, 0.0}, 1e-8, 1.0)};
-    comparison.runs.push_back({{"symplectic_euler", 0.01, 0.0}, {VariantEnd::blew_up, "vertex 3, \"far\", left", {}, {}}, {}});
+    comparison.runs.push_back(
+        {{"symplectic_euler", 0.01, 0.0}, {VariantEnd::blew_up, "vertex 3, \"far\", left", {}, {}, 0, 0}, {}});
     return comparison;
 }
 

@@ -96,14 +96,14 @@ TEST_CASE("Decades have ticks, axes labels, lines a legend, the floor its name")
     CHECK_FALSE(holds(svg, ">2e-4<"));
 }
 
-TEST_CASE("Ten lines look all different") {
+TEST_CASE("Twelve lines look all different") {
     Plot plot{.title = "", .x_label = "", .y_label = "", .series = {}, .floor = 0.0, .floor_label = ""};
-    for (int k = 0; k < 10; ++k) plot.series.push_back({"line " + std::to_string(k), {{1.0, std::pow(10.0, k), ""}}});
+    for (int k = 0; k < 12; ++k) plot.series.push_back({"line " + std::to_string(k), {{1.0, std::pow(10.0, k), ""}}});
     const std::string svg = plot_svg(plot);
     std::set<std::string> strokes;
     const std::regex line("<polyline[^>]* stroke=\"(#[0-9a-f]+)\"");
     for (std::sregex_iterator it(svg.begin(), svg.end(), line), end; it != end; ++it) strokes.insert((*it)[1]);
-    CHECK(strokes.size() == 10);
+    CHECK(strokes.size() == 12);
 }
 
 TEST_CASE("What has no place on a logarithmic axis is left out") {
