@@ -11,25 +11,25 @@
 namespace percale::scenes {
 
 struct CompareSettings {
-    std::vector<std::string> schemes;  // empty: all that take the scene
-    std::vector<double> steps;         // s
-    std::vector<double> tolerances;    // m/s, of adaptive steps. Both empty: of each scheme the largest of 1/60 s / 2^k that
-                                       // survives and three halvings, and of tr_bdf2 three tolerances
-    int repeats = 3;                   // runs of each, of which the fastest counts
-    double reference_error = 1e-9;     // m rms, the reference is refined to
+    std::vector<std::string> schemes = {};  // empty: all that take the scene
+    std::vector<double> steps = {};         // s
+    std::vector<double> tolerances = {};    // m/s, of adaptive steps. Both empty: of each scheme the largest of 1/60 s / 2^k that
+                                            // survives and three halvings, and of tr_bdf2 three tolerances
+    int repeats = 3;                        // runs of each, of which the fastest counts
+    double reference_error = 1e-9;          // m rms, the reference is refined to
 };
 
 struct ComparedRun {
-    Variant variant;
-    VariantRun run;   // its CPU time the least of the repeats
-    Distances error;  // against the reference; not numbers where the run did not finish
+    Variant variant = {};
+    VariantRun run = {};   // its CPU time the least of the repeats
+    Distances error = {};  // against the reference; not numbers where the run did not finish
 };
 
 struct Comparison {
-    std::string title;
+    std::string title = {};
     double duration = 0.0;  // s
-    Reference reference;
-    std::vector<ComparedRun> runs;
+    Reference reference = {};
+    std::vector<ComparedRun> runs = {};
 
     /// The error that runs are ranked by, m: rms over vertices, in chaotic scenes that of the centre of mass.
     double rank_of(const Distances& distances) const { return reference.chaotic ? distances.mass_centre : distances.rms; }

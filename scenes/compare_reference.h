@@ -9,20 +9,20 @@ namespace percale::scenes {
 
 /// What the error of other runs is measured against, and how well it is known.
 struct Reference {
-    Variant variant;        // the finest run
-    EndState state;         // its end
-    Distances uncertainty;  // what the last halving of the step changed, over how fast such changes fall (Richardson)
-    double growth = 0.0;    // of a disturbance from the start to the end; infinity where the disturbed run did not finish
-    bool chaotic = false;   // growth above chaos_growth: positions cannot be compared, only invariants
+    Variant variant = {};        // the finest run
+    EndState state = {};         // its end
+    Distances uncertainty = {};  // what the last halving of the step changed, over how fast such changes fall (Richardson)
+    double growth = 0.0;         // of a disturbance from the start to the end; infinity where the disturbed run did not finish
+    bool chaotic = false;        // growth above chaos_growth: positions cannot be compared, only invariants
 };
 
 constexpr double disturbance_at_start = 1e-6;  // m, of every free vertex
-constexpr double chaos_growth = 100.0;
+constexpr double chaos_growth = 1000.0;
 
 /// A run that came to an end, with its step.
 struct Survivor {
     double step = 0.0;  // s
-    VariantRun run;
+    VariantRun run = {};
 };
 
 /// With the largest of the steps 1/60 s / 2^k, k = 0 ... 14, at which a scheme brings the scene to an end without an edge of

@@ -54,6 +54,11 @@ Row heading_row(const Comparison& comparison) {
     return row;
 }
 
+std::string status_text(const VariantRun& run) {
+    if (run.end == VariantEnd::blew_up) return end_word(run.end) + (" after " + short_text(run.totals.simulated_s)) + " s";
+    return end_word(run.end) + (run.reason.empty() ? "" : ": " + run.reason);
+}
+
 Row table_row(const Comparison& comparison, const ComparedRun& compared) {
     const RunTotals& totals = compared.run.totals;
     Row row{compared.variant.scheme,
@@ -65,7 +70,7 @@ Row table_row(const Comparison& comparison, const ComparedRun& compared) {
     for_shown_errors(comparison, [&](const ErrorColumn& column) {
         row.push_back(error_text(compared.error.*column.value, comparison.reference.uncertainty.*column.value));
     });
-    row.push_back(end_word(compared.run.end) + (compared.run.reason.empty() ? "" : ": " + compared.run.reason));
+    row.push_back(status_text(compared.run));
     return row;
 }
 

@@ -18,9 +18,9 @@ using SceneSource = std::function<Scene(std::span<const Override>)>;
 
 /// How a scene is stepped.
 struct Variant {
-    std::string scheme;      // as in a scene file
-    double time_step = 0.0;  // s; 0: chosen by the scheme for `tolerance`
-    double tolerance = 0.0;  // m per second, where the time step is 0
+    std::string scheme = {};  // as in a scene file
+    double time_step = 0.0;   // s; 0: chosen by the scheme for `tolerance`
+    double tolerance = 0.0;   // m per second, where the time step is 0
 };
 
 /// "1/240 s", "0.003 s", "tolerance 0.001 m/s".
@@ -33,11 +33,11 @@ const char* end_word(VariantEnd end);
 
 /// What is compared at the end.
 struct EndState {
-    std::vector<Vec3> positions;      // m, all cloths in turn
-    Vec3 mass_centre = Vec3::Zero();  // m
-    double energy = 0.0;              // J, total
-    double lowest = 0.0;              // m, height of the lowest vertex
-    double stretch = 0.0;             // largest (l - l0)/l0 of a mesh edge
+    std::vector<Vec3> positions = {};  // m, all cloths in turn
+    Vec3 mass_centre = Vec3::Zero();   // m
+    double energy = 0.0;               // J, total
+    double lowest = 0.0;               // m, height of the lowest vertex
+    double stretch = 0.0;              // largest (l - l0)/l0 of a mesh edge
 };
 
 /// A stop was asked for.
@@ -48,9 +48,9 @@ public:
 
 struct VariantRun {
     VariantEnd end = VariantEnd::finished;
-    std::string reason;  // why, if not finished
-    EndState state;      // of a finished run
-    RunTotals totals;
+    std::string reason = {};  // why, if not finished
+    EndState state = {};      // of a finished run
+    RunTotals totals = {};
     int steps = 0;     // accepted, those that an adaptive step consists of each
     int rejected = 0;  // tried and found too inexact, or redone as shorter ones
 };

@@ -8,20 +8,20 @@ namespace percale::scenes {
 
 struct PlotPoint {
     double x = 0.0, y = 0.0;
-    std::string label;  // shown by viewers that show titles; may be empty
+    std::string label = {};  // shown by viewers that show titles; may be empty
 };
 
 /// Points joined in their order by a line; what is not positive and finite is left out, as it has no place on the axes.
 struct PlotSeries {
-    std::string name;  // in the legend
-    std::vector<PlotPoint> points;
+    std::string name = {};  // in the legend
+    std::vector<PlotPoint> points = {};
 };
 
 struct Plot {
-    std::string title, x_label, y_label;  // labels with their units
-    std::vector<PlotSeries> series;       // each in a colour of its own, twelve of them, and with a marker
-    double floor = 0.0;                   // a dashed line at this y; none if 0
-    std::string floor_label;
+    std::string title = {}, x_label = {}, y_label = {};  // labels with their units
+    std::vector<PlotSeries> series = {};                 // each in a colour of its own, twelve of them, and with a marker
+    double floor = 0.0;                                  // a dashed line at this y; none if 0
+    std::string floor_label = {};
 };
 
 /// A stretch of a logarithmic axis and where it is drawn, in pixels.

@@ -39,7 +39,7 @@ TEST_CASE("The reference of a free fall is the parabola, knows it, and is not ch
 TEST_CASE("A strip that falls over from its unstable rest is chaotic, and the uncertainty says what the disturbance does") {
     const Reference reference = make_reference(source_of(standing_strip()), 1e-9, never_stop);
     CHECK(reference.chaotic);
-    // A rod on a hinge moves away as exp(t sqrt(3 g/(2 l))), so two levels far from 0.5 s times that bound the growth.
+    // A rod on a hinge moves away as exp(t sqrt(3 g/(2 l))), here a point mass at the end of one as exp(t sqrt(g/l)).
     CHECK(reference.growth > chaos_growth);
     CHECK(reference.growth < 1e6);
     CHECK(reference.uncertainty.rms >= 0.9 * reference.growth * disturbance_at_start);

@@ -17,7 +17,7 @@ inline bool never_stop() { return false; }
 /// nothing pushes it.
 inline std::string standing_strip() {
     return R"(
-duration = 0.5
+duration = 0.7
 [fabric.sheet]
 springs = { structural = 50.0, shear = 50.0 }
 [[cloth]]
