@@ -50,12 +50,21 @@ void finish(const ExplicitPart& part, ClothState& state) {
     update_points(state);
 }
 
+/// (v)_i += dt f_i/m_i along one axis, where a vertex is free.
+void kick(const ExplicitPart& part, const AlignedVector<double>& force, AlignedVector<double>& velocity) {
+    const double *f = force.data(), *mass = part.model->mass.data(), *free = part.free->data();
+    double* __restrict__ v = velocity.data();
+    for (int i = 0; i < part.model->vertex_count(); ++i) {
+        const double change = part.dt * f[i] / mass[i];
+        v[i] += free[i] > 0.0 ? change : 0.0;
+    }
+}
+
 void step_symplectic_euler(const ExplicitPart& part, ExplicitSpace& space, ClothState& state) {
     evaluate(part, state, space);
-    for (int i = 0; i < part.model->vertex_count(); ++i) {
-        if (!is_free(part, i)) continue;
-        state.velocities.add(i, part.dt * space.forces.total.at(i) / part.model->mass[i]);
-    }
+    kick(part, space.forces.total.x, state.velocities.x);
+    kick(part, space.forces.total.y, state.velocities.y);
+    kick(part, space.forces.total.z, state.velocities.z);
     add_scaled(state.positions, part.dt, state.velocities);
 }
 
@@ -76,22 +85,40 @@ void step_midpoint(const ExplicitPart& part, ExplicitSpace& space, ClothState& s
     add_scaled(state.velocities, part.dt, space.acceleration);
 }
 
+/// A stage of Runge and Kutta's: the weight of its slopes, and how far along them the next one is, s.
+struct Stage {
+    double weight, ahead;
+};
+
+/// Along one axis: adds the slopes of the stage at (x, v), where the force is f, to their sums, and makes the next stage of the
+/// state at the start of the step. One pass, since what it reads and writes costs as much as the springs.
+void advance_axis(const ExplicitPart& part, const Stage& stage, AlignedVector<double> Vectors::*axis, const ClothState& start,
+                  ExplicitSpace& space) {
+    const double *mass = part.model->mass.data(), *free = part.free->data();
+    const double *f = (space.forces.total.*axis).data(), *x0 = (start.positions.*axis).data(),
+                 *v0 = (start.velocities.*axis).data();
+    double* __restrict__ x = (space.stage.positions.*axis).data();
+    double* __restrict__ v = (space.stage.velocities.*axis).data();
+    double* __restrict__ v_sum = (space.velocity_sum.*axis).data();
+    double* __restrict__ a_sum = (space.acceleration_sum.*axis).data();
+    for (int i = 0; i < part.model->vertex_count(); ++i) {
+        const double quotient = f[i] / mass[i], a = free[i] > 0.0 ? quotient : 0.0, velocity = v[i];
+        v_sum[i] += stage.weight * velocity;
+        a_sum[i] += stage.weight * a;
+        x[i] = x0[i] + stage.ahead * velocity;
+        v[i] = v0[i] + stage.ahead * a;
+    }
+}
+
 void step_rk4(const ExplicitPart& part, ExplicitSpace& space, ClothState& state) {
+    const Stage stages[] = {{1.0 / 6.0, 0.5 * part.dt}, {1.0 / 3.0, 0.5 * part.dt}, {1.0 / 3.0, part.dt}, {1.0 / 6.0, 0.0}};
     space.velocity_sum.resize(part.model->vertex_count());
     space.acceleration_sum.resize(part.model->vertex_count());
-    space.stage = state;
-    constexpr double weight[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
-    constexpr double ahead[] = {0.5, 0.5, 1.0};  // where the next stage is evaluated, in steps
-    for (int s = 0; s < 4; ++s) {
-        accelerate(part, space.stage, space);
-        add_scaled(space.velocity_sum, weight[s], space.stage.velocities);
-        add_scaled(space.acceleration_sum, weight[s], space.acceleration);
-        if (s == 3) break;
-        space.stage_velocities = space.stage.velocities;
-        space.stage.positions = state.positions;
-        space.stage.velocities = state.velocities;
-        add_scaled(space.stage.positions, ahead[s] * part.dt, space.stage_velocities);
-        add_scaled(space.stage.velocities, ahead[s] * part.dt, space.acceleration);
+    space.stage.positions = state.positions;
+    space.stage.velocities = state.velocities;
+    for (const Stage& stage : stages) {
+        evaluate(part, space.stage, space);
+        for (const auto axis : {&Vectors::x, &Vectors::y, &Vectors::z}) advance_axis(part, stage, axis, state, space);
     }
     add_scaled(state.positions, part.dt, space.velocity_sum);
     add_scaled(state.velocities, part.dt, space.acceleration_sum);

@@ -23,8 +23,7 @@ struct ExplicitSpace {
     Forces forces;
     ClothState stage;
     Vectors acceleration, velocity_sum, acceleration_sum;
-    Vectors stage_velocities;  // of the stage before, while the next is made
-    Vectors start_forces;      // N, for the work of pins
+    Vectors start_forces;  // N, for the work of pins
 };
 
 /// One step of an explicit scheme. Damping by velocity; velocities of free vertices v, accelerations a(q, v) = f/m.

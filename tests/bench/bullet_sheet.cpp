@@ -158,4 +158,13 @@ double BulletSheet::lowest() const {
     return lowest;
 }
 
+std::vector<Vec3> BulletSheet::positions() const {
+    std::vector<Vec3> positions;
+    for (int i = 0; i < world_->sheet->m_nodes.size(); ++i) {
+        const btVector3& x = world_->sheet->m_nodes[i].m_x;
+        positions.emplace_back(x.x(), x.y(), x.z());
+    }
+    return positions;
+}
+
 }  // namespace percale::test

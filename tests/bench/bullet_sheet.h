@@ -1,6 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <vector>
+
+#include "percale/mesh.h"
 
 namespace percale::test {
 
@@ -20,6 +23,8 @@ public:
     double largest_strain() const;
     /// Height of the lowest vertex, m.
     double lowest() const;
+    /// Of all vertices, m, row by row.
+    std::vector<Vec3> positions() const;
 
 private:
     struct World;

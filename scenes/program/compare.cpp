@@ -1,0 +1,169 @@
+#include "compare.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "compare_report.h"
+#include "percale/error.h"
+#include "program/commands.h"
+#include "program/common_options.h"
+#include "program/exit_codes.h"
+#include "program/stop_signals.h"
+#include "scene_text.h"
+#include "whole_file.h"
+
+namespace percale::program {
+
+namespace {
+
+using namespace percale::scenes;
+
+struct CompareOptions {
+    CommonOptions common;
+    std::string scene, folder;
+    std::vector<std::string> schemes, steps, tolerances;
+    int repeats = 3;
+    double reference_error = 1e-9;
+};
+
+std::optional<double> read_number(std::string_view text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+/// "0.004" or "1/240".
+std::optional<double> read_quotient(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const std::optional<double> first = read_number(std::string_view(text).substr(0, slash));
+    if (!first || slash == std::string::npos) return first;
+    const std::optional<double> second = read_number(std::string_view(text).substr(slash + 1));
+    return second ? std::optional(*first / *second) : std::nullopt;
+}
+
+std::vector<double> read_numbers(const char* option, const std::vector<std::string>& texts) {
+    std::vector<double> values;
+    for (const std::string& text : texts) {
+        const std::optional<double> value = read_quotient(text);
+        if (!value) throw SceneError(std::string(option) + " " + text + ": must be numbers such as 0.004 or 1/240");
+        values.push_back(*value);
+    }
+    return values;
+}
+
+CompareSettings settings_of(const CompareOptions& options) {
+    if (options.repeats < 1 || options.repeats > 1000)
+        throw SceneError("--repeats " + std::to_string(options.repeats) + " is outside the allowed range 1 ... 1000");
+    if (!(options.reference_error >= 1e-14 && options.reference_error <= 1.0))
+        throw SceneError("--reference-error " + number_text(options.reference_error) +
+                         " is outside the allowed range 1e-14 ... 1 m");
+    return {.schemes = options.schemes,
+            .steps = read_numbers("--steps", options.steps),
+            .tolerances = read_numbers("--tolerances", options.tolerances),
+            .repeats = options.repeats,
+            .reference_error = options.reference_error};
+}
+
+/// Has every word and number judged as the key of the scene file that it stands for.
+void check_settings(const CompareSettings& settings, const SceneSource& source) {
+    const auto check = [&](const char* key, const std::string& value, const char* option) {
+        source(std::vector<Override>{{key, value, option}});
+    };
+    for (const std::string& scheme : settings.schemes) check("step.scheme", scheme, "--schemes");
+    for (const double step : settings.steps) check("step.time_step", number_text(step), "--steps");
+    for (const double tolerance : settings.tolerances) check("step.tolerance", number_text(tolerance), "--tolerances");
+}
+
+std::string folder_of(const CompareOptions& options) {
+    const std::string folder = options.folder.empty() ? std::filesystem::path(options.scene).stem().string() : options.folder;
+    if (folder.empty()) throw SceneError(options.scene + ": no folder can be named after this; name one with -o");
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder))
+        throw SceneError(folder + ": cannot be made: " + (error ? error.message() : "it is a file"));
+    return folder;
+}
+
+void print(const Comparison& comparison, const std::string& folder) {
+    std::fputs(comparison_table(comparison).c_str(), stdout);
+    for (const std::string& sentence : advice(comparison)) std::printf("%s\n", sentence.c_str());
+    std::printf("%s/compare.csv, %s/compare.svg\n", folder.c_str(), folder.c_str());
+}
+
+Comparison compared(const CompareOptions& options, const CompareSettings& settings, const SceneSource& source) {
+    const StopSignals signals;
+    CompareHooks hooks;
+    hooks.stop_asked = [&] { return signals.asked(); };
+    hooks.reference_made = [&](const Reference& reference) {
+        if (options.common.quiet) return;
+        std::fputs(reference_text(reference).c_str(), stdout);
+        std::fflush(stdout);
+    };
+    return compare_scene(source, settings, hooks);
+}
+
+int compare(const CompareOptions& options) {
+    const CompareSettings settings = settings_of(options);
+    const std::vector<Override> given = scene_overrides(options.common);
+    const SceneSource source = [&](std::span<const Override> more) {
+        std::vector<Override> overrides = given;
+        overrides.insert(overrides.end(), more.begin(), more.end());
+        return load_scene(options.scene, overrides);
+    };
+    check_settings(settings, source);
+    build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
+    const std::string folder = folder_of(options);
+    WholeFile table(folder + "/compare.csv"), diagram(folder + "/compare.svg");
+    try {
+        const Comparison comparison = compared(options, settings, source);
+        table.out() << comparison_csv(comparison);
+        diagram.out() << plot_svg(comparison_plot(comparison));
+        for (WholeFile* file : {&table, &diagram}) {
+            file->out().flush();
+            file->check();
+        }
+        table.commit();
+        diagram.commit();
+        if (!options.common.quiet) print(comparison, folder);
+        return all_well;
+    } catch (const ComparisonStopped&) {
+        std::fprintf(stderr, "percale: %s: stopped; nothing is written\n", options.scene.c_str());
+        return stopped_by_signal;
+    }
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& program, Action& action) {
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* command = program.add_subcommand("compare", "Error of schemes and steps against their run time");
+    command->footer(
+        "Example: percale compare data/scenes/hang.toml --set duration=0.5 --schemes rk4,backward_euler "
+        "--steps 1/60,1/240,1/3840 -o out");
+    command->add_option("SCENE", options->scene, "Scene file (TOML)")->required();
+    command->add_option("--schemes", options->schemes, "Words of step.scheme (default: all that take the scene)")
+        ->delimiter(',')
+        ->type_name("A,B");
+    command->add_option("--steps", options->steps, "Time steps in s, 1/240 or 0.004 (default: four of each scheme)")
+        ->delimiter(',')
+        ->type_name("S1,S2");
+    command->add_option("--tolerances", options->tolerances, "Tolerances of adaptive steps in m/s (step.tolerance)")
+        ->delimiter(',')
+        ->type_name("T1,T2");
+    command->add_option("--repeats", options->repeats, "Runs of each; the fastest counts (default 3)")->type_name("N");
+    command
+        ->add_option("--reference-error", options->reference_error, "Error in m that the reference is refined to (default 1e-9)")
+        ->type_name("M");
+    command->add_option("-o", options->folder, "Output folder (default: the scene's name)")->type_name("DIR");
+    command->add_option("--threads", options->common.threads, "Threads of the simulation (step.threads)")->type_name("N");
+    command->add_flag("--quiet", options->common.quiet, "Print nothing but errors");
+    add_scene_options(*command, options->common);
+    command->callback([options, &action] { action = [options] { return compare(*options); }; });
+}
+
+}  // namespace percale::program
