@@ -84,7 +84,8 @@ double stable_step(const World& world, Scheme scheme) {
 
 SchemeChoice choose_scheme(const World& world, const SceneFacts& facts) {
     const bool adaptive = world.settings.adaptive;
-    const Scheme implicit = adaptive ? Scheme::tr_bdf2 : Scheme::backward_euler;
+    const bool projects = world.settings.contact_response == ContactResponse::projection && has_contact(world);
+    const Scheme implicit = adaptive && !projects ? Scheme::tr_bdf2 : Scheme::backward_euler;
     if (has_contact(world)) return {implicit, 1, "explicit schemes take no contact"};
     const Scheme short_steps = adaptive ? Scheme::rk4 : Scheme::symplectic_euler;
     const double stable = safety * stable_step(world, short_steps), dt = world.settings.time_step;

@@ -20,7 +20,8 @@ struct SchemeChoice {
 };
 
 /// Without contact the explicit scheme if all its short steps cost less than one implicit step by the fixed cost model
-/// (plan_costs.h): symplectic_euler against backward_euler; of adaptive steps rk4 against tr_bdf2.
+/// (plan_costs.h): symplectic_euler against backward_euler; of adaptive steps rk4 against tr_bdf2. With
+/// contact tr_bdf2 for adaptive steps, backward_euler otherwise and where contact is projected.
 SchemeChoice choose_scheme(const World& world, const SceneFacts& facts);
 
 /// What the settings will make go wrong or inexact, one sentence each.

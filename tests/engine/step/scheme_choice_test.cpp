@@ -78,7 +78,11 @@ TEST_CASE("The choice is explicit for coarse soft cloth, implicit for stiff or f
     CHECK(chosen(sheet({.adaptive = true, .scheme = Scheme::automatic}, 5, 0.05)).scheme == Scheme::rk4);
     World over = sheet({.scheme = Scheme::automatic}, 5, 0.05);
     over.script.obstacles.push_back({"ball", {}, {}});
-    CHECK(chosen(std::move(over)).scheme == Scheme::backward_euler);
+    CHECK(choose_scheme(over, scene_facts(over)).scheme == Scheme::backward_euler);
+    over.settings.adaptive = true;
+    CHECK(choose_scheme(over, scene_facts(over)).scheme == Scheme::tr_bdf2);
+    over.settings.contact_response = ContactResponse::projection;
+    CHECK(choose_scheme(over, scene_facts(over)).scheme == Scheme::backward_euler);
 }
 
 TEST_CASE("What is chosen takes as many parts as it needs to be stable") {
