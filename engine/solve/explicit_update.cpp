@@ -97,23 +97,33 @@ struct StageAxis {
 enum class StagePlace { first, between, last };
 
 /// Adds the slopes of a stage to their sums and makes the next one, or the end of the step, in one pass: what is read and written
-/// here would else cost as much as the springs. The first stage is the start itself.
+/// here would else cost as much as the springs. The first stage is the start itself. Slice by slice, everything read before
+/// anything is written, so that compilers need not fear that arrays overlap.
 template <StagePlace place>
-void advance(const StageAxis& axis, const Stage& stage, double dt, int count) {
-    const double *f = axis.force, *mobility = axis.mobility;
-    double* __restrict__ x0 = axis.x0, * __restrict__ v0 = axis.v0, * __restrict__ x = axis.x, * __restrict__ v = axis.v, * __restrict__ v_sum = axis.v_sum, * __restrict__ a_sum = axis.a_sum;
-    for (int i = 0; i < count; ++i) {
-        const double a = f[i] * mobility[i], velocity = place == StagePlace::first ? v0[i] : v[i];
-        const double all_v = (place == StagePlace::first ? 0.0 : v_sum[i]) + stage.weight * velocity;
-        const double all_a = (place == StagePlace::first ? 0.0 : a_sum[i]) + stage.weight * a;
+void advance(const StageAxis& axis, const Stage& stage, double dt, std::size_t padded) {
+    constexpr int lanes = Vectors::lanes;
+    const double weight = stage.weight, ahead = stage.ahead;
+    for (std::size_t i = 0; i < padded; i += lanes) {
+        double a[lanes], velocity[lanes], x[lanes], v[lanes];
+        for (int k = 0; k < lanes; ++k) a[k] = axis.force[i + k] * axis.mobility[i + k];
+        for (int k = 0; k < lanes; ++k) velocity[k] = (place == StagePlace::first ? axis.v0 : axis.v)[i + k];
+        for (int k = 0; k < lanes; ++k) x[k] = axis.x0[i + k];
+        for (int k = 0; k < lanes; ++k) v[k] = axis.v0[i + k];
+        double v_sum[lanes] = {}, a_sum[lanes] = {};
+        if constexpr (place != StagePlace::first) {
+            for (int k = 0; k < lanes; ++k) v_sum[k] = axis.v_sum[i + k];
+            for (int k = 0; k < lanes; ++k) a_sum[k] = axis.a_sum[i + k];
+        }
+        for (int k = 0; k < lanes; ++k) v_sum[k] += weight * velocity[k];
+        for (int k = 0; k < lanes; ++k) a_sum[k] += weight * a[k];
         if constexpr (place == StagePlace::last) {
-            x0[i] += dt * all_v;
-            v0[i] += dt * all_a;
+            for (int k = 0; k < lanes; ++k) axis.x0[i + k] = x[k] + dt * v_sum[k];
+            for (int k = 0; k < lanes; ++k) axis.v0[i + k] = v[k] + dt * a_sum[k];
         } else {
-            v_sum[i] = all_v;
-            a_sum[i] = all_a;
-            x[i] = x0[i] + stage.ahead * velocity;
-            v[i] = v0[i] + stage.ahead * a;
+            for (int k = 0; k < lanes; ++k) axis.v_sum[i + k] = v_sum[k];
+            for (int k = 0; k < lanes; ++k) axis.a_sum[i + k] = a_sum[k];
+            for (int k = 0; k < lanes; ++k) axis.x[i + k] = x[k] + ahead * velocity[k];
+            for (int k = 0; k < lanes; ++k) axis.v[i + k] = v[k] + ahead * a[k];
         }
     }
 }
@@ -130,7 +140,7 @@ void make_stage(const ExplicitPart& part, const Stage& stage, ExplicitSpace& spa
                         .v = (space.stage.velocities.*axis).data(),
                         .v_sum = (space.velocity_sum.*axis).data(),
                         .a_sum = (space.acceleration_sum.*axis).data()},
-                       stage, part.dt, static_cast<int>(state.positions.padded_size()));
+                       stage, part.dt, state.positions.padded_size());
     }
 }
 
