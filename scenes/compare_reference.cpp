@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest_step = 1.0 / 60.0;  // s
 constexpr int most_halvings = 14;
 constexpr double torn = 10.0;  // stretch of an edge beyond which a finite end is none
-/// Changes that fall by less than this factor, twice in turn, have stopped falling.
+/// Changes that fall by less than this factor, three times in turn, have stopped falling.
 constexpr double least_progress = 1.25;
 
 struct Candidate {
@@ -73,7 +73,7 @@ bool Refinement::refine(double wanted) {
     if (!first) return false;
     fine_ = std::move(*first);
     if (!affordable(0.25 * fine_.step) || !halve()) return false;
-    while (uncertainty_.rms > wanted && stalled_ < 2 && affordable(0.5 * fine_.step))
+    while (uncertainty_.rms > wanted && stalled_ < 3 && affordable(0.5 * fine_.step))
         if (!halve()) break;
     return true;
 }

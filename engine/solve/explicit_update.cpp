@@ -90,38 +90,81 @@ struct Stage {
     double weight, ahead;
 };
 
-/// Along one axis: adds the slopes of the stage at (x, v), where the force is f, to their sums, and makes the next stage of the
-/// state at the start of the step. One pass, since what it reads and writes costs as much as the springs.
-void advance_axis(const ExplicitPart& part, const Stage& stage, AlignedVector<double> Vectors::*axis, const ClothState& start,
-                  ExplicitSpace& space) {
-    const double *mass = part.model->mass.data(), *free = part.free->data();
-    const double *f = (space.forces.total.*axis).data(), *x0 = (start.positions.*axis).data(),
-                 *v0 = (start.velocities.*axis).data();
-    double* __restrict__ x = (space.stage.positions.*axis).data();
-    double* __restrict__ v = (space.stage.velocities.*axis).data();
-    double* __restrict__ v_sum = (space.velocity_sum.*axis).data();
-    double* __restrict__ a_sum = (space.acceleration_sum.*axis).data();
-    for (int i = 0; i < part.model->vertex_count(); ++i) {
-        const double quotient = f[i] / mass[i], a = free[i] > 0.0 ? quotient : 0.0, velocity = v[i];
-        v_sum[i] += stage.weight * velocity;
-        a_sum[i] += stage.weight * a;
-        x[i] = x0[i] + stage.ahead * velocity;
-        v[i] = v0[i] + stage.ahead * a;
+/// One axis of all that a stage reads and writes.
+struct StageAxis {
+    const double *force, *mobility;  // N; 1/m, 0 where a vertex is prescribed, 1/kg
+    double *x0, *v0;                 // at the start of the step, and at its end
+    double *x, *v;                   // of the stage
+    double *v_sum, *a_sum;           // of the slopes
+};
+
+enum class StagePlace { first, between, last };
+
+/// Adds the slopes of a stage to their sums and makes the next one, or the end of the step, in one pass: what is read and written
+/// here would else cost as much as the springs. The first stage is the start itself. Slice by slice, everything read before
+/// anything is written, so that compilers need not fear that arrays overlap.
+template <StagePlace place>
+void advance(const StageAxis& axis, const Stage& stage, double dt, std::size_t padded) {
+    constexpr int lanes = Vectors::lanes;
+    const double weight = stage.weight, ahead = stage.ahead;
+    for (std::size_t i = 0; i < padded; i += lanes) {
+        double a[lanes], velocity[lanes], x[lanes], v[lanes];
+        for (int k = 0; k < lanes; ++k) a[k] = axis.force[i + k] * axis.mobility[i + k];
+        for (int k = 0; k < lanes; ++k) velocity[k] = (place == StagePlace::first ? axis.v0 : axis.v)[i + k];
+        for (int k = 0; k < lanes; ++k) x[k] = axis.x0[i + k];
+        for (int k = 0; k < lanes; ++k) v[k] = axis.v0[i + k];
+        double v_sum[lanes] = {}, a_sum[lanes] = {};
+        if constexpr (place != StagePlace::first) {
+            for (int k = 0; k < lanes; ++k) v_sum[k] = axis.v_sum[i + k];
+            for (int k = 0; k < lanes; ++k) a_sum[k] = axis.a_sum[i + k];
+        }
+        for (int k = 0; k < lanes; ++k) v_sum[k] += weight * velocity[k];
+        for (int k = 0; k < lanes; ++k) a_sum[k] += weight * a[k];
+        if constexpr (place == StagePlace::last) {
+            for (int k = 0; k < lanes; ++k) axis.x0[i + k] = x[k] + dt * v_sum[k];
+            for (int k = 0; k < lanes; ++k) axis.v0[i + k] = v[k] + dt * a_sum[k];
+        } else {
+            for (int k = 0; k < lanes; ++k) axis.v_sum[i + k] = v_sum[k];
+            for (int k = 0; k < lanes; ++k) axis.a_sum[i + k] = a_sum[k];
+            for (int k = 0; k < lanes; ++k) axis.x[i + k] = x[k] + ahead * velocity[k];
+            for (int k = 0; k < lanes; ++k) axis.v[i + k] = v[k] + ahead * a[k];
+        }
     }
 }
 
-void step_rk4(const ExplicitPart& part, ExplicitSpace& space, ClothState& state) {
-    const Stage stages[] = {{1.0 / 6.0, 0.5 * part.dt}, {1.0 / 3.0, 0.5 * part.dt}, {1.0 / 3.0, part.dt}, {1.0 / 6.0, 0.0}};
-    space.velocity_sum.resize(part.model->vertex_count());
-    space.acceleration_sum.resize(part.model->vertex_count());
-    space.stage.positions = state.positions;
-    space.stage.velocities = state.velocities;
-    for (const Stage& stage : stages) {
-        evaluate(part, space.stage, space);
-        for (const auto axis : {&Vectors::x, &Vectors::y, &Vectors::z}) advance_axis(part, stage, axis, state, space);
+template <StagePlace place>
+void make_stage(const ExplicitPart& part, const Stage& stage, ExplicitSpace& space, ClothState& state) {
+    evaluate(part, place == StagePlace::first ? state : space.stage, space);
+    for (const auto axis : {&Vectors::x, &Vectors::y, &Vectors::z}) {
+        advance<place>({.force = (space.forces.total.*axis).data(),
+                        .mobility = space.mobility.data(),
+                        .x0 = (state.positions.*axis).data(),
+                        .v0 = (state.velocities.*axis).data(),
+                        .x = (space.stage.positions.*axis).data(),
+                        .v = (space.stage.velocities.*axis).data(),
+                        .v_sum = (space.velocity_sum.*axis).data(),
+                        .a_sum = (space.acceleration_sum.*axis).data()},
+                       stage, part.dt, state.positions.padded_size());
     }
-    add_scaled(state.positions, part.dt, space.velocity_sum);
-    add_scaled(state.velocities, part.dt, space.acceleration_sum);
+}
+
+/// Memory for the stages and 1/m of free vertices.
+void begin_stages(const ExplicitPart& part, ExplicitSpace& space, const ClothState& state) {
+    const int count = part.model->vertex_count();
+    const std::size_t padded = state.positions.padded_size();
+    for (Vectors* vectors : {&space.stage.positions, &space.stage.velocities, &space.velocity_sum, &space.acceleration_sum})
+        if (vectors->padded_size() != padded) vectors->resize(count);
+    space.mobility.resize(padded, 0.0);
+    const double *mass = part.model->mass.data(), *free = part.free->data();
+    for (int i = 0; i < count; ++i) space.mobility[i] = free[i] / mass[i];
+}
+
+void step_rk4(const ExplicitPart& part, ExplicitSpace& space, ClothState& state) {
+    begin_stages(part, space, state);
+    make_stage<StagePlace::first>(part, {1.0 / 6.0, 0.5 * part.dt}, space, state);
+    make_stage<StagePlace::between>(part, {1.0 / 3.0, 0.5 * part.dt}, space, state);
+    make_stage<StagePlace::between>(part, {1.0 / 3.0, part.dt}, space, state);
+    make_stage<StagePlace::last>(part, {1.0 / 6.0, 0.0}, space, state);
 }
 
 }  // namespace

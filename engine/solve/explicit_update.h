@@ -23,7 +23,8 @@ struct ExplicitSpace {
     Forces forces;
     ClothState stage;
     Vectors acceleration, velocity_sum, acceleration_sum;
-    Vectors start_forces;  // N, for the work of pins
+    AlignedVector<double> mobility;  // 1/kg, 0 where prescribed
+    Vectors start_forces;            // N, for the work of pins
 };
 
 /// One step of an explicit scheme. Damping by velocity; velocities of free vertices v, accelerations a(q, v) = f/m.

@@ -66,7 +66,7 @@ TEST_CASE("The work of a moving pin is what the energy gained, to the order of t
             set_targets(world);
             const ClothState start = world.state;
             solve_explicit_span(world, {0.0, 1.0});
-            work += pin_work(world, start);
+            work += script_work(world, start, dt);
         }
         return std::abs(energy() - before - work);
     };
