@@ -62,17 +62,23 @@ double extent_of(const EndState& end) {
     return (highest - lowest).norm();
 }
 
-ComparedRun judged(const Variant& variant, VariantRun run, const Reference& reference) {
+ComparedRun judged(const Variant& variant, VariantRun run, const Comparison& comparison) {
+    const Reference& reference = comparison.reference;
     ComparedRun compared{variant, std::move(run), {}};
     if (compared.run.end != VariantEnd::finished) return compared;
     compared.error = distances_between(compared.run.state, reference.state);
-    if (compared.error.rms <= extent_of(reference.state)) return compared;
+    if (compared.error.rms <= comparison.extent) return compared;
     compared.run.end = VariantEnd::blew_up;
     compared.run.reason = "ended farther from the reference than the cloth is large";
     return compared;
 }
 
 }  // namespace
+
+double Comparison::rank_of(const Distances& distances) const {
+    if (!reference.chaotic) return distances.rms;
+    return std::max({distances.mass_centre, distances.lowest, distances.stretch * extent});
+}
 
 std::vector<std::string> scheme_words() {
     std::vector<std::string> words;
@@ -88,10 +94,11 @@ Comparison compare_scene(const SceneSource& source, const CompareSettings& setti
                           .duration = scene.duration,
                           .reference = make_reference(source, settings.reference_error, hooks.stop_asked),
                           .runs = {}};
+    comparison.extent = extent_of(comparison.reference.state);
     if (hooks.reference_made) hooks.reference_made(comparison.reference);
     for (const Variant& variant : all_variants(source, settings, hooks)) {
         VariantRun run = run_variant(source, variant, hooks.stop_asked);
-        comparison.runs.push_back(judged(variant, std::move(run), comparison.reference));
+        comparison.runs.push_back(judged(variant, std::move(run), comparison));
     }
     for (int round = 1; round < settings.repeats; ++round) {
         for (ComparedRun& compared : comparison.runs) {

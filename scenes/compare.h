@@ -28,11 +28,13 @@ struct ComparedRun {
 struct Comparison {
     std::string title = {};
     double duration = 0.0;  // s
+    double extent = 0.0;    // m, diagonal of the box around the cloth at the reference's end
     Reference reference = {};
     std::vector<ComparedRun> runs = {};
 
-    /// The error that runs are ranked by, m: rms over vertices, in chaotic scenes that of the centre of mass.
-    double rank_of(const Distances& distances) const { return reference.chaotic ? distances.mass_centre : distances.rms; }
+    /// The error that runs are ranked by, m: rms over vertices; in chaotic scenes the largest of centre of mass, lowest vertex
+    /// and stretch over the extent of the cloth.
+    double rank_of(const Distances& distances) const;
     /// Whether the reference is good enough to tell this error.
     bool resolved(const ComparedRun& run) const { return rank_of(run.error) > rank_of(reference.uncertainty); }
 };

@@ -15,15 +15,17 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest_step = 1.0 / 60.0;  // s
 constexpr int most_halvings = 14;
 constexpr double torn = 10.0;  // stretch of an edge beyond which a finite end is none
-/// Changes that fall by less than this factor, three times in turn, have stopped falling.
+/// Changes that fall by less than this factor, as often in turn as a candidate has patience, have stopped falling.
 constexpr double least_progress = 1.25;
 
 struct Candidate {
     const char* scheme;
     bool contact;         // takes it
     double vertex_steps;  // a run may take: about 10 s of one core
+    int patience;         // contact, whose depth depends on the step, takes a few halvings to begin to converge
 };
-constexpr std::array<Candidate, 3> candidates = {{{"rk4", false, 3e8}, {"tr_bdf2", true, 1e7}, {"backward_euler", true, 2e7}}};
+constexpr std::array<Candidate, 3> candidates = {
+    {{"rk4", false, 3e8, 3}, {"tr_bdf2", true, 2e6, 4}, {"backward_euler", true, 4e6, 4}}};
 
 /// The runs of one scheme with smaller and smaller steps.
 class Refinement {
@@ -73,7 +75,7 @@ bool Refinement::refine(double wanted) {
     if (!first) return false;
     fine_ = std::move(*first);
     if (!affordable(0.25 * fine_.step) || !halve()) return false;
-    while (uncertainty_.rms > wanted && stalled_ < 3 && affordable(0.5 * fine_.step))
+    while (uncertainty_.rms > wanted && stalled_ < candidate_.patience && affordable(0.5 * fine_.step))
         if (!halve()) break;
     return true;
 }
@@ -117,12 +119,18 @@ Distances richardson(const Distances& change, double before) {
 
 Reference make_reference(const SceneSource& source, double wanted, const std::function<bool()>& stop_asked) {
     const bool contact = has_contact(source);
+    std::string refused;  // what projection, for one, is by tr_bdf2
     for (const Candidate& candidate : candidates) {
         if (contact && !candidate.contact) continue;
         Refinement refinement(source, candidate, stop_asked);
-        if (refinement.refine(wanted)) return refinement.reference();
+        try {
+            if (refinement.refine(wanted)) return refinement.reference();
+        } catch (const SceneError& error) {
+            refused = error.what();
+        }
     }
-    throw SceneError("no reference: no scheme brings this scene to its end at two time steps");
+    throw SceneError("no reference: no scheme brings this scene to its end at two time steps" +
+                     (refused.empty() ? "" : " (" + refused + ")"));
 }
 
 }  // namespace percale::scenes

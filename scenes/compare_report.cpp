@@ -187,7 +187,8 @@ Plot comparison_plot(const Comparison& comparison) {
     const double uncertainty = comparison.rank_of(comparison.reference.uncertainty);
     Plot plot{.title = comparison.title.empty() ? "error against run time" : comparison.title,
               .x_label = "CPU time of " + number_text(comparison.duration) + " s, s",
-              .y_label = comparison.reference.chaotic ? "error of the centre of mass, m" : "error, rms over vertices, m",
+              .y_label = comparison.reference.chaotic ? "error of centre of mass, lowest vertex and stretch, m"
+                                                      : "error, rms over vertices, m",
               .series = {},
               .floor = uncertainty,
               .floor_label = "reference"};

@@ -28,7 +28,7 @@ void run(const std::string& file, bool skip, Ended& ended) {
     RunResult result = run_scene(built);
     if (result.status != RunStatus::finished) throw std::runtime_error(file + ": " + result.reason);
     ended.cpu_s = std::min(ended.cpu_s, result.totals.cpu_s);
-    ended.skipped = std::move(result.skipped);
+    ended.skipped = std::move(result.plan.skipped);
     ended.positions.clear();
     for (const percale::ClothId cloth : built.cloths) {
         const auto view = built.simulation.positions(cloth);
