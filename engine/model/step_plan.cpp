@@ -62,7 +62,6 @@ void add_solver(const StepPlan& plan, std::string_view scheme, std::vector<Skip>
 }
 
 void add_forces(const StepPlan& plan, const SceneFacts& facts, std::vector<Skip>& skipped) {
-    if (plan.everything) return;
     for (const ClothFacts& cloth : facts.cloths) {
         if (cloth.fabric.bend_stiffness.value_or(0.0) == 0.0)
             skipped.push_back({"hinges of " + cloth.name, "bend_stiffness is not set or 0 N m"});

@@ -135,7 +135,7 @@ TEST_CASE("every kind of event is read") {
 }
 
 TEST_CASE("an event is one thing") {
-    CHECK(error_of([] { event(""); }).find("event must have exactly one of pin, unpin, move, gravity; it has none") !=
+    CHECK(error_of([] { event(""); }).find("event must have exactly one of pin, unpin, move, gravity, wind; it has none") !=
           std::string::npos);
     CHECK(error_of([] {
               event("gravity = [0, 0, 0]\npin = { cloth = \"flag\", vertices = [1] }\n");
