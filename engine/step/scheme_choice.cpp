@@ -6,6 +6,7 @@
 
 #include "model/plan_costs.h"
 #include "model/schemes.h"
+#include "shape_loss.h"
 
 namespace percale {
 namespace {
@@ -22,8 +23,25 @@ std::string number_text(double value) {
     return text;
 }
 
+/// y = -Jq x by central differences of all elastic forces, for |x| = 1.
+void multiply_shapes(const World& world, const Vectors& x, Vectors& y) {
+    const double way = 1e-5 * world.model.springs.rest_length.front();
+    ExplicitSpace space;
+    Vectors still, positions = world.state.positions;
+    still.resize(world.model.vertex_count());
+    add_scaled(positions, -way, x);
+    evaluate_elastic(world, positions, still, space);
+    y = space.forces.total;
+    add_scaled(positions, 2.0 * way, x);
+    evaluate_elastic(world, positions, still, space);
+    add_scaled(y, -1.0, space.forces.total);
+    for (auto* axis : {&y.x, &y.y, &y.z}) {
+        for (double& value : *axis) value *= 0.5 / way;
+    }
+}
+
 /// y = K x with the springs' blocks c d d^T, c stiffness or damping.
-void multiply(const World& world, const std::vector<double>& constant, const Vectors& x, Vectors& y) {
+void multiply_springs(const World& world, const std::vector<double>& constant, const Vectors& x, Vectors& y) {
     const SpringNetwork& springs = world.model.springs;
     y.resize(world.model.vertex_count());
     for (int k = 0; k < springs.size(); ++k) {
@@ -37,8 +55,9 @@ void multiply(const World& world, const std::vector<double>& constant, const Vec
     }
 }
 
-/// Largest eigenvalue of M^-1 K by power iteration; prescribed vertices stay.
-double largest_eigenvalue(const World& world, const std::vector<double>& constant) {
+/// Largest eigenvalue of M^-1 K by power iteration, K x = multiply(x, y); prescribed vertices stay.
+template <class Multiply>
+double largest_eigenvalue(const World& world, Multiply multiply) {
     const int count = world.model.vertex_count();
     Vectors x, y;
     x.resize(count);
@@ -48,12 +67,22 @@ double largest_eigenvalue(const World& world, const std::vector<double>& constan
     for (int iteration = 0; iteration < power_iterations; ++iteration) {
         const double size = std::sqrt(sum_terms(0, count, [&](int i) { return square_at(x, i); }));
         if (size == 0.0) return 0.0;
-        multiply(world, constant, x, y);
+        multiply(x, y);
         for (int i = 0; i < count; ++i) y.set(i, world.script.free[i] / world.model.mass[i] * y.at(i));
         value = std::sqrt(sum_terms(0, count, [&](int i) { return square_at(y, i); })) / size;
         for (int i = 0; i < count; ++i) x.set(i, value > 0.0 ? Vec3(y.at(i) / (value * size)) : Vec3(Vec3::Zero()));
     }
     return value;
+}
+
+/// Largest square of an angular frequency, 1/s^2.
+double largest_square(const World& world) {
+    const ClothModel& model = world.model;
+    if (model.hinges.all.empty() && model.membrane.empty()) {
+        return largest_eigenvalue(world,
+                                  [&](const Vectors& x, Vectors& y) { multiply_springs(world, model.springs.stiffness, x, y); });
+    }
+    return largest_eigenvalue(world, [&](const Vectors& x, Vectors& y) { multiply_shapes(world, x, y); });
 }
 
 std::string word(Scheme scheme) { return std::string(facts_of(scheme).word); }
@@ -75,9 +104,10 @@ bool has_contact(const World& world) {
 double stable_step(const World& world, Scheme scheme) {
     const double limit = facts_of(scheme).stable_up_to;
     if (limit == 0.0 || std::isinf(limit)) return limit;
-    const double square = largest_eigenvalue(world, world.model.springs.stiffness);
+    const double square = largest_square(world);
     if (square == 0.0) return std::numeric_limits<double>::infinity();
-    const double damping = largest_eigenvalue(world, world.model.springs.damping);
+    const double damping = largest_eigenvalue(
+        world, [&](const Vectors& x, Vectors& y) { multiply_springs(world, world.model.springs.damping, x, y); });
     // Symplectic Euler with damping explicit: (w dt)^2 + 2 c dt < 4, c the eigenvalue of damping; likewise with another limit.
     return (std::sqrt(damping * damping + limit * limit * square) - damping) / square;
 }
@@ -115,7 +145,7 @@ std::vector<std::string> step_warnings(const World& world, const StepPlan& plan)
         }
     }
     if (plan.scheme == Scheme::trapezoid && !world.settings.adaptive) {
-        const double stiff = dt * std::sqrt(largest_eigenvalue(world, world.model.springs.stiffness));
+        const double stiff = dt * std::sqrt(largest_square(world));
         if (stiff > most_stiff) {
             warnings.push_back(step + " is " + number_text(stiff) +
                                " over the highest frequency: what is as stiff rings under the "

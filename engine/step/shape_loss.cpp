@@ -5,24 +5,18 @@
 #include "forces/spring_loss.h"
 
 namespace percale {
-namespace {
 
-/// world.explicit_space.forces.total = elastic forces, N.
-void evaluate_elastic(World& world, const Vectors& positions) {
-    ExplicitSpace& space = world.explicit_space;
-    world.ledger.still.resize(world.model.vertex_count());
+void evaluate_elastic(const World& world, const Vectors& positions, const Vectors& still, ExplicitSpace& space) {
     set_step_springs(world.compute, {world.model.adjacency, positions, DampingForm::velocity, world.settings.time_step},
                      space.springs);
     evaluate_forces({.compute = &world.compute,
                      .model = &world.model,
                      .springs = &space.springs,
                      .positions = &positions,
-                     .velocities = &world.ledger.still,
+                     .velocities = &still,
                      .dt = world.settings.time_step},
                     space.forces);
 }
-
-}  // namespace
 
 double shape_energy(const ClothModel& model, const Vectors& positions) {
     double energy = elastic_energy(model.springs, positions);
@@ -34,7 +28,8 @@ double shape_energy(const ClothModel& model, const Vectors& positions) {
 double shape_loss(World& world, const ShapeMove& move) {
     const ClothModel& model = world.model;
     if (model.hinges.all.empty() && model.membrane.empty()) return 0.0;
-    evaluate_elastic(world, move.positions);
+    world.ledger.still.resize(model.vertex_count());
+    evaluate_elastic(world, move.positions, world.ledger.still, world.explicit_space);
     const Vectors& force = world.explicit_space.forces.total;
     const double taken =
         sum_terms(0, model.vertex_count(), [&](int i) { return -force.at(i).dot(move.end.at(i) - move.start.at(i)); });

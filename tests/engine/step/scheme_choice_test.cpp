@@ -57,6 +57,30 @@ TEST_CASE("On a sheet steps are stable below the estimate and not far above it")
     }
 }
 
+TEST_CASE("Steps of cloth of given moduli with hinges are stable below the estimate and not far above it") {
+    const auto speed = [](double share, int steps) {
+        Fabric fabric{.area_density = 0.2, .spring_damping = 0.0};
+        fabric.stretch_stiffness = {900.0, 700.0};
+        fabric.shear_stiffness = 100.0;
+        fabric.bend_stiffness = 1e-3;
+        StepSettings settings{.scheme = Scheme::symplectic_euler, .gravity = Vec3::Zero()};
+        const TriangleMesh grid = make_grid(1.0, 1.0, 9, 9);
+        ClothModel model;
+        append_cloth(model, grid, fabric, "cloth");
+        append_hinges_of_last_cloth(model, 1e-3);
+        finish_model(model);
+        World world = make_world(model, grid.vertices, settings);
+        world.settings.time_step = share * stable_step(world, settings.scheme);
+        Random random(3);
+        for (int i = 0; i < 81; ++i) world.state.velocities.set(i, 1e-6 * random.point(1.0));
+        StepReport report;
+        for (int n = 0; n < steps && (n == 0 || report.ok()); ++n) report = step(world);
+        return report.ok() ? report.largest_speed : std::numeric_limits<double>::infinity();
+    };
+    CHECK(speed(0.93, 300) < 1e-4);
+    CHECK(speed(1.1, 2000) > 1.0);
+}
+
 TEST_CASE("Steps far too long end in a status, never silently") {
     World world = sheet({.time_step = 0.02, .scheme = Scheme::rk4});
     StepReport report;
