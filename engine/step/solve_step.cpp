@@ -143,7 +143,8 @@ bool cover_adaptively(World& world) {
         const double length = next_length(world.stages.control, whole * (1.0 - at));
         const double share = length / whole, to = at + share > 1.0 - 1e-9 ? 1.0 : at + share;
         if (!cover(world, {at, to})) return false;
-        const StepAttempt attempt{length, world.stages.error, facts_of(world.plan.scheme).order};
+        const bool touching = world.plan.contacts && world.newton.current.forces.rows.size() > 0;
+        const StepAttempt attempt{length, world.stages.error, facts_of(world.plan.scheme).order, touching};
         if (!accept_attempt(attempt, world.settings.tolerance, world.stages.control)) {
             take_back(world, status, energy);
             world.ledger.contact = contact;

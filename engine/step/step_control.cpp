@@ -8,9 +8,10 @@
 namespace percale {
 namespace {
 
-constexpr double first_length = 5e-5;  // s, short: a start may let go of something stiff
-constexpr double wanted_share = 0.5;   // of the allowance
-constexpr double most_left = 0.02;     // s of allowance that can be left over
+constexpr double first_length = 5e-5;   // s, short: a start may let go of something stiff
+constexpr double wanted_share = 0.5;    // of the allowance
+constexpr double most_left = 0.02;      // s of allowance that can be left over
+constexpr double contact_left = 0.005;  // s of allowance that a step in contact has at least
 constexpr double proportional = 0.4, integral = 0.7;
 constexpr double least_factor = 0.2, most_factor = 2.0;
 
@@ -22,7 +23,7 @@ double next_length(const StepControl& control, double remaining) {
 }
 
 bool accept_attempt(const StepAttempt& attempt, double tolerance, StepControl& control) {
-    const double allowance = tolerance * attempt.length;
+    const double allowance = tolerance * std::max(attempt.length, attempt.contact ? contact_left : 0.0);
     const double share = std::max(attempt.error / allowance, 1e-6), order = attempt.order;
     const bool good = attempt.error <= allowance + control.left;
     if (!good && attempt.length > shortest_step) {
@@ -31,10 +32,11 @@ bool accept_attempt(const StepAttempt& attempt, double tolerance, StepControl& c
         control.just_rejected = true;
         return false;
     }
-    control.left = std::clamp(control.left + allowance - attempt.error, 0.0, most_left * tolerance);
+    control.left = std::clamp(control.left + tolerance * attempt.length - attempt.error, 0.0, most_left * tolerance);
     double factor = std::pow(wanted_share / share, integral / order);
     if (control.share_before > 0.0) factor *= std::pow(control.share_before / wanted_share, proportional / order);
-    control.length = attempt.length * std::clamp(factor, least_factor, control.just_rejected ? 1.0 : most_factor);
+    const double longest = control.just_rejected ? 1.0 : most_factor;
+    control.length = std::max(shortest_step, attempt.length * std::clamp(factor, least_factor, longest));
     control.share_before = share;
     control.just_rejected = false;
     return true;

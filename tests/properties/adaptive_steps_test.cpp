@@ -95,6 +95,19 @@ void check_errors(const char* name, Run (*scene)(const StepSettings&), const std
 
 }  // namespace
 
+TEST_CASE("Adaptive steps come through an impact, however little error is asked for") {
+    for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+        StepSettings settings{.adaptive = true, .tolerance = tolerance, .scheme = Scheme::tr_bdf2};
+        Simulation simulation(settings, std::make_unique<PlaneDetector>());
+        simulation.add_obstacle(make_plane(1.0));
+        const ClothId cloth = simulation.add_cloth(make_grid(0.3, 0.3, 5, 5), sheet_fabric(), {.translation = Vec3(0, 0.1, 0)});
+        const Run impact = run(simulation, cloth, settings.time_step);
+        CAPTURE(tolerance, impact.parts);
+        CHECK(impact.parts < 20000);
+        for (const Vec3& x : impact.positions) CHECK((x.y() > 0.0 && x.y() < 0.05));
+    }
+}
+
 TEST_CASE("Adaptive TR-BDF2 errs by no more than three times what was asked for", "[law]") {
     const StepSettings fine{.time_step = 1e-4, .scheme = Scheme::rk4};
     check_errors("hanging sheet", hanging_sheet, hanging_sheet(fine).positions, {1e-2, 1e-3});

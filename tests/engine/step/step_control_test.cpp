@@ -23,7 +23,7 @@ Covered cover(double time, double tolerance, int order, Rate rate) {
     for (double t = 0.0; t < time - 1e-12;) {
         const double length = next_length(control, time - t);
         const double error = rate(t) * std::pow(length, order + 1);
-        if (!accept_attempt({length, error, order}, tolerance, control)) {
+        if (!accept_attempt({length, error, order, false}, tolerance, control)) {
             ++covered.rejected;
             continue;
         }
@@ -51,13 +51,13 @@ TEST_CASE("The errors of accepted steps add up to less than was asked for and no
 
 TEST_CASE("Steps that are too inexact are rejected and tried shorter") {
     StepControl control{.length = 0.01};
-    CHECK_FALSE(accept_attempt({0.01, 1.0, 2}, 1e-3, control));
+    CHECK_FALSE(accept_attempt({0.01, 1.0, 2, false}, 1e-3, control));
     CHECK(control.length == Approx(0.002));
-    CHECK_FALSE(accept_attempt({0.002, std::numeric_limits<double>::quiet_NaN(), 2}, 1e-3, control));
+    CHECK_FALSE(accept_attempt({0.002, std::numeric_limits<double>::quiet_NaN(), 2, false}, 1e-3, control));
     CHECK(control.length == Approx(0.0004));
-    CHECK(accept_attempt({0.0004, 0.0, 2}, 1e-3, control));
+    CHECK(accept_attempt({0.0004, 0.0, 2, false}, 1e-3, control));
     CHECK(control.length <= 0.0004);
-    CHECK(accept_attempt({0.0004, 0.0, 2}, 1e-3, control));
+    CHECK(accept_attempt({0.0004, 0.0, 2, false}, 1e-3, control));
     CHECK(control.length == Approx(0.0008));
 }
 
@@ -66,6 +66,21 @@ TEST_CASE("An impact, whose error falls with the length only, uses what is left 
     const Covered covered = cover(1.0, 1e-2, 1, [](double t) { return t > 0.4 && t < 0.40001 ? 1e9 : 1.0; });
     CHECK(covered.accepted < 2000);
     CHECK(covered.error < 1.1e-2);
+}
+
+TEST_CASE("Steps in contact pass a jump that no length makes good, and never get shorter than the shortest") {
+    StepControl control{.length = 0.01};
+    const double jump = 1.0, tolerance = 1e-3;  // m/s, m
+    double length = 0.01;
+    int attempts = 0;
+    while (!accept_attempt({length, jump * length, 2, true}, tolerance, control)) {
+        length = next_length(control, 1.0);
+        ++attempts;
+    }
+    CHECK(attempts < 20);
+    CHECK(jump * length < 0.01 * tolerance);
+    for (int n = 0; n < 50; ++n) accept_attempt({control.length, 1.0, 2, false}, tolerance, control);
+    CHECK(control.length >= shortest_step);
 }
 
 TEST_CASE("What remains is divided evenly") {
