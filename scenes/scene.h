@@ -150,9 +150,9 @@ inline constexpr std::string_view word_of(Detector detector) { return detector_w
 struct Scene {
     std::string file;  // as given; "" for a scene made in memory
     std::string title;
-    double duration = 1.0;     // s
-    StepSettings step;         // gravity included
-    SourcePlace scheme_place;  // of step.scheme; of the whole file where that is not said
+    double duration = 1.0;                               // s
+    StepSettings step{.measure = StepMeasures::ledger};  // gravity included; a run reports what became of energy
+    SourcePlace scheme_place;                            // of step.scheme; of the whole file where that is not said
     Detector detector = Detector::fcl;
     std::map<std::string, Fabric> fabrics;
     std::vector<ClothSpec> cloths;

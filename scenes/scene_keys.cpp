@@ -22,13 +22,12 @@ std::string list_text(std::span<const double> values) {
 std::string list_text(const Vec3& v) { return list_text(std::span<const double>(v.data(), 3)); }
 
 template <class Owner>
-SceneKey option_key(const std::string& table, const Option<Owner>& option) {
+SceneKey option_key(const std::string& table, const Option<Owner>& option, Owner defaults = {}) {
     SceneKey key{.path = table + "." + std::string(option.key), .sentence = std::string(option.sentence)};
     key.unit = option.unit;
     key.lowest = option.lowest;
     key.highest = option.highest;
     key.choices.assign(option.choices.begin(), option.choices.end());
-    Owner defaults;
     if (option.number) {
         key.kind = option.automatic ? KeyKind::number_or_auto : KeyKind::number;
         key.default_text = number_text(*option.number(defaults));
@@ -103,7 +102,7 @@ void add_top(Keys& keys) {
 
 void add_step(Keys& keys) {
     keys.push_back(table_key("step", "How the simulation steps."));
-    for (const auto& option : step_options()) keys.push_back(option_key("step", option));
+    for (const auto& option : step_options()) keys.push_back(option_key("step", option, Scene{}.step));
     SceneKey detector = word_key("step.detector", {detector_words.begin(), detector_words.end()},
                                  "Which tree finds obstacle triangles near the cloth; all find the same contacts; none refuses "
                                  "obstacles.");
