@@ -130,8 +130,9 @@ constexpr Option<StepSettings> step_list[] = {
      .automatic = [](StepSettings& s) { return &s.adaptive; }},
     {.key = "tolerance",
      .unit = "m",
-     .sentence = "Requested error of positions, in the mean over a cloth, for each second of simulation; used where time_step is "
-                 "auto.",
+     .sentence = "Error of positions, in the mean over a cloth, that the steps of a second may add by their estimates; what "
+                 "becomes of it "
+                 "later is the cloth's (percale compare tells). Used where time_step is auto.",
      .lowest = 1e-9,
      .highest = 1.0,
      .number = [](StepSettings& s) { return &s.tolerance; }},
@@ -212,8 +213,8 @@ constexpr Option<StepSettings> step_list[] = {
     {.key = "check_derivatives",
      .unit = "",
      .sentence =
-         "Whether every force is compared with its energy and its matrix by differences after each step, which fails where "
-         "they do not fit; slow.",
+         "Whether every force but friction and projected contact is compared with its energy and its matrix by differences after "
+         "each step, which fails where they do not fit; slow.",
      .flag = [](StepSettings& s) { return &s.check_derivatives; }},
 };
 

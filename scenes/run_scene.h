@@ -63,13 +63,13 @@ struct RunSettings {
     bool certify_steps = false;  // certify every state, not only those of output frames: Measures::steps
 };
 
-/// Steps until the scene's duration is over (the last step is shorter where the duration is no multiple of the time step), a step
-/// fails or a stop is asked for. Adaptive steps (time_step = "auto") end at every frame's and event's time. Frame k follows the
-/// first step that ends at or after k / fps; frame 0 is the start. Every
-/// frame is certified against every obstacle, and cloth that meets cloth against that, also when nothing is written. A step in
-/// which an obstacle moves far is made in equal parts (motion_parts), each a step of the simulation and of the totals.
-/// Throws SceneError if the reference of a `matches` expectation cannot be read or has another number of vertices, before the
-/// first step; what a hook throws passes through.
+/// Steps until the scene's duration is over (where the duration is no multiple of the time step the last step is shorter, or up
+/// to a thousandth longer), a step fails or a stop is asked for. Adaptive steps (time_step = "auto") end at every frame's and
+/// event's time. Frame k follows the first step that ends at or after k / fps; frame 0 is the start. Every frame is certified
+/// against every obstacle, and cloth that meets cloth against that, also when nothing is written. A step in which an obstacle
+/// moves far is made in equal parts (motion_parts), each a step of the simulation and of the totals. Throws SceneError if the
+/// reference of a `matches` expectation cannot be read or has another number of vertices, before the first step; what a hook
+/// throws passes through.
 RunResult run_scene(BuiltScene& built, const RunHooks& hooks = {}, const RunSettings& settings = {});
 
 /// Steps of a scene, undivided, and the length of the last one, s.

@@ -144,12 +144,14 @@ std::vector<std::string> step_warnings(const World& world, const StepPlan& plan)
                                number_text(stable) + " s: the cloth will fly apart");
         }
     }
-    if (plan.scheme == Scheme::trapezoid && !world.settings.adaptive) {
+    const bool undamped = plan.scheme == Scheme::trapezoid || plan.scheme == Scheme::implicit_midpoint;
+    if (undamped && !world.settings.adaptive) {
         const double stiff = dt * std::sqrt(largest_square(world));
         if (stiff > most_stiff) {
             warnings.push_back(step + " is " + number_text(stiff) +
-                               " over the highest frequency: what is as stiff rings under the "
-                               "trapezoid and can gain energy; use tr_bdf2");
+                               " times the reciprocal of the highest frequency: what is so stiff rings under " +
+                               word(plan.scheme) +
+                               " and can gain energy; use backward_euler, or tr_bdf2 with time_step = \"auto\"");
         }
     }
     if (plan.implicit && world.settings.newton_iterations == 1 && world.model.vertex_count() > fine_sheet) {

@@ -83,6 +83,16 @@ TEST_CASE("a duration that is a multiple of the step up to rounding takes only f
     CHECK(count_steps(1e4, 1e-3).steps == 10000000);
 }
 
+TEST_CASE("a remainder that is no step of its own makes the last step longer") {
+    CHECK(count_steps(1.0, 0.016666666).steps == 60);
+    CHECK(count_steps(1.0, 0.016666666).last_dt == Approx(0.016666666 + 4e-8).epsilon(1e-12));
+    CHECK(count_steps(3.0005, 1.0).steps == 4);
+    const Recorded recorded = record(scene_of(falling_sheet(), {{"step.time_step", "0.0333333"}}));
+    CHECK(recorded.result.status == RunStatus::finished);
+    CHECK(recorded.steps.size() == 3);
+    CHECK(recorded.result.totals.simulated_s == Approx(0.1).epsilon(1e-12));
+}
+
 TEST_CASE("otherwise the last step is what is left") {
     CHECK(count_steps(1.0, 0.3).steps == 4);
     CHECK(count_steps(1.0, 0.3).last_dt == Approx(0.1));

@@ -131,6 +131,7 @@ TEST_CASE("Warnings name what will go wrong, and there are none where nothing wi
     CHECK(mentions(warnings({.time_step = 0.02, .scheme = Scheme::rk4}), {"time_step 0.02 s", "rk4", "stable"}));
     CHECK(mentions(warnings({.time_step = 1e-5, .scheme = Scheme::forward_euler}), {"forward_euler", "grow"}));
     CHECK(mentions(warnings({.scheme = Scheme::trapezoid}), {"trapezoid", "tr_bdf2"}));
+    CHECK(mentions(warnings({.scheme = Scheme::implicit_midpoint}), {"implicit_midpoint", "gain energy"}));
     CHECK(warnings({.time_step = 1e-3, .scheme = Scheme::trapezoid}).empty());
     CHECK(warnings({.newton_iterations = 1}).empty());
     CHECK(mentions(warnings({.newton_iterations = 1}, 65), {"newton_iterations = 1", "4225"}));
