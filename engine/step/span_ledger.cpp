@@ -25,7 +25,8 @@ Tableau tableau_of(Scheme scheme) {
 }
 
 /// world.explicit_space.forces at a state.
-void evaluate(World& world, const LedgerSpan& span, const Vectors& positions, const Vectors& velocities) {
+void evaluate(World& world, const LedgerSpan& span, const ForcePlace& place) {
+    const auto& [positions, velocities, air] = place;
     ExplicitSpace& space = world.explicit_space;
     set_step_springs(world.compute, {world.model.adjacency, positions, DampingForm::velocity, span.dt}, space.springs);
     const ForceInput input{.compute = &world.compute,
@@ -34,7 +35,7 @@ void evaluate(World& world, const LedgerSpan& span, const Vectors& positions, co
                            .positions = &positions,
                            .velocities = &velocities,
                            .gravity = world.settings.gravity,
-                           .wind = set_wind_at(world, positions),
+                           .wind = set_wind_at(world, air),
                            .dt = span.dt,
                            .with_matrix = false};
     evaluate_forces(input, space.forces);
@@ -70,9 +71,10 @@ void take_stages(World& world, const LedgerSpan& span) {
     const double at_start = scheme == Scheme::trapezoid ? 0.5 : scheme == Scheme::tr_bdf2 ? w : 0.0;
     const double at_middle = scheme == Scheme::tr_bdf2 ? w : 0.0;
     begin_span(world);
-    if (at_start > 0.0) take_forces(world, span, at_start, span.positions, span.velocities);
-    if (at_middle > 0.0) take_forces(world, span, at_middle, world.newton.start_positions, world.newton.start_velocities);
-    take_forces(world, span, 1.0 - at_start - at_middle, end.positions, end.velocities);
+    const Vectors &middle = world.newton.start_positions, &middle_velocities = world.newton.start_velocities;
+    if (at_start > 0.0) take_forces(world, span, at_start, {span.positions, span.velocities, span.positions});
+    if (at_middle > 0.0) take_forces(world, span, at_middle, {middle, middle_velocities, span.positions});
+    take_forces(world, span, 1.0 - at_start - at_middle, {end.positions, end.velocities, middle});
 }
 
 /// sum w . r with the residual r of the last stage, J.
@@ -87,7 +89,8 @@ double residual_work(const World& world, const LedgerSpan& span) {
 
 void begin_span(World& world) { world.ledger.impulse.resize(world.model.vertex_count()); }
 
-void take_forces(World& world, const LedgerSpan& span, double weight, const Vectors& positions, const Vectors& velocities) {
+void take_forces(World& world, const LedgerSpan& span, double weight, const ForcePlace& place) {
+    const auto& [positions, velocities, air] = place;
     const SpringLoss loss = spring_loss(world.model.springs, {.start = span.positions,
                                                               .end = world.state.positions,
                                                               .positions = positions,
@@ -97,7 +100,7 @@ void take_forces(World& world, const LedgerSpan& span, double weight, const Vect
     world.report.energy.dissipated_material += weight * loss.material;
     const double shapes = shape_loss(world, {span.positions, world.state.positions, positions});
     world.report.energy.dissipated_integrator += weight * (loss.integrator + shapes);
-    evaluate(world, span, positions, velocities);
+    evaluate(world, span, place);
     world.report.energy.dissipated_integrator -= weight * wind_work(world, span, velocities);
     add_scaled(world.ledger.impulse, weight * span.dt, world.explicit_space.forces.total);
 }
@@ -127,7 +130,7 @@ void account_explicit(World& world, const LedgerSpan& span) {
     const Tableau tableau = tableau_of(world.plan.scheme);
     begin_span(world);
     for (std::size_t s = 0; s < tableau.weights.size(); ++s) {
-        take_forces(world, span, tableau.weights[s], stage.positions, stage.velocities);
+        take_forces(world, span, tableau.weights[s], {stage.positions, stage.velocities, stage.positions});
         if (s < tableau.ahead.size()) advance_stage(world, span, tableau.ahead[s]);
     }
     account_span(world, span);

@@ -17,8 +17,13 @@ struct LedgerSpan {
 /// Begins the account of a span.
 void begin_span(World& world);
 
+/// A state in which a scheme took forces: m, m/s; `air`: positions that the triangles had in the wind.
+struct ForcePlace {
+    const Vectors &positions, &velocities, &air;
+};
+
 /// Takes forces without contact at a state, with a weight b. Damping by velocity.
-void take_forces(World& world, const LedgerSpan& span, double weight, const Vectors& positions, const Vectors& velocities);
+void take_forces(World& world, const LedgerSpan& span, double weight, const ForcePlace& place);
 
 /// sum w . (M (v - v_n) - dt sum b_i f_i), J, over free and over prescribed vertices.
 struct Unbalanced {
