@@ -9,6 +9,7 @@
 #include "mesh_import.h"
 #include "motion_parts.h"
 #include "percale/error.h"
+#include "percale/options.h"
 #include "scene_plan.h"
 #include "scene_text.h"
 #include "timeline.h"
@@ -27,7 +28,14 @@ const char* status_word(RunStatus status) {
     return "unknown";
 }
 
-constexpr double longest_step = 1.0;  // s, that step.time_step may be
+namespace {
+
+double longest_step() {
+    const auto options = step_options();
+    return std::find_if(options.begin(), options.end(), [](const auto& option) { return option.key == "time_step"; })->highest;
+}
+
+}  // namespace
 
 StepCount count_steps(double duration, double time_step) {
     // A duration written with 16 digits is a multiple of a step written with 16 digits only up to rounding.
@@ -37,7 +45,7 @@ StepCount count_steps(double duration, double time_step) {
     const double full = std::floor(ratio);
     // A rounded time step leaves a remainder that is no step of its own: the last one takes it along.
     const double longer = duration - (full - 1.0) * time_step;
-    if (full >= 1.0 && ratio - full <= 1e-3 && longer <= longest_step) return {static_cast<long>(full), longer};
+    if (full >= 1.0 && ratio - full <= 1e-3 && longer <= longest_step()) return {static_cast<long>(full), longer};
     return {static_cast<long>(full) + 1, duration - full * time_step};
 }
 

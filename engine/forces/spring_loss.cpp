@@ -33,13 +33,4 @@ SpringLoss spring_loss(const SpringNetwork& network, const SpringMove& move) {
     return loss;
 }
 
-double damping_power(const SpringNetwork& network, const Vectors& positions, const Vectors& velocities) {
-    double power = 0.0;
-    for (int k = 0; k < network.size(); ++k) {
-        const double rate = direction(between(network, positions, k)).dot(between(network, velocities, k));
-        power += network.damping[k] * rate * rate;
-    }
-    return power;
-}
-
 }  // namespace percale

@@ -27,7 +27,4 @@ struct SpringLoss {
 /// energy.
 SpringLoss spring_loss(const SpringNetwork& network, const SpringMove& move);
 
-/// W, that damping takes at a state: sum kd (v_ij . d)^2.
-double damping_power(const SpringNetwork& network, const Vectors& positions, const Vectors& velocities);
-
 }  // namespace percale

@@ -11,21 +11,8 @@
 namespace percale {
 namespace {
 
-/// world.explicit_space.forces at a state.
-void evaluate_at(World& world, const ClothState& state) {
-    ExplicitSpace& space = world.explicit_space;
-    set_step_springs(world.compute, {world.model.adjacency, state.positions, DampingForm::velocity, world.settings.time_step},
-                     space.springs);
-    const ForceInput input{.compute = &world.compute,
-                           .model = &world.model,
-                           .springs = &space.springs,
-                           .positions = &state.positions,
-                           .velocities = &state.velocities,
-                           .gravity = world.settings.gravity,
-                           .wind = set_wind_at(world, state.positions),
-                           .dt = world.settings.time_step,
-                           .with_matrix = false};
-    evaluate_forces(input, space.forces);
+void evaluate_state(World& world, const ClothState& state) {
+    evaluate_at(world, {state.positions, state.velocities, state.positions});
 }
 
 void make_step(World& world, StepFraction span) {
@@ -78,9 +65,25 @@ void solve_explicit_span(World& world, StepFraction span) {
     if (world.plan.ledger) world.report.energy.dissipated_integrator += work;  // account_explicit
 }
 
+void evaluate_at(World& world, const ForcePlace& place) {
+    ExplicitSpace& space = world.explicit_space;
+    set_step_springs(world.compute, {world.model.adjacency, place.positions, DampingForm::velocity, world.settings.time_step},
+                     space.springs);
+    const ForceInput input{.compute = &world.compute,
+                           .model = &world.model,
+                           .springs = &space.springs,
+                           .positions = &place.positions,
+                           .velocities = &place.velocities,
+                           .gravity = world.settings.gravity,
+                           .wind = set_wind_at(world, place.air),
+                           .dt = world.settings.time_step,
+                           .with_matrix = false};
+    evaluate_forces(input, space.forces);
+}
+
 void set_accelerations(World& world, const ClothState& state, Vectors& accelerations) {
     StageTimer timer(world.report.stages.force);
-    evaluate_at(world, state);
+    evaluate_state(world, state);
     accelerations.resize(world.model.vertex_count());
     for (int i = 0; i < world.model.vertex_count(); ++i) {
         if (world.script.free[i] == 0.0) continue;
@@ -90,10 +93,10 @@ void set_accelerations(World& world, const ClothState& state, Vectors& accelerat
 
 double script_work(World& world, const ClothState& start, double length) {
     if (!world.plan.pin_work && !(world.plan.wind && world.plan.measures)) return 0.0;
-    evaluate_at(world, start);
+    evaluate_state(world, start);
     world.explicit_space.start_forces = world.explicit_space.forces.total;
     double power = world.explicit_space.forces.wind.power;
-    evaluate_at(world, world.state);
+    evaluate_state(world, world.state);
     power += world.explicit_space.forces.wind.power;
     double work = 0.5 * length * power;
     if (!world.plan.pin_work) return work;

@@ -8,6 +8,14 @@ namespace percale {
 /// the whole one tells the error, which is added to world.stages.error.
 void solve_explicit_span(World& world, StepFraction span);
 
+/// A state in which forces are taken: m, m/s; `air`: positions that the triangles have in the wind.
+struct ForcePlace {
+    const Vectors &positions, &velocities, &air;
+};
+
+/// world.explicit_space.forces at a state, without contact. Damping by velocity.
+void evaluate_at(World& world, const ForcePlace& place);
+
 /// f/m without contact, m/s^2; 0 at prescribed vertices.
 void set_accelerations(World& world, const ClothState& state, Vectors& accelerations);
 

@@ -3,8 +3,8 @@
 #include <numbers>
 #include <span>
 
+#include "explicit_span.h"
 #include "forces/spring_loss.h"
-#include "scripted_motion.h"
 #include "shape_loss.h"
 
 namespace percale {
@@ -22,23 +22,6 @@ Tableau tableau_of(Scheme scheme) {
     if (scheme == Scheme::rk4) return {rk4_weights, rk4_ahead};
     if (scheme == Scheme::midpoint) return {midpoint_weights, midpoint_ahead};
     return {one, {}};
-}
-
-/// world.explicit_space.forces at a state.
-void evaluate(World& world, const LedgerSpan& span, const ForcePlace& place) {
-    const auto& [positions, velocities, air] = place;
-    ExplicitSpace& space = world.explicit_space;
-    set_step_springs(world.compute, {world.model.adjacency, positions, DampingForm::velocity, span.dt}, space.springs);
-    const ForceInput input{.compute = &world.compute,
-                           .model = &world.model,
-                           .springs = &space.springs,
-                           .positions = &positions,
-                           .velocities = &velocities,
-                           .gravity = world.settings.gravity,
-                           .wind = set_wind_at(world, air),
-                           .dt = span.dt,
-                           .with_matrix = false};
-    evaluate_forces(input, space.forces);
 }
 
 /// Of the air, as world.wind has it, on cloth that moves over the span while the drag stays what these velocities make it, J.
@@ -100,7 +83,7 @@ void take_forces(World& world, const LedgerSpan& span, double weight, const Forc
     world.report.energy.dissipated_material += weight * loss.material;
     const double shapes = shape_loss(world, {span.positions, world.state.positions, positions});
     world.report.energy.dissipated_integrator += weight * (loss.integrator + shapes);
-    evaluate(world, span, place);
+    evaluate_at(world, place);
     world.report.energy.dissipated_integrator -= weight * wind_work(world, span, velocities);
     add_scaled(world.ledger.impulse, weight * span.dt, world.explicit_space.forces.total);
 }

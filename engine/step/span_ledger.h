@@ -1,6 +1,6 @@
 #pragma once
 
-#include "world.h"
+#include "explicit_span.h"
 
 namespace percale {
 
@@ -16,11 +16,6 @@ struct LedgerSpan {
 
 /// Begins the account of a span.
 void begin_span(World& world);
-
-/// A state in which a scheme took forces: m, m/s; `air`: positions that the triangles had in the wind.
-struct ForcePlace {
-    const Vectors &positions, &velocities, &air;
-};
 
 /// Takes forces without contact at a state, with a weight b. Damping by velocity.
 void take_forces(World& world, const LedgerSpan& span, double weight, const ForcePlace& place);

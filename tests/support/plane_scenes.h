@@ -28,6 +28,14 @@ inline SolverScene sheet_on_plane(double angle, double friction, double height, 
     return scene;
 }
 
+/// A plane at 0 under the cloth that a world has.
+inline void add_plane(World& world) {
+    world.detector = std::make_unique<PlaneDetector>();
+    world.detector->set_cloth(world.model.triangles, world.model.thickness);
+    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
+    world.script.obstacles.push_back({"plane", {}, {}});
+}
+
 /// Of the mass, m/s.
 inline Vec3 mean_velocity(const SolverScene& scene) {
     Vec3 sum = Vec3::Zero();

@@ -6,7 +6,7 @@
 #include "engine/step/step.h"
 #include "tests/support/catch.h"
 #include "tests/support/membrane_cases.h"
-#include "tests/support/plane_detector.h"
+#include "tests/support/plane_scenes.h"
 
 namespace percale::test {
 namespace {
@@ -24,14 +24,6 @@ World disturbed_world(const Fabric& fabric, StepSettings settings = {}) {
     return world;
 }
 
-void add_plane(World& world) {
-    world.detector = std::make_unique<PlaneDetector>();
-    world.detector->set_cloth(world.model.triangles, world.model.thickness);
-    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
-    world.script.obstacles.push_back({"plane", {}, {}});
-    update_plan(world);
-}
-
 std::vector<std::string> names(const World& world) {
     std::vector<std::string> result;
     for (const CheckedTerm& term : checked_terms(world)) result.push_back(term.name);
@@ -47,6 +39,7 @@ TEST_CASE("All forces pass the check in every step of a disturbed sheet: springs
         for (const DampingForm form : {DampingForm::length_rate, DampingForm::velocity}) {
             World world = disturbed_world(fabric, {.damping_form = form});
             add_plane(world);
+            update_plan(world);
             int contacts = 0;
             for (int n = 0; n < 8; ++n) {
                 const StepReport report = step(world);
@@ -97,6 +90,7 @@ TEST_CASE("Terms are those that act: contact where there is some, triangles wher
     CHECK(names(world) == std::vector<std::string>{"gravity", "springs", "membrane"});
     World plain = disturbed_world(sheet_fabric());
     add_plane(plain);
+    update_plan(plain);
     StepReport report;
     for (int n = 0; n < 20 && report.contacts == 0; ++n) report = step(plain);
     CHECK(names(plain) == std::vector<std::string>{"gravity", "springs", "damped springs", "contact"});

@@ -6,7 +6,7 @@
 #include "engine/step/step.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
-#include "tests/support/plane_detector.h"
+#include "tests/support/plane_scenes.h"
 
 namespace percale::test {
 namespace {
@@ -25,10 +25,7 @@ World sheet(const StepSettings& settings, double height = 0.0) {
 /// A sheet above a plane at 0.
 World sheet_over_plane(const StepSettings& settings, double height) {
     World world = sheet(settings, height);
-    world.detector = std::make_unique<PlaneDetector>();
-    world.detector->set_cloth(world.model.triangles, world.model.thickness);
-    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
-    world.script.obstacles.push_back({"plane", {}, {}});
+    add_plane(world);
     return world;
 }
 

@@ -3,7 +3,7 @@
 #include "engine/step/scripted_motion.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
-#include "tests/support/plane_detector.h"
+#include "tests/support/plane_scenes.h"
 
 namespace percale::test {
 namespace {
@@ -14,13 +14,6 @@ World sheet_world(const StepSettings& settings, double height = 0.0) {
     World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, settings);
     world.before = world.state;
     return world;
-}
-
-void add_plane(World& world) {
-    world.detector = std::make_unique<PlaneDetector>();
-    world.detector->set_cloth(world.model.triangles, world.model.thickness);
-    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
-    world.script.obstacles.push_back({"plane", {}, {}});
 }
 
 void solve(World& world) {
