@@ -10,7 +10,7 @@ jobs=${PERCALE_JOBS:-2}
 export CMAKE_BUILD_PARALLEL_LEVEL=$jobs CTEST_PARALLEL_LEVEL=$jobs CTEST_OUTPUT_ON_FAILURE=1
 export PERCALE_REAL_MESHES=${PERCALE_REAL_MESHES:-$root/build/real_meshes}
 export GIT_CONFIG_COUNT=1 GIT_CONFIG_KEY_0=safe.directory GIT_CONFIG_VALUE_0='*'   # a checkout owned by somebody else, as in containers
-if command -v ccache >/dev/null; then
+if [ -n "${CCACHE_DIR:-}" ] && command -v ccache >/dev/null; then   # worth it where a cache is kept
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$root
 fi
 

@@ -72,6 +72,8 @@ const char* status_word(StepStatus status) {
             return "halved";
         case StepStatus::not_converged:
             return "not_converged";
+        case StepStatus::tolerance_missed:
+            return "tolerance_missed";
         case StepStatus::pin_blocked:
             return "pin_blocked";
         case StepStatus::obstacle_too_fast:

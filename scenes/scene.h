@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -155,6 +156,7 @@ struct Scene {
     SourcePlace scheme_place;                            // of step.scheme; of the whole file where that is not said
     Detector detector = Detector::fcl;
     std::map<std::string, Fabric> fabrics;
+    std::set<std::string> preset_moduli;  // names of fabrics whose stretch and shear stiffness are those of their preset
     std::vector<ClothSpec> cloths;
     std::vector<ObstacleSpec> obstacles;
     std::vector<SeamSpec> seams;

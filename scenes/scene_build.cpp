@@ -6,6 +6,7 @@
 #include "mesh_import.h"
 #include "percale/detectors.h"
 #include "percale/error.h"
+#include "percale/fabric_presets.h"
 #include "scene_text.h"
 #include "start_fault.h"
 #include "timeline.h"
@@ -98,9 +99,22 @@ void check_shear(const ClothSpec& cloth, const TriangleMesh& mesh, double shear)
                      " N/m, but a free mesh has no shear springs; it must be 0");
 }
 
+/// A preset has a warp, a mesh does not say where: there it is isotropic, which is not silent.
+Fabric fabric_on(BuiltScene& built, const ClothSpec& cloth, const TriangleMesh& mesh) {
+    const Fabric& fabric = fabric_of(built.scene, cloth);
+    if (mesh.is_grid() || !built.scene.preset_moduli.contains(cloth.fabric)) return fabric;
+    const Fabric result = isotropic(fabric);
+    const auto [warp, weft] = *fabric.stretch_stiffness;
+    built.warnings.push_back("cloth '" + cloth.name + "': a mesh does not say where warp is; instead of stretch_stiffness = [" +
+                             number_text(warp) + ", " + number_text(weft) + "] N/m, fabric." + cloth.fabric + " has " +
+                             number_text(result.stretch_stiffness->front()) +
+                             " N/m in every direction there, what belongs to its shear_stiffness");
+    return result;
+}
+
 void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
     TriangleMesh mesh = rest_mesh(built.scene, cloth);
-    const Fabric& fabric = fabric_of(built.scene, cloth);
+    const Fabric fabric = fabric_on(built, cloth, mesh);
     check_shear(cloth, mesh, fabric.springs.shear);
     const ClothId id = built.simulation.add_cloth(mesh, fabric, {}, cloth.name);
     built.cloths.push_back(id);
@@ -180,7 +194,8 @@ BuiltScene build_scene(const Scene& scene) {
                      .cloths = {},
                      .cloth_meshes = {},
                      .obstacles = {},
-                     .obstacle_meshes = {}};
+                     .obstacle_meshes = {},
+                     .warnings = {}};
     for (const ClothSpec& cloth : scene.cloths) {
         at_place_of(cloth, [&] { add_cloth(built, cloth); });
         pin_cloth(built, cloth);

@@ -16,6 +16,7 @@ struct BuiltScene {
     std::vector<TriangleMesh> cloth_meshes;     // rest meshes in world coordinates
     std::vector<ObstacleId> obstacles;          // in the order of scene.obstacles
     std::vector<TriangleMesh> obstacle_meshes;  // in their own coordinates, unit applied, pose not
+    std::vector<std::string> warnings;          // what is not quite as the scene file says
 };
 
 /// Reads meshes, selects pins, makes the detector and the simulation, and checks the start (Simulation::prepare), which may move

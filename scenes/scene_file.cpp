@@ -92,7 +92,11 @@ Fabric read_fabric(const TomlNode& table) {
 void read_fabrics(const TomlNode& document, Scene& scene) {
     const TomlNode* fabrics = document.find("fabric");
     if (fabrics == nullptr) return;
-    for (const TomlNode& table : fabrics->entries) scene.fabrics[table.key] = read_fabric(table);
+    for (const TomlNode& table : fabrics->entries) {
+        scene.fabrics[table.key] = read_fabric(table);
+        const bool own = table.find("stretch_stiffness") != nullptr || table.find("shear_stiffness") != nullptr;
+        if (table.find("preset") != nullptr && !own) scene.preset_moduli.insert(table.key);
+    }
 }
 
 template <class Part>

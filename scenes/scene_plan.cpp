@@ -57,7 +57,11 @@ std::string steps_text(const Scene& scene) {
     return counted(count.steps, "step") + " of " + short_number(step.time_step) + " s";
 }
 
-ScenePlan plan_of(const BuiltScene& built) { return built.simulation.plan(changes_of(built.scene)); }
+ScenePlan plan_of(const BuiltScene& built) {
+    ScenePlan plan = built.simulation.plan(changes_of(built.scene));
+    plan.warnings.insert(plan.warnings.begin(), built.warnings.begin(), built.warnings.end());
+    return plan;
+}
 
 std::string plan_text(const BuiltScene& built) {
     const ScenePlan plan = plan_of(built);

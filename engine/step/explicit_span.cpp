@@ -17,6 +17,8 @@ void evaluate_state(World& world, const ClothState& state) {
 
 void make_step(World& world, StepFraction span) {
     set_part_targets(world, span.to);
+    world.part = span;
+    set_seams_at(world, 0.5);
     const ExplicitPart part{.compute = &world.compute,
                             .model = &world.model,
                             .settings = &world.settings,
@@ -29,12 +31,15 @@ void make_step(World& world, StepFraction span) {
 
 /// A step that counts.
 void make_kept_step(World& world, StepFraction span) {
-    if (!world.plan.ledger) return make_step(world, span);
+    if (!world.plan.ledger && !world.plan.seams_close) return make_step(world, span);
     ClothState& start = world.ledger.start;
     start.positions = world.state.positions;
     start.velocities = world.state.velocities;
     make_step(world, span);
-    account_explicit(world, {start.positions, start.velocities, world.settings.time_step * (span.to - span.from)});
+    if (world.plan.ledger) {
+        account_explicit(world, {start.positions, start.velocities, world.settings.time_step * (span.to - span.from)});
+    }
+    world.seam_work += seam_work(world, start.positions);
 }
 
 /// A whole step and two half ones: what they differ by over 2^order - 1 is the error of the latter.
@@ -58,11 +63,11 @@ void solve_explicit_span(World& world, StepFraction span) {
     ClothState& start = world.stages.start;
     start.positions = world.state.positions;
     start.velocities = world.state.velocities;
-    set_part_seams(world, span);
+    world.seam_work = 0.0;
     world.settings.adaptive ? make_two_steps(world, span) : make_kept_step(world, span);
-    const double work = script_work(world, start, world.settings.time_step * (span.to - span.from));
-    world.report.energy.work += world.seam_work + work;
-    if (world.plan.ledger) world.report.energy.dissipated_integrator += work;  // account_explicit
+    const auto [pins, wind] = script_work(world, start, world.settings.time_step * (span.to - span.from));
+    world.report.energy.work += world.seam_work + pins + wind;
+    if (world.plan.ledger) world.report.energy.dissipated_integrator += pins + wind;  // account_explicit
 }
 
 void evaluate_at(World& world, const ForcePlace& place) {
@@ -91,20 +96,21 @@ void set_accelerations(World& world, const ClothState& state, Vectors& accelerat
     }
 }
 
-double script_work(World& world, const ClothState& start, double length) {
-    if (!world.plan.pin_work && !(world.plan.wind && world.plan.measures)) return 0.0;
+ScriptWork script_work(World& world, const ClothState& start, double length) {
+    if (!world.plan.pin_work && !(world.plan.wind && world.plan.measures)) return {};
     evaluate_state(world, start);
     world.explicit_space.start_forces = world.explicit_space.forces.total;
     double power = world.explicit_space.forces.wind.power;
     evaluate_state(world, world.state);
     power += world.explicit_space.forces.wind.power;
-    double work = 0.5 * length * power;
+    ScriptWork work{.wind = 0.5 * length * power};
     if (!world.plan.pin_work) return work;
     for (int i = 0; i < world.model.vertex_count(); ++i) {
         if (world.script.free[i] > 0.0) continue;
         const Vec3 force = 0.5 * (world.explicit_space.start_forces.at(i) + world.explicit_space.forces.total.at(i));
         const double before = start.velocities.at(i).squaredNorm(), after = world.state.velocities.at(i).squaredNorm();
-        work += 0.5 * world.model.mass[i] * (after - before) - force.dot(world.state.positions.at(i) - start.positions.at(i));
+        work.pins +=
+            0.5 * world.model.mass[i] * (after - before) - force.dot(world.state.positions.at(i) - start.positions.at(i));
     }
     return work;
 }

@@ -19,8 +19,13 @@ void evaluate_at(World& world, const ForcePlace& place);
 /// f/m without contact, m/s^2; 0 at prescribed vertices.
 void set_accelerations(World& world, const ClothState& state, Vectors& accelerations);
 
-/// Work of moving pins and of the wind between a state and the present one, `length` in s later, J. Pins: what their kinetic
-/// energy gained less the work of the mean of the forces (without contact) at both ends; wind: the mean of its powers there.
-double script_work(World& world, const ClothState& start, double length);
+/// Work of moving pins and of the wind, J.
+struct ScriptWork {
+    double pins = 0.0, wind = 0.0;
+};
+
+/// That between a state and the present one, `length` in s later. Pins: what their kinetic energy gained less the work of the
+/// mean of the forces (without contact) at both ends; wind: the mean of its powers there.
+ScriptWork script_work(World& world, const ClothState& start, double length);
 
 }  // namespace percale

@@ -6,13 +6,11 @@
 
 #include "explicit_span.h"
 #include "scripted_motion.h"
+#include "span_ledger.h"
 #include "step_control.h"
 
 namespace percale {
 namespace {
-
-/// TR-BDF2 (Bank et al. 1985; Hosea and Shampine 1996): with this share for the trapezoid both stages have the same h.
-constexpr double trapezoid_share = 2.0 - std::numbers::sqrt2;
 
 /// One nonlinear system.
 struct Stage {
@@ -91,16 +89,23 @@ void set_end_acceleration(World& world) {
 
 NewtonReport solve_backward_euler(World& world, StepFraction span) {
     set_part_targets(world, span.to);
+    set_seams_at(world, 1.0);
     const NewtonReport report = solve_stage(world, {.span = span});
     world.stages.error += report.time_error;
     return report;
 }
 
+void set_start_accelerations(World& world) {
+    set_seams_at(world, 0.0);
+    set_accelerations(world, world.stages.start, world.stages.acceleration);
+}
+
 NewtonReport solve_midpoint(World& world, StepFraction span) {
     StageSpace& stages = world.stages;
     const double length = world.settings.time_step * (span.to - span.from);
-    set_accelerations(world, stages.start, stages.acceleration);
+    set_start_accelerations(world);
     set_midpoint_base(stages.start, stages.acceleration, length, stages.base);
+    set_seams_at(world, 0.5);
     const NewtonReport report = solve_from_base(world, {span.from, 0.5 * (span.from + span.to)}, 1.0);
     if (report.end == NewtonEnd::not_finite || report.end == NewtonEnd::blocked) return report;
     stages.error += 2.0 * report.time_error;
@@ -119,8 +124,9 @@ NewtonReport solve_midpoint(World& world, StepFraction span) {
 
 NewtonReport solve_trapezoid(World& world, StepFraction span) {
     StageSpace& stages = world.stages;
-    set_accelerations(world, stages.start, stages.acceleration);
+    set_start_accelerations(world);
     set_trapezoid_base(stages.start, stages.acceleration, world.settings.time_step * (span.to - span.from), stages.base);
+    set_seams_at(world, 1.0);
     const NewtonReport report = solve_from_base(world, span, 1.0);
     stages.error += report.time_error;
     return report;
@@ -167,14 +173,16 @@ NewtonReport solve_tr_bdf2(World& world, StepFraction span, bool go_on) {
     StageSpace& stages = world.stages;
     const double length = world.settings.time_step * (span.to - span.from), first = trapezoid_share * length;
     const double middle = span.from + trapezoid_share * (span.to - span.from);
-    set_accelerations(world, stages.start, stages.acceleration);
+    set_start_accelerations(world);
     set_trapezoid_base(stages.start, stages.acceleration, first, stages.base);
+    set_seams_at(world, trapezoid_share);
     const NewtonReport trapezoid = solve_from_base(world, {span.from, middle}, 2.0);
     if (!usable(trapezoid.end, go_on)) return trapezoid;
     if (world.plan.contacts) settle_impacts(world, stages.start.positions, first);
     stages.obstacle_work = (length - stages.base.h) * world.newton.current.forces.contact.obstacle_power;
     set_end_acceleration(world);
     set_bdf2_base(world.state, stages.acceleration, stages.start, length - first, first, stages.base);
+    set_seams_at(world, 1.0);
     NewtonReport report = solve_from_base(world, {middle, span.to}, 1.0);
     if (trapezoid.end != NewtonEnd::converged && report.end == NewtonEnd::converged) report.end = trapezoid.end;
     if (!usable(report.end, go_on)) return report;
@@ -194,6 +202,7 @@ NewtonReport solve_bdf2(World& world, StepFraction span, bool go_on) {
         report = solve_tr_bdf2(world, span, go_on);
     } else {
         set_bdf2_base(stages.start, stages.acceleration, stages.earlier, length, stages.earlier_length, stages.base);
+        set_seams_at(world, 1.0);
         report = solve_from_base(world, span, 1.0);
         stages.error += report.time_error;
     }
@@ -240,7 +249,7 @@ double backward_euler_work(World& world, double dt) {
 
 NewtonEnd solve_implicit_span(World& world, StepFraction span, bool go_on) {
     if (world.plan.scheme != Scheme::backward_euler) save_start(world);
-    set_part_seams(world, span);
+    world.part = span;
     world.stages.obstacle_work = 0.0;
     return solve_by_scheme(world, span, go_on).end;
 }
@@ -255,8 +264,12 @@ void restore_span_start(World& world) {
 
 double span_work(World& world, StepFraction span) {
     const double length = world.settings.time_step * (span.to - span.from);
-    if (world.plan.scheme == Scheme::backward_euler) return world.seam_work + backward_euler_work(world, length);
-    return world.seam_work + world.stages.obstacle_work + script_work(world, world.stages.start, length);
+    const bool euler = world.plan.scheme == Scheme::backward_euler;
+    world.seam_work = seam_work(world, euler ? world.newton.start_positions : world.stages.start.positions);
+    if (euler) return world.seam_work + backward_euler_work(world, length);
+    const ClothState& start = world.stages.start;
+    const double wind = stage_wind_work(world, {start.positions, start.velocities, length});
+    return world.seam_work + world.stages.obstacle_work + wind + script_work(world, start, length).pins;
 }
 
 }  // namespace percale

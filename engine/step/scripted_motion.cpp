@@ -1,8 +1,23 @@
 #include "scripted_motion.h"
 
+#include <numbers>
+
 #include "planning.h"
 
 namespace percale {
+namespace {
+
+/// Of all seams with the rest lengths that they have at a place of the span, J; the lengths stay.
+double seam_energy(World& world, double place, const Vectors& positions) {
+    const double at = world.part.from + place * (world.part.to - world.part.from);
+    double energy = 0.0;
+    for (const Seam& seam : world.script.seams) {
+        energy += set_seam_lengths(seam, world.time + at * world.settings.time_step, positions, world.model);
+    }
+    return energy;
+}
+
+}  // namespace
 
 void set_targets(World& world) {
     update_plan(world);
@@ -19,14 +34,35 @@ void finish_motion(World& world) {
     for (ObstacleState& obstacle : world.script.obstacles) obstacle.start = obstacle.end;
 }
 
-void set_part_seams(World& world, StepFraction span) {
-    world.seam_work = 0.0;
-    if (!world.plan.seams_close) return;
-    const double dt = world.settings.time_step;
-    for (const Seam& seam : world.script.seams) {
-        const double before = set_seam_lengths(seam, world.time + span.from * dt, world.state.positions, world.model);
-        world.seam_work += set_seam_lengths(seam, world.time + span.to * dt, world.state.positions, world.model) - before;
+std::array<StageWeight, 3> stage_weights(Scheme scheme) {
+    constexpr double w = std::numbers::sqrt2 / 4.0;
+    switch (scheme) {
+        case Scheme::trapezoid:
+            return {{{0.5, 0.0}, {}, {0.5, 1.0}}};
+        case Scheme::tr_bdf2:
+            return {{{w, 0.0}, {w, trapezoid_share}, {1.0 - 2.0 * w, 1.0}}};
+        case Scheme::backward_euler:
+        case Scheme::bdf2:
+            return {{{}, {}, {1.0, 1.0}}};
+        default:
+            return {{{}, {}, {1.0, 0.5}}};
     }
+}
+
+void set_seams_at(World& world, double place) {
+    if (world.plan.seams_close) seam_energy(world, place, world.state.positions);
+}
+
+double seam_work(World& world, const Vectors& start) {
+    if (!world.plan.seams_close) return 0.0;
+    const double before = seam_energy(world, 0.0, start);
+    double work = 0.0;
+    for (const auto& [share, place] : stage_weights(world.plan.scheme)) {
+        if (share == 0.0) continue;
+        const double at_start = seam_energy(world, place, start) - before;
+        work += share * (at_start - seam_energy(world, place, world.state.positions));
+    }
+    return work + seam_energy(world, 1.0, world.state.positions);
 }
 
 StepWind* set_wind_at(World& world, const Vectors& positions) {

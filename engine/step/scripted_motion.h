@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <numbers>
+
 #include "world.h"
 
 namespace percale {
@@ -14,9 +17,25 @@ void finish_motion(World& world);
 /// world.part_targets: where pins are after the given fraction of the step, on the straight line from its start.
 void set_part_targets(World& world, double fraction);
 
-/// Rest lengths of closing seams at the end of a part of the step; world.seam_work = what the change stores in them where they
-/// are now, J.
-void set_part_seams(World& world, StepFraction span);
+/// TR-BDF2 (Bank et al. 1985; Hosea and Shampine 1996): with this share for the trapezoid both stages have the same h.
+constexpr double trapezoid_share = 2.0 - std::numbers::sqrt2;
+
+/// Where a scheme takes forces: their share, and the time as a part of the span.
+struct StageWeight {
+    double share = 0.0, place = 1.0;
+};
+
+/// What a step of the scheme is made of, at its start, between, and last. Explicit schemes keep the rest lengths of seams as in
+/// the middle of the step, which is of second order.
+std::array<StageWeight, 3> stage_weights(Scheme scheme);
+
+/// Rest lengths of closing seams at a place of the span world.part.
+void set_seams_at(World& world, double place);
+
+/// Work of closing seams in the span world.part, from the positions `start` to the present ones, J: each stage's share of what
+/// the change of length to its own stores at the start, and of what the change from there stores at the end. Leaves the seams as
+/// they are at the end.
+double seam_work(World& world, const Vectors& start);
 
 /// The air around cloth that lies at these positions, if there is any; null: none.
 StepWind* set_wind_at(World& world, const Vectors& positions);

@@ -1,10 +1,11 @@
 #include "span_ledger.h"
 
-#include <numbers>
+#include <array>
 #include <span>
 
 #include "explicit_span.h"
 #include "forces/spring_loss.h"
+#include "scripted_motion.h"
 #include "shape_loss.h"
 
 namespace percale {
@@ -46,18 +47,26 @@ void advance_stage(World& world, const LedgerSpan& span, double ahead) {
     }
 }
 
+/// Where an implicit scheme took forces, in the order of stage_weights.
+std::array<ForcePlace, 3> stage_places(const World& world, const LedgerSpan& span) {
+    const NewtonPoint& end = world.newton.current;
+    const Vectors &middle = world.newton.start_positions, &middle_velocities = world.newton.start_velocities;
+    return {{{span.positions, span.velocities, span.positions},
+             {middle, middle_velocities, span.positions},
+             {end.positions, end.velocities, middle}}};
+}
+
 /// The forces that an implicit scheme weighed.
 void take_stages(World& world, const LedgerSpan& span) {
-    constexpr double w = std::numbers::sqrt2 / 4.0;
-    const NewtonPoint& end = world.newton.current;
-    const Scheme scheme = world.plan.scheme;
-    const double at_start = scheme == Scheme::trapezoid ? 0.5 : scheme == Scheme::tr_bdf2 ? w : 0.0;
-    const double at_middle = scheme == Scheme::tr_bdf2 ? w : 0.0;
+    const std::array<ForcePlace, 3> places = stage_places(world, span);
+    const std::array<StageWeight, 3> weights = stage_weights(world.plan.scheme);
     begin_span(world);
-    const Vectors &middle = world.newton.start_positions, &middle_velocities = world.newton.start_velocities;
-    if (at_start > 0.0) take_forces(world, span, at_start, {span.positions, span.velocities, span.positions});
-    if (at_middle > 0.0) take_forces(world, span, at_middle, {middle, middle_velocities, span.positions});
-    take_forces(world, span, 1.0 - at_start - at_middle, {end.positions, end.velocities, middle});
+    for (std::size_t stage = 0; stage < places.size(); ++stage) {
+        if (weights[stage].share == 0.0) continue;
+        set_seams_at(world, weights[stage].place);
+        take_forces(world, span, weights[stage].share, places[stage]);
+    }
+    set_seams_at(world, 1.0);
 }
 
 /// sum w . r with the residual r of the last stage, J.
@@ -117,6 +126,19 @@ void account_explicit(World& world, const LedgerSpan& span) {
         if (s < tableau.ahead.size()) advance_stage(world, span, tableau.ahead[s]);
     }
     account_span(world, span);
+}
+
+double stage_wind_work(World& world, const LedgerSpan& span) {
+    if (!world.plan.wind || !world.plan.measures) return 0.0;
+    const std::array<ForcePlace, 3> places = stage_places(world, span);
+    const std::array<StageWeight, 3> weights = stage_weights(world.plan.scheme);
+    double work = 0.0;
+    for (std::size_t stage = 0; stage < places.size(); ++stage) {
+        if (weights[stage].share == 0.0) continue;
+        set_wind_at(world, places[stage].air);
+        work += weights[stage].share * wind_work(world, span, places[stage].velocities);
+    }
+    return work;
 }
 
 void account_stages(World& world, const LedgerSpan& span, double work) {

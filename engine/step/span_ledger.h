@@ -33,6 +33,9 @@ Unbalanced account_span(World& world, const LedgerSpan& span);
 /// reported.
 void account_explicit(World& world, const LedgerSpan& span);
 
+/// Work of the wind in a span that an implicit scheme other than backward Euler just solved, J, by the drag that its stages had.
+double stage_wind_work(World& world, const LedgerSpan& span);
+
 /// The account of a span that an implicit scheme other than backward Euler just solved; `work` of pins and obstacles, J, is
 /// reported. BDF2 also gives momentum from the step before: the integrator's. In contact (TR-BDF2) all that contact forces take,
 /// friction included, is in dissipated_contact.

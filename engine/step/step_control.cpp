@@ -39,6 +39,7 @@ bool accept_attempt(const StepAttempt& attempt, double tolerance, StepControl& c
     control.length = std::max(shortest_step, attempt.length * std::clamp(factor, least_factor, longest));
     control.share_before = share;
     control.just_rejected = false;
+    control.missed = !good;
     return true;
 }
 

@@ -14,6 +14,7 @@ struct StepControl {
     double left = 0.0;           // m, allowance that was not used
     double share_before = 0.0;   // error over allowance of the last accepted step; 0: none
     bool just_rejected = false;  // the next accepted step must not be followed by a longer one
+    bool missed = false;         // the last step was accepted because it was as short as it gets, not because it was exact enough
 };
 
 /// What one attempt was.

@@ -86,7 +86,8 @@ struct World {
     Vectors part_targets;
     std::vector<ObstacleFlow> flows;
     StepWind wind;
-    double seam_work = 0.0;       // J, of closing seams in the part being solved
+    StepFraction part;            // of the step, being solved
+    double seam_work = 0.0;       // J, of closing seams in it
     double contact_energy = 0.0;  // J, of the current state
     double contact_dt = 0.0;      // s, that the contact stiffness was last made for
     LedgerSpace ledger;

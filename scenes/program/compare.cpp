@@ -1,11 +1,13 @@
 #include "compare.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "compare_report.h"
 #include "percale/error.h"
@@ -69,18 +71,35 @@ CompareSettings settings_of(const CompareOptions& options) {
             .reference_error = options.reference_error};
 }
 
+template <class T>
+void check_once(const char* option, const std::vector<T>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::find(values.begin(), values.begin() + i, values[i]) == values.begin() + i) continue;
+        std::ostringstream text;
+        text << option << " " << values[i] << ": given twice";
+        throw SceneError(text.str());
+    }
+}
+
 /// Has every word and number judged as the key of the scene file that it stands for.
 void check_settings(const CompareSettings& settings, const SceneSource& source) {
     const auto check = [&](const char* key, const std::string& value, const char* option) {
         source(std::vector<Override>{{key, value, option}});
     };
+    check_once("--schemes", settings.schemes);
+    check_once("--steps", settings.steps);
+    check_once("--tolerances", settings.tolerances);
     for (const std::string& scheme : settings.schemes) check("step.scheme", scheme, "--schemes");
     for (const double step : settings.steps) check("step.time_step", number_text(step), "--steps");
     for (const double tolerance : settings.tolerances) check("step.tolerance", number_text(tolerance), "--tolerances");
 }
 
+std::string folder_name(const CompareOptions& options) {
+    return options.folder.empty() ? std::filesystem::path(options.scene).stem().string() : options.folder;
+}
+
 std::string folder_of(const CompareOptions& options) {
-    const std::string folder = options.folder.empty() ? std::filesystem::path(options.scene).stem().string() : options.folder;
+    const std::string folder = folder_name(options);
     if (folder.empty()) throw SceneError(options.scene + ": no folder can be named after this; name one with -o");
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -107,17 +126,8 @@ Comparison compared(const CompareOptions& options, const CompareSettings& settin
     return compare_scene(source, settings, hooks);
 }
 
-int compare(const CompareOptions& options) {
-    const CompareSettings settings = settings_of(options);
-    const std::vector<Override> given = scene_overrides(options.common);
-    const SceneSource source = [&](std::span<const Override> more) {
-        std::vector<Override> overrides = given;
-        overrides.insert(overrides.end(), more.begin(), more.end());
-        return load_scene(options.scene, overrides);
-    };
-    check_settings(settings, source);
-    build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
-    const std::string folder = folder_of(options);
+int compare_into(const std::string& folder, const CompareOptions& options, const CompareSettings& settings,
+                 const SceneSource& source) {
     WholeFile table(folder + "/compare.csv"), diagram(folder + "/compare.svg");
     try {
         const Comparison comparison = compared(options, settings, source);
@@ -130,11 +140,30 @@ int compare(const CompareOptions& options) {
         table.commit();
         diagram.commit();
         if (!options.common.quiet) print(comparison, folder);
-        return all_well;
+        const bool any = std::any_of(comparison.runs.begin(), comparison.runs.end(),
+                                     [](const ComparedRun& run) { return run.run.end == VariantEnd::finished; });
+        return any ? all_well : not_as_expected;
     } catch (const ComparisonStopped&) {
         std::fprintf(stderr, "percale: %s: stopped; nothing is written\n", options.scene.c_str());
         return stopped_by_signal;
     }
+}
+
+int compare(const CompareOptions& options) {
+    const CompareSettings settings = settings_of(options);
+    const std::vector<Override> given = scene_overrides(options.common);
+    const SceneSource source = [&](std::span<const Override> more) {
+        std::vector<Override> overrides = given;
+        overrides.insert(overrides.end(), more.begin(), more.end());
+        return load_scene(options.scene, overrides);
+    };
+    check_settings(settings, source);
+    build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
+    const bool is_new = !std::filesystem::exists(folder_name(options));
+    const std::string folder = folder_of(options);
+    const int code = compare_into(folder, options, settings, source);
+    if (code == stopped_by_signal && is_new) std::filesystem::remove(folder);
+    return code;
 }
 
 }  // namespace

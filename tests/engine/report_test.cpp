@@ -10,9 +10,13 @@
 namespace percale::test {
 namespace {
 
-constexpr StepStatus all_statuses[] = {
-    StepStatus::ok,        StepStatus::halved, StepStatus::not_converged, StepStatus::pin_blocked, StepStatus::obstacle_too_fast,
-    StepStatus::not_finite};
+constexpr StepStatus all_statuses[] = {StepStatus::ok,
+                                       StepStatus::halved,
+                                       StepStatus::not_converged,
+                                       StepStatus::tolerance_missed,
+                                       StepStatus::pin_blocked,
+                                       StepStatus::obstacle_too_fast,
+                                       StepStatus::not_finite};
 
 StepReport report_of(StepStatus status) {
     StepReport report;
@@ -49,7 +53,8 @@ TEST_CASE("A ledger's sum adds what flows and shows the energies of the last ste
 
 TEST_CASE("A step is good unless pins, obstacles or infinities stopped it") {
     for (const StepStatus status : all_statuses) {
-        const bool good = status == StepStatus::ok || status == StepStatus::halved || status == StepStatus::not_converged;
+        const bool good = status == StepStatus::ok || status == StepStatus::halved || status == StepStatus::not_converged ||
+                          status == StepStatus::tolerance_missed;
         CHECK(report_of(status).ok() == good);
     }
 }

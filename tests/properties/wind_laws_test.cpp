@@ -1,6 +1,8 @@
+#include "engine/model/schemes.h"
 #include "tests/support/bench_meshes.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
+#include "tests/support/laws.h"
 
 namespace percale::test {
 namespace {
@@ -36,6 +38,29 @@ TEST_CASE("A flat sheet that falls through still air follows v = w tanh(g t/w)")
             const double expected = limit * std::tanh(g * simulation.time() / limit);
             for (const Vec3& v : simulation.velocities(cloth)) CHECK(-v.y() == Approx(expected).epsilon(tolerance));
         }
+    }
+}
+
+TEST_CASE("What wind works on a sheet that nothing else holds is its kinetic energy, exactly so under the trapezoid", "[law]") {
+    for (const Scheme scheme : {Scheme::trapezoid, Scheme::tr_bdf2, Scheme::implicit_midpoint}) {
+        Simulation simulation({.time_step = 0.01,
+                               .scheme = scheme,
+                               .newton_tolerance = 1e-12,
+                               .measure = StepMeasures::ledger,
+                               .gravity = Vec3::Zero()});
+        simulation.add_cloth(make_grid(0.5, 0.5, 4, 4), blown_fabric(1.5));
+        simulation.set_wind({0.0, 8.0, 0.0});
+        double missing = 0.0;
+        for (int n = 0; n < 10; ++n) {
+            const double before = simulation.energy().kinetic;
+            const StepReport report = simulation.step();
+            REQUIRE(report.ok());
+            const double gained = report.energy.kinetic - before, lost = report.energy.work - gained;
+            missing = std::max(missing, std::abs(lost) / gained);
+            CHECK(report.energy.dissipated_integrator == Approx(lost).margin(1e-10 * gained));
+        }
+        check_law("sheet blown away, " + std::string(facts_of(scheme).word) + ": work of wind less what it gave, relative",
+                  missing, scheme == Scheme::tr_bdf2 ? 0.02 : 1e-10);
     }
 }
 

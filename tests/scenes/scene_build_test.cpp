@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "percale/fabric_presets.h"
 #include "scene_texts.h"
 #include "scenes/scene_file.h"
+#include "scenes/scene_plan.h"
 #include "scenes/scene_text.h"
 #include "test_folder.h"
 #include "tests/support/catch.h"
@@ -280,6 +282,30 @@ TEST_CASE("every detector carries the same scene through the same states") {
     const std::uint64_t expected = hash_with("brute_force");
     CHECK(hash_with("fcl") == expected);
     CHECK(hash_with("bullet") == expected);
+}
+
+TEST_CASE("a preset on a mesh is isotropic and says so; on a grid, or with moduli of its own, it is not touched") {
+    const test::TestFolder folder("preset_on_mesh");
+    const BuiltScene on_mesh = build_scene(load_scene(mesh_scene(folder, square, "", "preset = \"denim_11oz\"")));
+    REQUIRE(on_mesh.warnings.size() == 1);
+    const std::string& warning = on_mesh.warnings.front();
+    CHECK(warning.starts_with("cloth 'flag': a mesh does not say where warp is; instead of stretch_stiffness = ["));
+    const Fabric expected = isotropic(fabric_preset("denim_11oz"));
+    CHECK(warning.find(number_text(expected.stretch_stiffness->front()) + " N/m in every direction") != std::string::npos);
+    CHECK(plan_of(on_mesh).warnings.front() == warning);
+    Simulation same({});
+    same.add_cloth(on_mesh.cloth_meshes.front(), expected);
+    BuiltScene other = build_scene(load_scene(folder.path("scene.toml")));
+    REQUIRE(same.step().ok());
+    REQUIRE(other.simulation.step().ok());
+    CHECK(same.positions(ClothId{0})[2] == other.simulation.positions(other.cloths[0])[2]);
+
+    CHECK(built("[fabric.f]\npreset = \"denim_11oz\"\n[[cloth]]\nname = \"c\"\nfabric = \"f\"\ngrid = { size = [1, 1], vertices "
+                "= [3, 3] "
+                "}\n")
+              .warnings.empty());
+    const std::string own = mesh_scene(folder, square, "", "preset = \"denim_11oz\"\nstretch_stiffness = [50, 60]");
+    CHECK(error_of([&] { build_scene(load_scene(own)); }).find("warp and weft differ") != std::string::npos);
 }
 
 TEST_CASE("an obstacle starts where its motion begins") {

@@ -9,10 +9,11 @@
 
 namespace percale {
 
-enum class StepStatus {
+enum class StepStatus {  // those up to tolerance_missed are accepted
     ok,
     halved,             // ok, but only after the step was redone as shorter ones
     not_converged,      // accepted at the iteration limit; the residual says how far off
+    tolerance_missed,   // adaptive: accepted at the shortest length there is, smallest_dt, with an error above the tolerance
     pin_blocked,        // failed: a pin could not reach its target without crossing an obstacle
     obstacle_too_fast,  // failed: the cloth could not follow a moving obstacle
     wrong_derivative,   // failed: StepSettings::check_derivatives found forces that do not fit energy or matrix
@@ -99,7 +100,7 @@ struct StepReport {
     StageTimes stages;
     double cpu_s = 0.0;  // s, of all threads
 
-    bool ok() const { return status == StepStatus::ok || status == StepStatus::halved || status == StepStatus::not_converged; }
+    bool ok() const { return status <= StepStatus::tolerance_missed; }
     /// One sentence on what happened, with figures.
     std::string explanation() const;
     void explain(std::FILE* out) const;

@@ -81,6 +81,9 @@ TEST_CASE("Steps in contact pass a jump that no length makes good, and never get
     CHECK(jump * length < 0.01 * tolerance);
     for (int n = 0; n < 50; ++n) accept_attempt({control.length, 1.0, 2, false}, tolerance, control);
     CHECK(control.length >= shortest_step);
+    CHECK(control.missed);
+    CHECK(accept_attempt({shortest_step, 0.0, 2, false}, tolerance, control));
+    CHECK_FALSE(control.missed);
 }
 
 TEST_CASE("What remains is divided evenly") {

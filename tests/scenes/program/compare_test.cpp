@@ -47,12 +47,24 @@ TEST_CASE("compare refuses words and numbers that mean nothing, names the neares
     CHECK(refused(compare(folder, {"--steps", "1/60,fast"}), "--steps fast: must be numbers such as 0.004 or 1/240"));
     CHECK(refused(compare(folder, {"--steps", "2.0"}), "1e-7 ... 1"));
     CHECK(refused(compare(folder, {"--steps", "1/0"}), "--steps"));
+    CHECK(refused(compare(folder, {"--schemes", "rk4,rk4"}), "--schemes rk4: given twice"));
+    CHECK(refused(compare(folder, {"--steps", "1/60,0.01,1/60"}), "--steps 0.0166667: given twice"));
     CHECK(refused(compare(folder, {"--repeats", "0"}), "1 ... 1000"));
     CHECK(refused(compare(folder, {"--reference-error", "0"}), "1e-14 ... 1 m"));
     CHECK(refused(compare(folder, {"--set", "duratoin=1"}), "duration"));
     CHECK(refused(run_program({"compare", "none.toml"}, folder.path()), "none.toml"));
     CHECK(folder.file_count() == 1);
     CHECK_FALSE(folder.holds("sheet"));
+}
+
+TEST_CASE("compare with nothing that finished is a failure, told in its rows") {
+    const TestFolder folder;
+    folder.write("box.toml", sheet_on_box());
+    const ProgramRun run =
+        run_program({"compare", "box.toml", "--schemes", "rk4", "--steps", "1/60", "--reference-error", "1", "--repeats", "1"},
+                    folder.path());
+    CHECK(run.exit_code == 1);
+    CHECK(folder.read("box/compare.csv").find("rk4,0.016666666666666666,,refused,") != std::string::npos);
 }
 
 TEST_CASE("compare that cannot write its diagram leaves no table either") {
