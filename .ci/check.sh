@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # All that a change must pass, in order; stops at the first stage that fails: .ci/check.sh [STAGE...]
-# Stages: format layers gcc engine_only clang sanitizers scenes consumer readme. Builds are kept under build/ci-*.
+# Stages: format layers gcc engine_only clang sanitizers fuzz scenes consumer readme. Builds are kept under build/ci-*.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
 
-stages=(format layers gcc engine_only clang sanitizers scenes consumer readme)
+stages=(format layers gcc engine_only clang sanitizers fuzz scenes consumer readme)
 jobs=${PERCALE_JOBS:-2}
 export CMAKE_BUILD_PARALLEL_LEVEL=$jobs CTEST_PARALLEL_LEVEL=$jobs CTEST_OUTPUT_ON_FAILURE=1
 export PERCALE_REAL_MESHES=${PERCALE_REAL_MESHES:-$root/build/real_meshes}
@@ -23,13 +23,13 @@ project_files() {
     fi
 }
 
-# configure_and_build FOLDER [CMAKE ARGUMENT...]
+# configure_and_build FOLDER [CMAKE ARGUMENT...]; all, or what the caller's variable build_target names.
 configure_and_build() {
     local folder=$1 generator=()
     shift
     if command -v ninja >/dev/null; then generator=(-G Ninja); fi
     cmake -B "$folder" "${generator[@]}" -DPERCALE_REAL_MESHES="$PERCALE_REAL_MESHES" "$@" >"$folder.log" 2>&1 || { cat "$folder.log"; return 1; }
-    cmake --build "$folder"
+    cmake --build "$folder" --target "${build_target:-all}"
 }
 
 # run_tests FOLDER [CTEST ARGUMENT...]; a build without tests is a failure.
@@ -79,6 +79,24 @@ stage_clang() {
 stage_sanitizers() {
     configure_and_build build/ci-asan --preset asan -DCMAKE_CXX_COMPILER=g++
     UBSAN_OPTIONS=print_stacktrace=1 run_tests build/ci-asan -LE long
+}
+
+# Every target of tests/fuzz for half a minute, from the corpus and what it finds; what fails is left in build/ci-fuzz-found.
+stage_fuzz() {
+    local seconds=${PERCALE_FUZZ_SECONDS:-30} found=$root/build/ci-fuzz-found build_target=fuzz name leaks
+    configure_and_build build/ci-fuzz -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+        -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only"
+    rm -rf "$found"
+    for name in scene obj off ply; do
+        mkdir -p "$found/$name"
+        leaks=1
+        if [ "$name" = ply ]; then leaks=0; fi   # assimp loses some bytes of files with triangle strips
+        echo "fuzz $name:"
+        build/ci-fuzz/percale_fuzz_$name -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=8192 -detect_leaks=$leaks \
+            -artifact_prefix="$found/$name-" -print_final_stats=1 "$found/$name" "tests/fuzz/corpus/$name" >"$found/$name.log" 2>&1 ||
+            { tail -60 "$found/$name.log"; return 1; }
+        grep -a -E '^(Done|stat::number_of_executed_units|stat::peak_rss)' "$found/$name.log"
+    done
 }
 
 stage_scenes() {

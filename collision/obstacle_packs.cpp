@@ -184,8 +184,8 @@ void enclose(FeaturePack& pack, const ObstacleSurface& surface, const VertexPath
 
 double longest_over_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 u = b - a, v = c - a, w = c - b;
-    const double area = u.cross(v).norm();
-    return area > 1e-15 ? std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()})) / area : infinity;
+    const double area = u.cross(v).norm(), longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
+    return area > 1e-12 * longest ? std::sqrt(longest) / area : infinity;
 }
 
 ObstaclePacks make_packs(const ObstacleSurface& surface) {

@@ -3,6 +3,7 @@
 #include <ccd/ccd.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace percale {
 namespace {
@@ -21,6 +22,13 @@ void support(const void* points, const ccd_vec3_t* direction, ccd_vec3_t* result
     ccdVec3Set(result, x.x(), x.y(), x.z());
 }
 
+/// Of the largest distance from its first point, m.
+double extent(Points points) {
+    double square = 0.0;
+    for (const Vec3& x : points) square = std::max(square, (x - points[0]).squaredNorm());
+    return std::sqrt(square);
+}
+
 /// How far the first set has to go along the direction to be beyond the second.
 double way_out(Points first, Points second, const Vec3& direction) {
     return farthest(second, direction).dot(direction) - farthest(first, -direction).dot(direction);
@@ -33,7 +41,7 @@ std::optional<HullOverlap> hull_overlap(Points first, Points second) {
     CCD_INIT(&ccd);
     ccd.support1 = ccd.support2 = support;
     // At the library's own tolerance depths are wrong by centimetres, and without a limit it may not come to an end.
-    ccd.epa_tolerance = 1e-9;
+    ccd.epa_tolerance = 1e-9 * std::max(extent(first), extent(second));
     ccd.max_iterations = 1000;
     ccd_real_t depth = 0.0;
     ccd_vec3_t way, place;

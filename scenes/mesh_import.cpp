@@ -3,6 +3,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cerrno>
@@ -12,6 +13,7 @@
 #include <fstream>
 #include <iomanip>
 #include <limits>
+#include <span>
 #include <unordered_map>
 
 #include "mesh_header.h"
@@ -73,13 +75,7 @@ void append(const aiMesh& part, const aiMatrix4x4& to_world, const std::string& 
         const aiFace& face = part.mFaces[k];
         if (face.mNumIndices != 3) continue;  // points and lines
         Triangle triangle{};
-        for (unsigned corner = 0; corner < 3; ++corner) {
-            if (face.mIndices[corner] >= part.mNumVertices)
-                throw SceneError(file + ": face " + std::to_string(k) + ": vertex index " +
-                                 std::to_string(face.mIndices[corner]) + " is out of range 0 ... " +
-                                 std::to_string(part.mNumVertices - 1));
-            triangle[corner] = static_cast<int>(first + face.mIndices[corner]);
-        }
+        for (unsigned corner = 0; corner < 3; ++corner) triangle[corner] = static_cast<int>(first + face.mIndices[corner]);
         mesh.triangles.push_back(triangle);
     }
 }
@@ -114,12 +110,33 @@ TriangleMesh weld(const TriangleMesh& split) {
     return mesh;
 }
 
+void check_indices(const aiMesh& part, const std::string& file) {
+    for (unsigned k = 0; k < part.mNumFaces; ++k) {
+        const std::span<const unsigned> indices(part.mFaces[k].mIndices, part.mFaces[k].mNumIndices);
+        const auto wrong =
+            std::find_if(indices.begin(), indices.end(), [&](unsigned index) { return index >= part.mNumVertices; });
+        if (wrong == indices.end()) continue;
+        throw SceneError(file + ": face " + std::to_string(k) + ": vertex index " + std::to_string(*wrong) +
+                         " is out of range 0 ... " + std::to_string(static_cast<long>(part.mNumVertices) - 1));
+    }
+}
+
+/// In two steps, as assimp follows the indices of polygons when it makes triangles of them, whatever they are.
+const aiScene* read_triangles(Assimp::Importer& importer, const std::string& file) {
+    const aiScene* scene = importer.ReadFile(file, 0);
+    if (scene == nullptr) return nullptr;
+    for (unsigned k = 0; k < scene->mNumMeshes; ++k) check_indices(*scene->mMeshes[k], file);
+    return importer.ApplyPostProcessing(aiProcess_Triangulate);
+}
+
 /// Exporters split vertices at seams of texture or shading, and STL shares none.
 TriangleMesh read_with_assimp(const std::string& file) {
     Assimp::Importer importer;
     const aiScene* scene = nullptr;
     try {
-        scene = importer.ReadFile(file, aiProcess_Triangulate);
+        scene = read_triangles(importer, file);
+    } catch (const SceneError&) {
+        throw;
     } catch (const std::exception& error) {
         throw SceneError(file + ": cannot be imported: " + error.what());
     }

@@ -6,7 +6,7 @@
 namespace percale {
 namespace {
 
-constexpr double stick_speed = 1e-3;  // m/s, below it friction between cloths is a damper
+constexpr double stick_rate = 0.2;  // thicknesses a second, below it friction between cloths is a damper
 constexpr double share_of_matrix =
     0.5;  // of the step matrix that the contact stiffness takes: softer sinks, stiffer takes Newton longer
 
@@ -96,7 +96,7 @@ struct Rubbing {
 Rubbing friction_between_cloths(const ContactRows& rows, std::size_t row, double normal_force, const ContactStep& step,
                                 const Vectors& positions, ContactBlock& block) {
     const Vec3& n = rows.direction[row];
-    const double limit = rows.friction[row] * normal_force;
+    const double limit = rows.friction[row] * normal_force, stick_speed = stick_rate * rows.thickness[row];  // m/s
     Vec3 slip = Vec3::Zero();
     for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
         const int vertex = block.vertex[k];

@@ -6,7 +6,7 @@
 namespace percale {
 namespace {
 
-constexpr double no_area_square = 1e-40;  // m^4, of the normals of a triangle that has no direction any more
+constexpr double no_sine_square = 1e-28;  // of edge and arm: a triangle as narrow as that has no direction any more
 
 Vec3 bent(const Hinge& hinge, const Vectors& x) {
     Vec3 u = Vec3::Zero();
@@ -27,7 +27,11 @@ struct OpenHinge {
           first_normal(edge.cross(first_arm)),
           second_normal(second_arm.cross(edge)) {}
 
-    bool has_angle() const { return first_normal.squaredNorm() > no_area_square && second_normal.squaredNorm() > no_area_square; }
+    bool has_angle() const {
+        const double least = no_sine_square * edge.squaredNorm();
+        return first_normal.squaredNorm() > least * first_arm.squaredNorm() &&
+               second_normal.squaredNorm() > least * second_arm.squaredNorm();
+    }
 
     /// theta - rest angle, the short way round; 0 where a triangle has no area.
     double opened(double rest_angle) const {

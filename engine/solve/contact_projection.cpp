@@ -155,7 +155,8 @@ void ContactProjection::advance(const ProjectedPoint& point, ProjectedForces for
 }
 
 void ContactProjection::keep(const ContactRows& rows, const std::vector<RowForce>& forces) {
-    std::vector<RowForce> lasting = forces;
+    std::vector<RowForce>& lasting = lasting_forces_;
+    lasting = forces;
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const double before = kept_.of(row_key(rows, row)).normal;
         if (lasting[row].normal <= before) continue;

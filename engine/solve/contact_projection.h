@@ -55,7 +55,8 @@ public:
 
 private:
     ContactMultipliers kept_, lasting_, multipliers_;
-    double kept_share_ = 0.0;  // of the thickness, the least distance of a kept row; 0 if unknown
+    std::vector<RowForce> lasting_forces_;  // scratch space of keep
+    double kept_share_ = 0.0;               // of the thickness, the least distance of a kept row; 0 if unknown
 };
 
 }  // namespace percale

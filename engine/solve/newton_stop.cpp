@@ -6,8 +6,8 @@
 namespace percale {
 namespace {
 
-constexpr double smallest_change = 1e-7;  // m, below it iterations are pointless
-constexpr double energy_accuracy = 0.05;  // of the linear solve, in the energy norm
+constexpr double thickness_over_smallest_change = 5e4;  // without contact; below that iterations are pointless
+constexpr double energy_accuracy = 0.05;                // of the linear solve, in the energy norm
 
 double squared_from(const TimeError& error, int first, int count, const Vectors& velocities, const Vectors& from) {
     const double *free = error.free->data(), *mass = error.model->mass.data();
@@ -49,7 +49,8 @@ bool change_is_small(const TimeError& error, const NewtonChange& change, double 
         const double moved = error.dt * std::sqrt(std::max(gain, 0.0) / cloth.mass);
         const double time_error =
             0.5 * error.dt * std::sqrt(squared_error(error, cloth.first, cloth.count, change.ahead) / cloth.mass);
-        const double least = change.in_contact ? smallest_share * model.thickness[cloth.first] : smallest_change;
+        const double thickness = model.thickness[cloth.first];
+        const double least = change.in_contact ? smallest_share * thickness : thickness / thickness_over_smallest_change;
         const double floor = std::min(least, 0.1 * error.allowance);
         return moved <= share * time_error + floor &&
                error.dt * std::sqrt(worst) <= 2.0 * share * error.dt * std::sqrt(worst_error) + 10.0 * floor;

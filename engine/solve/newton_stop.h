@@ -35,8 +35,8 @@ struct NewtonChange {
 };
 
 /// Whether the direction changes every cloth by less than a share of the time error, in the mean and at its worst vertex by less
-/// than twice that; in metres, dt sqrt(-r . dv/m). What is below a least length (0.1 um, in contact a share of the thickness) or
-/// a tenth of the allowance, if that is less, means nothing.
+/// than twice that; in metres, dt sqrt(-r . dv/m). What is below a share of the thickness (2e-5, in contact 2e-4) or a tenth of
+/// the allowance, if that is less, means nothing.
 bool change_is_small(const TimeError& error, const NewtonChange& change, double share);
 
 /// The time error itself, m, in the mean of the worst cloth.

@@ -46,9 +46,10 @@ struct StageSpace {
     double earlier_length = 0.0;  // s, from `earlier` to the present state; 0: nothing is known of it
     Vectors acceleration;         // m/s^2, at the start of the stage; of BDF2 kept to the next step
     Vectors scratch;
-    double obstacle_work = 0.0;  // J, of the span
-    double error = 0.0;          // m, estimated, of the spans since it was set to 0
-    ClothState attempt;          // before an adaptive attempt
+    std::vector<std::size_t> row_order;  // of contact rows; work space
+    double obstacle_work = 0.0;          // J, of the span
+    double error = 0.0;                  // m, estimated, of the spans since it was set to 0
+    ClothState attempt;                  // before an adaptive attempt
     StepControl control;
 };
 

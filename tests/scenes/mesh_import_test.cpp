@@ -108,6 +108,17 @@ TEST_CASE("OBJ, OFF and PLY give the file's vertices in the file's order") {
     }
 }
 
+TEST_CASE("a polygon whose index is out of range is refused before anything follows it") {
+    const TestFolder folder;
+    const std::string header =
+        ply_header.substr(0, ply_header.find("face 4")) + "face 1" + ply_header.substr(ply_header.find("face 4") + 6);
+    for (const std::string face : {"4 0 1 2 150994944\n", "5 0 1 2 3 4\n", "3 0 1 4\n"}) {
+        const std::string said = refusal(folder, "polygon.ply", header + tetra_points + face);
+        CHECK(said.find("face 0: vertex index") != std::string::npos);
+        CHECK(said.find("out of range 0 ... 3") != std::string::npos);
+    }
+}
+
 TEST_CASE("the triangles of an STL share their vertices again, in the order of first appearance") {
     const TestFolder folder;
     TriangleMesh expected;

@@ -1,0 +1,6 @@
+#include "mesh_target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    percale::fuzz::try_mesh(data, size, ".off");
+    return 0;
+}
