@@ -158,6 +158,15 @@ bool one_sided(const Triangle& a, const Triangle& b, const TriangleMesh& mesh) {
     return on == 0 && (below == 0) != (above == 0);
 }
 
+/// How two triangles of one mesh meet, apart from the vertices that they share; touching only where they share none.
+Overlap overlap_within(const TriangleMesh& mesh, const Surface& surface, int i, int j) {
+    const Triangle &a = mesh.triangles[i], &b = mesh.triangles[j];
+    const bool neighbours = share_a_vertex(a, b);
+    if (neighbours && (one_sided(a, b, mesh) || one_sided(b, a, mesh))) return Overlap::disjoint;
+    const Overlap overlap = classify(surface.triangles[i], surface.triangles[j]);
+    return overlap == Overlap::touching && neighbours ? Overlap::disjoint : overlap;
+}
+
 }  // namespace
 
 Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, double distance_limit) {
@@ -180,15 +189,32 @@ ClothCertificate certify_cloth(const TriangleMesh& cloth) {
     ClothCertificate result;
     surface.tree.walk_overlaps(surface.tree, [&](int i, int j) {
         if (i >= j) return;
-        const Triangle &a = cloth.triangles[i], &b = cloth.triangles[j];
-        const bool neighbours = share_a_vertex(a, b);
-        if (neighbours && (one_sided(a, b, cloth) || one_sided(b, a, cloth))) return;
-        const Overlap overlap = classify(surface.triangles[i], surface.triangles[j]);
+        const Overlap overlap = overlap_within(cloth, surface, i, j);
         if (overlap == Overlap::crossing) result.crossing.push_back({i, j});
-        if (overlap == Overlap::touching && !neighbours) result.touching.push_back({i, j});
+        if (overlap == Overlap::touching) result.touching.push_back({i, j});
     });
     sort(result.crossing);
     sort(result.touching);
+    return result;
+}
+
+CrossingSearch find_crossings(const TriangleMesh& mesh, long most_pairs, long most_tests) {
+    check(mesh, "find_crossings: mesh");
+    const Surface surface(mesh);
+    CrossingSearch result;
+    long tests = 0;
+    const auto enough = [&] { return tests >= most_tests || static_cast<long>(result.pairs.size()) >= most_pairs; };
+    const auto visit = [&](int i, int j) {
+        if (i >= j) return;
+        if (enough()) {
+            result.complete = false;
+            return;
+        }
+        ++tests;
+        if (overlap_within(mesh, surface, i, j) == Overlap::crossing) result.pairs.push_back({i, j});
+    };
+    surface.tree.walk_overlaps(surface.tree, visit, [&] { return !result.complete; });
+    sort(result.pairs);
     return result;
 }
 

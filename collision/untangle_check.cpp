@@ -41,23 +41,33 @@ Corners corners(std::span<const Vec3> x, const Triangle& t) { return {x[t[0]], x
 struct PlacedCloth {
     std::vector<Corners> triangles;
     std::vector<double> gap;
+    std::vector<certificate::Slab> slab;  // of triangles with a gap
     BoxTree tree;
+
+    /// Whether a triangle with a gap is nearer than it to one that it does not meet; a bound tells it of most.
+    bool is_too_near(int i, const Corners& other) const {
+        const double surely_far = gap[i] * (1.0 + 1e-9);
+        if (certificate::triangle_separation(triangles[i], slab[i], other, surely_far) > surely_far) return false;
+        return certificate::triangle_distance(triangles[i], other) < gap[i];
+    }
 };
 
 PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std::vector<bool>& moved) {
     std::vector<Corners> triangles;
     std::vector<double> gaps;
+    std::vector<certificate::Slab> slabs;
     std::vector<Box> boxes;
     for (const Triangle& t : cloth.triangles) {
         triangles.push_back(corners(x, t));
         const bool any = !moved.empty() && (moved[t[0]] || moved[t[1]] || moved[t[2]]);
         gaps.push_back(any ? least_gap * cloth.thickness[t[0]] : 0.0);
+        slabs.push_back(any ? certificate::slab_of(triangles.back()) : certificate::Slab{});
         Box box = certificate::box_of(triangles.back());
         box.low.array() -= gaps.back();
         box.high.array() += gaps.back();
         boxes.push_back(box);
     }
-    return {std::move(triangles), std::move(gaps), BoxTree(std::span<const Box>(boxes))};
+    return {std::move(triangles), std::move(gaps), std::move(slabs), BoxTree(std::span<const Box>(boxes))};
 }
 
 /// How each cloth triangle lies to an obstacle.
@@ -74,7 +84,7 @@ Meetings find_meetings(const PlacedCloth& placed, const SolidObstacle& obstacle)
         if (certificate::classify(a, b) != Overlap::disjoint)
             found.meets[i] = found.too_near[i] = true;
         else if (!found.too_near[i] && placed.gap[i] > 0.0)
-            found.too_near[i] = certificate::triangle_distance(a, b) < placed.gap[i];
+            found.too_near[i] = placed.is_too_near(i, b);
     });
     return found;
 }

@@ -59,7 +59,8 @@ TriangleMesh reference_mesh(const std::string& file, const Expectation& expectat
     }
 }
 
-/// The vertices of the file that `matches` names, if the scene expects that.
+}  // namespace
+
 std::optional<std::vector<Vec3>> read_reference(const BuiltScene& built) {
     for (const Expectation& expectation : built.scene.expectations) {
         if (expectation.measure != "matches") continue;
@@ -74,6 +75,8 @@ std::optional<std::vector<Vec3>> read_reference(const BuiltScene& built) {
     }
     return std::nullopt;
 }
+
+namespace {
 
 /// Beyond this the certificate need not say how far apart the surfaces are.
 double distance_limit(const BuiltScene& built, std::size_t cloth) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,10 @@ struct RunSettings {
 /// reference of a `matches` expectation cannot be read or has another number of vertices, before the first step; what a hook
 /// throws passes through.
 RunResult run_scene(BuiltScene& built, const RunHooks& hooks = {}, const RunSettings& settings = {});
+
+/// The vertices of the file that `matches` names, if the scene expects that. Throws SceneError where it cannot be read or has
+/// another number of vertices than the cloth.
+std::optional<std::vector<Vec3>> read_reference(const BuiltScene& built);
 
 /// Steps of a scene, undivided, and the length of the last one, s.
 struct StepCount {

@@ -51,22 +51,6 @@ TriangleMesh shape_mesh(const Shape& shape) {
     throw SceneError("an obstacle needs a mesh or a shape");
 }
 
-TriangleMesh rest_mesh(const Scene& scene, const ClothSpec& cloth) {
-    TriangleMesh mesh =
-        cloth.grid ? make_grid(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->vertices[0], cloth.grid->vertices[1])
-                   : import_mesh(path_beside(scene, cloth.mesh), cloth.unit);
-    mesh.vertices = transform(cloth.pose, mesh.vertices);
-    check_mesh(mesh, "cloth '" + cloth.name + "'", true);
-    return mesh;
-}
-
-TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle) {
-    TriangleMesh mesh =
-        obstacle.mesh.empty() ? shape_mesh(obstacle.shape) : import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit);
-    check_mesh(mesh, "obstacle '" + obstacle.name + "'", false);
-    return mesh;
-}
-
 std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {
     if (!scene.has_contact() && (scene.step.skip || scene.detector == Detector::none)) return nullptr;
     switch (scene.detector) {
@@ -114,6 +98,7 @@ Fabric fabric_on(BuiltScene& built, const ClothSpec& cloth, const TriangleMesh& 
 
 void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
     TriangleMesh mesh = rest_mesh(built.scene, cloth);
+    check_mesh(mesh, "cloth '" + cloth.name + "'", true);
     const Fabric fabric = fabric_on(built, cloth, mesh);
     check_shear(cloth, mesh, fabric.springs.shear);
     const ClothId id = built.simulation.add_cloth(mesh, fabric, {}, cloth.name);
@@ -132,6 +117,7 @@ void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
 
 void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     TriangleMesh mesh = obstacle_mesh(built.scene, obstacle);
+    check_mesh(mesh, "obstacle '" + obstacle.name + "'", false);
     const ObstacleSettings settings{.friction = obstacle.friction, .name = obstacle.name};
     built.obstacles.push_back(built.simulation.add_obstacle(mesh, obstacle_pose_at(obstacle, 0.0), settings));
     built.obstacle_meshes.push_back(std::move(mesh));
@@ -161,13 +147,16 @@ const SourcePlace& place_of_triangle(const BuiltScene& built, int triangle) {
 
 // So have obstacles.
 [[noreturn]] void refuse_start(const BuiltScene& built, const StartError& error) {
-    if (error.fault().between_cloths()) fail_at(place_of_triangle(built, error.fault().cloth_triangle), error.what());
+    const auto at = [&](const SourcePlace& place) {
+        const std::string where = place_text(place);
+        return (where.empty() ? "" : where + ": ") + error.what();
+    };
+    if (error.fault().between_cloths()) throw StartRefused(at(place_of_triangle(built, error.fault().cloth_triangle)), {});
     const auto number = static_cast<std::size_t>(error.fault().obstacle);
     TriangleMesh obstacle = built.obstacle_meshes.at(number);
     obstacle.vertices =
         transform(built.simulation.obstacle_pose(built.obstacles[number]), std::span<const Vec3>(obstacle.vertices));
-    const std::string where = place_text(built.scene.obstacles.at(number).place);
-    throw StartRefused((where.empty() ? "" : where + ": ") + error.what(), offending_triangles(built.cloth_meshes, obstacle));
+    throw StartRefused(at(built.scene.obstacles.at(number).place), offending_triangles(built.cloth_meshes, obstacle));
 }
 
 void check_start(BuiltScene& built) {
@@ -185,6 +174,18 @@ void check_start(BuiltScene& built) {
 
 std::string path_beside(const Scene& scene, const std::string& path) {
     return (std::filesystem::path(scene.file).parent_path() / path).string();
+}
+
+TriangleMesh rest_mesh(const Scene& scene, const ClothSpec& cloth) {
+    TriangleMesh mesh =
+        cloth.grid ? make_grid(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->vertices[0], cloth.grid->vertices[1])
+                   : import_mesh(path_beside(scene, cloth.mesh), cloth.unit);
+    mesh.vertices = transform(cloth.pose, mesh.vertices);
+    return mesh;
+}
+
+TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle) {
+    return obstacle.mesh.empty() ? shape_mesh(obstacle.shape) : import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit);
 }
 
 BuiltScene build_scene(const Scene& scene) {

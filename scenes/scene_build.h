@@ -19,6 +19,11 @@ struct BuiltScene {
     std::vector<std::string> warnings;          // what is not quite as the scene file says
 };
 
+/// The mesh of a cloth in its pose, in m, and of an obstacle with its unit applied, its pose not; not yet checked (check_mesh).
+/// Throw SceneError for a file that cannot be read.
+TriangleMesh rest_mesh(const Scene& scene, const ClothSpec& cloth);
+TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle);
+
 /// Reads meshes, selects pins, makes the detector and the simulation, and checks the start (Simulation::prepare), which may move
 /// cloth out of obstacles. Throws SceneError with the place of the cloth, obstacle, event or key in the scene file; where the
 /// start is the trouble, StartRefused (start_fault.h).

@@ -28,18 +28,10 @@ ScriptedChanges changes_of(const Scene& scene) {
     return changes;
 }
 
-std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
-
 std::string line(const std::string& label, const std::string& value) {
     char text[32];
     std::snprintf(text, sizeof text, "%-11s", label.c_str());
     return text + value + "\n";
-}
-
-std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
 }
 
 std::string springs_text(const SpringCounts& springs) {

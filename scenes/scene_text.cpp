@@ -20,6 +20,14 @@ std::string number_text(double value) {
     return text.substr(0, exponent + 1) + sign + text.substr(first);
 }
 
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
+
 std::string nearness_text(double smallest_distance) {
     if (std::isinf(smallest_distance)) return "never near";
     char text[64];

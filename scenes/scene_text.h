@@ -11,6 +11,12 @@ namespace percale::scenes {
 /// The shortest text that reads back as the same number: 0.3, 1e-6, inf.
 std::string number_text(double value);
 
+/// Three digits: 0.0167, 1.2e+07.
+std::string short_number(double value);
+
+/// "1 step", "12 steps".
+std::string counted(long count, const std::string& what);
+
 /// "smallest distance 0.0032 m", or "never near" where it is infinite.
 std::string nearness_text(double smallest_distance);
 

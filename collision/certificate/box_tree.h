@@ -49,7 +49,12 @@ public:
 
     /// Calls visit(item, other_item) once for every pair of items whose boxes overlap.
     template <class Visit>
-    void walk_overlaps(const BoxTree& other, Visit&& visit) const;
+    void walk_overlaps(const BoxTree& other, Visit&& visit) const {
+        walk_overlaps(other, visit, [] { return false; });
+    }
+    /// The same until enough() is true, which is asked now and then.
+    template <class Visit, class Enough>
+    void walk_overlaps(const BoxTree& other, Visit&& visit, Enough&& enough) const;
 
     /// The smallest of item_distance(item) over all items, pruned by box_distance(box), a lower bound for every item in the
     /// box; item and value. {-1, limit} where no item lies within `limit`.
@@ -107,11 +112,11 @@ void BoxTree::visit_leaves(const BoxTree& other, NodePair leaves, Visit&& visit)
     }
 }
 
-template <class Visit>
-void BoxTree::walk_overlaps(const BoxTree& other, Visit&& visit) const {
+template <class Visit, class Enough>
+void BoxTree::walk_overlaps(const BoxTree& other, Visit&& visit, Enough&& enough) const {
     std::vector<NodePair> open;
     if (!nodes_.empty() && !other.nodes_.empty()) open.push_back({0, 0});
-    while (!open.empty()) {
+    while (!open.empty() && !enough()) {
         const NodePair pair = open.back();
         open.pop_back();
         const Node &a = nodes_[pair.first], &b = other.nodes_[pair.second];

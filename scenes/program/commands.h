@@ -18,6 +18,7 @@ void add_check_command(CLI::App& program, Action& action);
 void add_explain_command(CLI::App& program, Action& action);
 void add_certify_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
+void add_doctor_command(CLI::App& program, Action& action);
 void add_drape_command(CLI::App& program, Action& action);
 
 }  // namespace percale::program

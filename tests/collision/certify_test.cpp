@@ -270,6 +270,37 @@ TEST_CASE("crossings of a crumpled sheet are those of all pairs, neighbours at o
     CHECK(same(certify_cloth(sheet).crossing, expected));
 }
 
+TEST_CASE("a search for crossings finds all of them, or as many as were asked for and says so") {
+    const TriangleMesh sheet = crumpled(1.0, 15, 0.08, 9);
+    const std::vector<IntersectingPair> all = certify_cloth(sheet).crossing;
+    const CrossingSearch whole = find_crossings(sheet, 100000, 1000000);
+    CHECK(whole.complete);
+    CHECK(same(whole.pairs, all));
+    const CrossingSearch exact = find_crossings(sheet, static_cast<long>(all.size()) + 1, 1000000);
+    CHECK(exact.complete);
+    const CrossingSearch few = find_crossings(sheet, 3, 1000000);
+    CHECK_FALSE(few.complete);
+    REQUIRE(few.pairs.size() == 3);
+    for (const IntersectingPair& pair : few.pairs)
+        CHECK(std::count_if(all.begin(), all.end(), [&](const IntersectingPair& one) {
+                  return one.first == pair.first && one.second == pair.second;
+              }) == 1);
+    CHECK_FALSE(find_crossings(sheet, 100000, 10).complete);
+}
+
+TEST_CASE("a fan of many triangles around one vertex is searched no longer than allowed") {
+    TriangleMesh fan{.vertices = {{0, 0, 0}}, .triangles = {}};
+    constexpr int count = 20000;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2.0 * 3.14159265358979 * i / count;
+        fan.vertices.push_back({std::cos(angle), 0.1, std::sin(angle)});
+        fan.triangles.push_back({0, i + 1, i + 2 > count ? 1 : i + 2});
+    }
+    const CrossingSearch search = find_crossings(fan, 10, 100000);
+    CHECK_FALSE(search.complete);
+    CHECK(search.pairs.empty());
+}
+
 TEST_CASE(
     "a triangle pushed through its neighbour at a vertex crosses it, one folded against its neighbour at an edge does not") {
     // Two triangles that share vertex 0 alone.

@@ -56,3 +56,12 @@ TEST_CASE("joined words have commas between them") {
     CHECK(joined(words) == "a, b, c");
     CHECK(joined({}).empty());
 }
+
+TEST_CASE("short numbers have three digits, and one of a thing has no s") {
+    CHECK(short_number(1.0 / 60.0) == "0.0167");
+    CHECK(short_number(12345678.0) == "1.23e+07");
+    CHECK(short_number(30.0) == "30");
+    CHECK(counted(1, "step") == "1 step");
+    CHECK(counted(0, "step") == "0 steps");
+    CHECK(counted(12, "step") == "12 steps");
+}

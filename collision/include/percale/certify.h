@@ -44,6 +44,16 @@ struct ClothCertificate {
 /// than the vertices, edge or points that they have to. Thread-safe.
 ClothCertificate certify_cloth(const TriangleMesh& cloth);
 
+/// Crossing pairs of one mesh, as far as they were looked for.
+struct CrossingSearch {
+    std::vector<IntersectingPair> pairs;  // first < second, ordered
+    bool complete = true;                 // false: one of the limits was reached
+};
+
+/// The crossing pairs of certify_cloth, at most `most_pairs` of them, from at most `most_tests` tests of two triangles, so that
+/// no mesh takes long: a fan of n triangles around one vertex alone asks for n^2/2. Thread-safe.
+CrossingSearch find_crossings(const TriangleMesh& mesh, long most_pairs, long most_tests);
+
 /// Intersecting pairs inside one mesh, neighbours that share a vertex left out.
 std::vector<IntersectingPair> self_intersections(const TriangleMesh& mesh);
 
