@@ -18,8 +18,7 @@ constexpr std::array places = {1, 9, 20};
 Simulation sheet(const StepSettings& settings, const Fabric& fabric = sheet_fabric(), int count = 9) {
     Simulation simulation(settings);
     const ClothId cloth = simulation.add_cloth(make_grid(1.0, 1.0, count, count), fabric);
-    simulation.pin(cloth, 0);
-    simulation.pin(cloth, count - 1);
+    for (const int vertex : {0, 1, count - 1}) simulation.pin(cloth, vertex);
     return simulation;
 }
 
