@@ -17,12 +17,6 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 double skin(double thickness, double way) { return skin_share * thickness + skin_of_way * way; }
 
-int total_version(const Obstacles& obstacles) {
-    int sum = static_cast<int>(obstacles.size());
-    for (const auto& obstacle : obstacles) sum += obstacle->version();
-    return sum;
-}
-
 /// How far two boxes are apart, m.
 double gap(const Box& a, const Box& b) { return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm(); }
 
@@ -31,11 +25,21 @@ double depth(const Box& box, const Vec3& x) { return std::min((x - box.low).minC
 
 }  // namespace
 
+int total_version(const Obstacles& obstacles) {
+    int sum = static_cast<int>(obstacles.size());
+    for (const auto& obstacle : obstacles) sum += obstacle->version();
+    return sum;
+}
+
 CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
                                std::span<const Vec3> positions)
+    : CandidateLists(triangles, vertex_thickness, positions, make_clusters(triangles, positions)) {}
+
+CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
+                               std::span<const Vec3> positions, ClothClusters clusters)
     : triangles_(triangles.begin(), triangles.end()),
       thickness_(vertex_thickness.begin(), vertex_thickness.end()),
-      clusters_(make_clusters(triangles, positions)),
+      clusters_(std::move(clusters)),
       vertex_start_(1, 0),
       lists_(clusters_.clusters.size()),
       seen_(positions.begin(), positions.end()),

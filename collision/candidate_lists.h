@@ -10,6 +10,7 @@
 #include "cloth_clusters.h"
 #include "contact_pair.h"
 #include "obstacle.h"
+#include "percale/saved_state.h"
 
 namespace percale {
 
@@ -68,11 +69,26 @@ struct ClusterList {
     int version = -1;                     // of the obstacles' motion it was built for
 };
 
+/// Tells all poses that the obstacles have had so far from any others.
+int total_version(const Obstacles& obstacles);
+
+/// Tells cloth and obstacles from others, wherever they are.
+std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vector<double>& vertex_thickness,
+                         const Obstacles& obstacles);
+
 /// Verlet lists: candidates of all cloth, rebuilt only where the cloth left its boxes or an obstacle moves.
 class CandidateLists {
 public:
     CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
                    std::span<const Vec3> positions);
+
+    /// Everything that later calls depend on; with the obstacles as they are now.
+    void save(const Obstacles& obstacles, StateWriter& state) const;
+    /// Lists as they were saved, of the same cloth and obstacles. Throws SceneError for what is none of these. Obstacles may
+    /// still be elsewhere, but must be where they were when `settle` is called, which is before anything else.
+    static CandidateLists restored(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
+                                   const Obstacles& obstacles, StateReader& state);
+    void settle(const Obstacles& obstacles);
 
     /// Makes every list good for all states between two, and moves the lists' time to `move.from`. A move so long that its lists
     /// would not fit into memory is covered in part: returns the share of it, from its start, that the lists are good for.
@@ -90,6 +106,9 @@ public:
     double cluster_way(std::size_t cluster) const { return cluster_way_[cluster]; }
 
 private:
+    CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, std::span<const Vec3> positions,
+                   ClothClusters clusters);
+    void check(const Obstacles& obstacles, const StateReader& state) const;
     std::span<const int> vertices_of(std::size_t cluster) const {
         return std::span(vertices_).subspan(vertex_start_[cluster], vertex_start_[cluster + 1] - vertex_start_[cluster]);
     }

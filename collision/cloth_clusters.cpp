@@ -53,9 +53,12 @@ std::vector<unsigned char> edge_owners(std::span<const Triangle> triangles) {
 }  // namespace
 
 ClothClusters make_clusters(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
-    const std::vector<int> order = morton_order(triangles, positions);
+    return make_clusters(triangles, positions.size(), morton_order(triangles, positions));
+}
+
+ClothClusters make_clusters(std::span<const Triangle> triangles, std::size_t vertices, std::span<const int> order) {
     ClothClusters result;
-    Ownership ownership(positions.size());
+    Ownership ownership(vertices);
     for (std::size_t from = 0; from < order.size(); from += triangles_per_cluster) {
         ClothCluster& cluster = result.clusters.emplace_back();
         const std::size_t to = std::min(order.size(), from + triangles_per_cluster);

@@ -25,4 +25,7 @@ struct ClothClusters {
 
 ClothClusters make_clusters(std::span<const Triangle> triangles, std::span<const Vec3> positions);
 
+/// The same for an order of the triangles that is known: that of the clusters' triangles, one cluster after the other.
+ClothClusters make_clusters(std::span<const Triangle> triangles, std::size_t vertices, std::span<const int> order);
+
 }  // namespace percale

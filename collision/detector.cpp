@@ -105,6 +105,39 @@ public:
 
     double smallest_distance() const override { return smallest_distance_; }
 
+    void save(StateWriter& state) const override {
+        state(scene_hash(triangles_, thickness_, obstacles_));
+        for (const auto& obstacle : obstacles_) state(obstacle->start_pose(), obstacle->end_pose());
+        state(kept_at_, smallest_distance_, lists_.has_value());
+        if (lists_) lists_->save(obstacles_, state);
+        if (between_cloths_) between_cloths_->save(state);
+    }
+
+    void restore(StateReader& state) override {
+        std::uint64_t hash = 0;
+        state(hash);
+        if (hash != scene_hash(triangles_, thickness_, obstacles_))
+            throw SceneError("saved state: it is of other cloth or other obstacles than the detector has");
+        std::vector<std::array<Pose, 2>> poses(obstacles_.size());
+        for (auto& ends : poses) state(ends);
+        std::vector<Vec3> kept_at;
+        double smallest_distance = 0.0;
+        bool listed = false;
+        state(kept_at, smallest_distance, listed);
+        state.demand(kept_at.empty() || kept_at.size() == thickness_.size(), "a wrong number of vertices");
+        std::optional<CandidateLists> lists;
+        if (listed) lists = CandidateLists::restored(triangles_, thickness_, obstacles_, state);
+        std::optional<SelfContactDetection> between_cloths = between_cloths_;
+        if (between_cloths) between_cloths->restore(state);
+        state.demand(state.at_end(), "there is more than belongs to it");
+        for (std::size_t i = 0; i < obstacles_.size(); ++i) obstacles_[i]->move(poses[i][0], poses[i][1]);
+        kept_at_ = std::move(kept_at);
+        smallest_distance_ = smallest_distance;
+        lists_ = std::move(lists);
+        if (lists_) lists_->settle(obstacles_);
+        between_cloths_ = std::move(between_cloths);
+    }
+
 private:
     /// Each pass asks memory for what the next places need: lists, packs and the obstacle's surface are too large for the
     /// nearest caches.

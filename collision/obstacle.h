@@ -21,6 +21,11 @@ public:
     bool moves() const { return moves_; }
     /// m, longest way of a vertex in the coming step.
     double longest_way() const { return longest_way_; }
+    /// At the two ends of the coming step.
+    const Pose& start_pose() const { return start_pose_; }
+    const Pose& end_pose() const { return end_pose_; }
+    /// The cleaned vertices without the pose, m.
+    std::span<const Vec3> local_vertices() const { return local_; }
     /// Counts the poses it has had: lists made for another one are no longer good.
     int version() const { return version_; }
 

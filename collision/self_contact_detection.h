@@ -23,6 +23,10 @@ public:
     /// Appends rows; returns the smallest distance of those, m, or infinity.
     double add_rows(std::span<const Vec3> positions, ContactRows& rows);
 
+    /// As those of SelfContactLists.
+    void save(StateWriter& state) const { lists_.save(state); }
+    void restore(StateReader& state) { lists_.restore(state); }
+
 private:
     double cut(const SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe);
     double measure(const SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows) const;

@@ -7,6 +7,7 @@
 #include "cloth_clusters.h"
 #include "cluster_tree.h"
 #include "percale/contact.h"
+#include "percale/saved_state.h"
 #include "self_pair.h"
 
 namespace percale {
@@ -36,6 +37,11 @@ public:
     /// m, bound of how much distances of the list can shrink on the straight way last given to set_motion.
     double shrink(const SelfList& list) const;
 
+    /// Everything that later calls depend on.
+    void save(StateWriter& state) const;
+    /// The same of another object for the same cloth. Throws SceneError, and is then of no use, for what is none of these.
+    void restore(StateReader& state);
+
     std::span<SelfList> lists() { return lists_; }
     std::span<SelfPair> pairs(const SelfList& list) { return std::span(pairs_).subspan(list.begin, list.end - list.begin); }
     const ClothSurface& surface() const { return surface_; }
@@ -53,6 +59,7 @@ private:
     };
 
     void add_clusters(std::span<const int> triangles, std::span<const Vec3> rest);
+    void check(const StateReader& state) const;
     bool holds(std::span<const Vec3> positions) const;
     bool rebuild(std::span<const Vec3> from, std::span<const Vec3> to, bool whatever_it_takes);
     void set_boxes();

@@ -9,6 +9,7 @@
 #include "percale/options.h"
 #include "step/measure.h"
 #include "step/planning.h"
+#include "step/saved_world.h"
 #include "step/start_check.h"
 #include "step/step.h"
 #include "support/hash.h"
@@ -414,6 +415,13 @@ std::uint64_t Simulation::state_hash() const {
         for (int axis = 0; axis < 3; ++axis) hash.add(grip.stretch[axis]);
     }
     return hash.value();
+}
+
+std::vector<std::byte> Simulation::save() const { return saved_world(implementation_->world, implementation_->start_moves); }
+
+void Simulation::restore(std::span<const std::byte> saved) {
+    implementation_->start_moves = restore_world(saved, implementation_->world);
+    implementation_->update_views();
 }
 
 }  // namespace percale

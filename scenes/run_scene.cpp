@@ -114,10 +114,12 @@ void place_and_certify(const BuiltScene& built, Frame& frame) {
 /// Looks at the state after each step: certificates, frames.
 class Observer {
 public:
-    Observer(const BuiltScene& built, const RunHooks& hooks, const RunSettings& settings, Measures& measures)
+    Observer(const BuiltScene& built, const RunHooks& hooks, Measures& measures, int next_frame)
         : built_(built), hooks_(hooks), measures_(measures), frame_(first_frame(built)) {
-        if (settings.certify_steps) measures_.steps.emplace();
+        frame_.index = next_frame;
     }
+
+    int next_frame() const { return frame_.index; }
 
     /// The state after so many steps.
     void look(int steps) {
@@ -229,14 +231,20 @@ double next_stop(const Scene& scene, double now) {
 /// Tells how long steps are: `time_step`, the last one shorter; with "auto" equal ones from stop to stop.
 class StepLengths {
 public:
-    explicit StepLengths(const Scene& scene)
-        : scene_(scene), count_(count_steps(scene.duration, scene.step.time_step)), length_(scene.step.time_step) {}
+    StepLengths(const Scene& scene, const RunState* from)
+        : scene_(scene),
+          count_(count_steps(scene.duration, scene.step.time_step)),
+          length_(from ? from->step_length : scene.step.time_step),
+          made_(from ? from->steps_made : 0) {}
 
-    bool over(double now) const { return scene_.step.adaptive ? left(now) <= rounding : made_ == count_.steps; }
+    long made() const { return made_; }
+    double length() const { return length_; }
+
+    bool over(double now) const { return scene_.step.adaptive ? left(now) <= rounding : made_ >= count_.steps; }
 
     double next(double now) {
         ++made_;
-        if (!scene_.step.adaptive) return made_ == count_.steps ? count_.last_dt : scene_.step.time_step;
+        if (!scene_.step.adaptive) return made_ >= count_.steps ? count_.last_dt : scene_.step.time_step;
         const double way = next_stop(scene_, now) - now;
         const double length = way / std::max(1.0, std::ceil(way / scene_.step.time_step - 1e-9));
         // The same length in every bit as before: another one would be a change of the scene.
@@ -256,40 +264,117 @@ private:
     const Scene& scene_;
     StepCount count_;
     double length_;
-    long made_ = 0;
+    long made_;
 };
 
-void run_steps(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings, RunResult& result) {
-    StepLengths lengths(built.scene);
-    Script script{Timeline(built), Observer(built, hooks, settings, result.measures)};
-    script.observer.look(0);
-    while (!lengths.over(built.simulation.time())) {
-        if (!make_parts(built, hooks, script, lengths.next(built.simulation.time()), result)) return;
-        const double now = built.simulation.time();
-        if (!lengths.over(now) && hooks.stop_asked && hooks.stop_asked()) {
-            result.status = RunStatus::stopped;
-            result.reason = lengths.made_text(now);
+/// Tells when checkpoints are due: whenever another so many seconds of the scene are over.
+class CheckpointTimes {
+public:
+    CheckpointTimes(double every, double now) : every_(every), made_(count(now)) {}
+
+    bool due(double now) {
+        const double before = made_;
+        made_ = count(now);
+        return made_ > before;
+    }
+
+private:
+    double count(double now) const { return every_ > 0.0 ? std::floor(now / every_ + 1e-9) : 0.0; }
+
+    double every_, made_;
+};
+
+/// A scene on its way from its start, or from where it was left, to its end.
+class Run {
+public:
+    Run(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings, RunResult& result)
+        : built_(built),
+          hooks_(hooks),
+          result_(result),
+          lengths_(built.scene, settings.from),
+          script_{Timeline(built), Observer(built, hooks, result.measures, settings.from ? settings.from->next_frame : 0)},
+          checkpoints_(settings.checkpoint_every, settings.from ? settings.from->totals.simulated_s : 0.0) {
+        if (settings.from) {
+            go_on_from(settings);
+        } else {
+            result.totals.energy = built.simulation.energy();
+            if (settings.certify_steps) result.measures.steps.emplace();
+        }
+    }
+
+    void make_steps() {
+        if (lengths_.made() == 0) script_.observer.look(0);
+        while (!lengths_.over(built_.simulation.time())) {
+            if (!make_parts(built_, hooks_, script_, lengths_.next(built_.simulation.time()), result_)) return;
+            const bool stop = !lengths_.over(built_.simulation.time()) && hooks_.stop_asked && hooks_.stop_asked();
+            const bool due = checkpoints_.due(built_.simulation.time());
+            if ((stop || due) && hooks_.checkpoint) hooks_.checkpoint(state());
+            if (!stop) continue;
+            result_.status = RunStatus::stopped;
+            result_.reason = lengths_.made_text(built_.simulation.time());
             return;
         }
     }
-}
+
+    /// Brings the totals up to date that are no sums over steps.
+    void measure() {
+        result_.totals.simulated_s = built_.simulation.time();
+        result_.totals.wall_s =
+            earlier_wall_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    void go_on_from(const RunSettings& settings) {
+        const RunState& from = *settings.from;
+        try {
+            script_.timeline.go_on_from(built_, from.timeline);
+            built_.simulation.restore(from.simulation);
+        } catch (const SceneError& error) {
+            throw SceneError(settings.from_file + ": " + error.what());
+        }
+        result_.totals = from.totals;
+        result_.measures = from.measures;
+        result_.resumed_at = from.resumed_at;
+        result_.resumed_at.push_back(built_.simulation.time());
+        earlier_wall_s_ = from.totals.wall_s;
+    }
+
+    RunState state() {
+        measure();
+        return {.totals = result_.totals,
+                .measures = result_.measures,
+                .resumed_at = result_.resumed_at,
+                .steps_made = lengths_.made(),
+                .step_length = lengths_.length(),
+                .next_frame = script_.observer.next_frame(),
+                .timeline = script_.timeline.state(),
+                .simulation = built_.simulation.save()};
+    }
+
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    double earlier_wall_s_ = 0.0;
+    BuiltScene& built_;
+    const RunHooks& hooks_;
+    RunResult& result_;
+    StepLengths lengths_;
+    Script script_;
+    CheckpointTimes checkpoints_;
+};
 
 }  // namespace
 
 RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings) {
-    const auto start = std::chrono::steady_clock::now();
     const std::optional<std::vector<Vec3>> reference = read_reference(built);
-    if (hooks.begin) hooks.begin();
     RunResult result;
     result.plan = plan_of(built);
-    result.totals.energy = built.simulation.energy();
-    run_steps(built, hooks, settings, result);
+    Run run(built, hooks, settings, result);
+    if (hooks.begin) hooks.begin();
+    run.make_steps();
     if (std::isnan(result.totals.energy.elastic))
         result.measures.largest_strain = result.measures.energy_gain = result.totals.energy.elastic;
     add_end(result.measures, built.simulation, built.cloths);
     if (reference) result.measures.matches = largest_vertex_distance(built.simulation, built.cloths, *reference);
-    result.totals.simulated_s = built.simulation.time();
-    result.totals.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    run.measure();
     return result;
 }
 

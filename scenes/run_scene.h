@@ -7,6 +7,7 @@
 
 #include "measures.h"
 #include "scene_build.h"
+#include "timeline.h"
 
 // Runs a scene from its start to its end: steps, output frames, certificates, measures. Writes and prints nothing.
 namespace percale::scenes {
@@ -50,6 +51,19 @@ struct RunResult {
     RunTotals totals;
     ScenePlan plan;  // before the first step
     Measures measures;
+    std::vector<double> resumed_at;  // s, where the run was resumed; empty for one that was not
+};
+
+/// Where a run stands between two steps of the scene: together with the scene, all that it takes to go on.
+struct RunState {
+    RunTotals totals;
+    Measures measures;
+    std::vector<double> resumed_at;  // s
+    long steps_made = 0;             // of the scene, undivided
+    double step_length = 0.0;        // s, of the last one
+    int next_frame = 0;
+    Timeline::State timeline;
+    std::vector<std::byte> simulation;  // Simulation::save
 };
 
 /// What the caller does meanwhile; each may be empty.
@@ -58,10 +72,14 @@ struct RunHooks {
     std::function<void(const Frame&)> frame;                         // each output frame, after it was certified
     std::function<void(const StepReport&, const Simulation&)> step;  // each step, a failed one too
     std::function<bool()> stop_asked;                                // asked after each step
+    std::function<void(const RunState&)> checkpoint;                 // where one is due, and when the run is stopped
 };
 
 struct RunSettings {
-    bool certify_steps = false;  // certify every state, not only those of output frames: Measures::steps
+    bool certify_steps = false;      // certify every state, not only those of output frames: Measures::steps
+    double checkpoint_every = 0.0;   // s of simulated time, counted from 0; 0: none are due
+    const RunState* from = nullptr;  // where to go on; null: from the start
+    std::string from_file = {};      // where that was read, for messages
 };
 
 /// Steps until the scene's duration is over (where the duration is no multiple of the time step the last step is shorter, or up
@@ -69,8 +87,9 @@ struct RunSettings {
 /// event's time. Frame k follows the first step that ends at or after k / fps; frame 0 is the start. Every frame is certified
 /// against every obstacle, and cloth that meets cloth against that, also when nothing is written. A step in which an obstacle
 /// moves far is made in equal parts (motion_parts), each a step of the simulation and of the totals. Throws SceneError if the
-/// reference of a `matches` expectation cannot be read or has another number of vertices, before the first step; what a hook
-/// throws passes through.
+/// reference of a `matches` expectation cannot be read or has another number of vertices, or if the state to go on from is not
+/// one of this scene, before the first step; what a hook throws passes through. A run that goes on from a state ends with the
+/// same bits and figures as one that was never interrupted; the scene must have been built anew.
 RunResult run_scene(BuiltScene& built, const RunHooks& hooks = {}, const RunSettings& settings = {});
 
 /// The vertices of the file that `matches` names, if the scene expects that. Throws SceneError where it cannot be read or has

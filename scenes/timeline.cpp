@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "percale/error.h"
+
 namespace percale::scenes {
 namespace {
 
@@ -76,6 +78,19 @@ void Timeline::apply(BuiltScene& built, double time, double dt) {
     while (next_event_ < events_.size() && events_[next_event_].time <= time + rounding * dt) act(built, events_[next_event_++]);
     move_pins(built, time + dt);
     move_obstacles(built, time + dt);
+}
+
+void Timeline::go_on_from(const BuiltScene& built, const State& state) {
+    const auto known = [&](const MovingPin& pin) {
+        if (pin.cloth < 0 || pin.cloth >= static_cast<int>(built.cloth_meshes.size())) return false;
+        const auto vertices = static_cast<int>(built.cloth_meshes[static_cast<std::size_t>(pin.cloth)].vertices.size());
+        return pin.vertex >= 0 && pin.vertex < vertices;
+    };
+    const bool fits = state.next_event >= 0 && state.next_event <= static_cast<long>(events_.size()) &&
+                      std::all_of(state.moving_pins.begin(), state.moving_pins.end(), known);
+    if (!fits) throw SceneError("the state of the script is that of another scene");
+    next_event_ = static_cast<std::size_t>(state.next_event);
+    moving_pins_ = state.moving_pins;
 }
 
 void Timeline::act(BuiltScene& built, const ScriptedEvent& event) {

@@ -20,7 +20,6 @@ public:
     /// depend on the steps; it begins where the vertex is when the event is applied, and replaces an earlier move of the vertex.
     void apply(BuiltScene& built, double time, double dt);
 
-private:
     struct MovingPin {
         int cloth = 0;
         int vertex = 0;
@@ -28,7 +27,16 @@ private:
         Vec3 displacement = Vec3::Zero();
         double from = 0.0, over = 0.0;  // s
     };
+    /// How far the script has come.
+    struct State {
+        long next_event = 0;
+        std::vector<MovingPin> moving_pins;
+    };
+    State state() const { return {static_cast<long>(next_event_), moving_pins_}; }
+    /// Goes on from there. Throws SceneError for a state of another scene.
+    void go_on_from(const BuiltScene& built, const State& state);
 
+private:
     void act(BuiltScene& built, const ScriptedEvent& event);
     void start_move(const BuiltScene& built, const ScriptedMove& move, double from);
     void forget_moves(int cloth, const std::vector<int>& vertices);

@@ -1,5 +1,6 @@
 #include "contact_multipliers.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "support/hash.h"
@@ -29,6 +30,20 @@ std::size_t ContactMultipliers::place(const RowKey& key) const {
 void ContactMultipliers::add(const RowKey& key, const RowForce& force) {
     slots_[place(key)] = {.key = key, .force = force, .used = true};
     ++size_;
+}
+
+std::vector<KeyedForce> ContactMultipliers::all() const {
+    std::vector<KeyedForce> all;
+    for (const Slot& slot : slots_) {
+        if (slot.used) all.push_back({slot.key, slot.force});
+    }
+    std::sort(all.begin(), all.end(), [](const KeyedForce& a, const KeyedForce& b) { return a.key < b.key; });
+    return all;
+}
+
+void ContactMultipliers::set(std::span<const KeyedForce> all) {
+    clear(all.size());
+    for (const auto& [key, force] : all) add(key, force);
 }
 
 RowForce ContactMultipliers::of(const RowKey& key) const { return slots_.empty() ? RowForce{} : slots_[place(key)].force; }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "percale/contact.h"
@@ -14,7 +16,7 @@ struct RowKey {
     int obstacle = -1;
     int feature = -1;
 
-    bool operator==(const RowKey&) const = default;
+    auto operator<=>(const RowKey&) const = default;
 };
 
 RowKey row_key(const ContactRows& rows, std::size_t row);
@@ -26,6 +28,11 @@ struct RowForce {
     double stiffness = 0.0;  // N/m, that it was found with
 };
 
+struct KeyedForce {
+    RowKey key;
+    RowForce force;
+};
+
 /// Contact forces found again by row. A row that is not known has none.
 class ContactMultipliers {
 public:
@@ -35,6 +42,10 @@ public:
     void add(const RowKey& key, const RowForce& force);
     RowForce of(const RowKey& key) const;
     std::size_t size() const { return size_; }
+
+    /// All that are known, by their keys, and back.
+    std::vector<KeyedForce> all() const;
+    void set(std::span<const KeyedForce> all);
 
 private:
     struct Slot {

@@ -116,6 +116,12 @@ void ContactProjection::forget() {
     kept_share_ = 0.0;
 }
 
+void ContactProjection::go_on_from(const Kept& kept) {
+    kept_.set(kept.kept);
+    lasting_.set(kept.lasting);
+    kept_share_ = kept.share;
+}
+
 void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces) const {
     const ContactRows& rows = *point.rows;
     ContactTerms& terms = forces.terms;

@@ -53,6 +53,14 @@ public:
     /// Cloth or obstacles are not where the last part left them.
     void forget();
 
+    /// All that one part hands on to the next.
+    struct Kept {
+        std::vector<KeyedForce> kept, lasting;
+        double share = 0.0;
+    };
+    Kept kept() const { return {kept_.all(), lasting_.all(), kept_share_}; }
+    void go_on_from(const Kept& kept);
+
 private:
     ContactMultipliers kept_, lasting_, multipliers_;
     std::vector<RowForce> lasting_forces_;  // scratch space of keep

@@ -42,6 +42,17 @@ public:
 
     LinearSolver in_use() const { return in_use_; }
 
+    /// What `automatic` begins with and has come to.
+    struct Choice {
+        LinearSolver first = LinearSolver::cg, in_use = LinearSolver::cg;
+    };
+    Choice choice() const { return {first_, in_use_}; }
+    /// Goes on as a solver of the same model did; after set_model.
+    void go_on_from(const Choice& choice) {
+        first_ = choice.first;
+        in_use_ = choice.in_use;
+    }
+
     BlockMatrix matrix;
 
 private:

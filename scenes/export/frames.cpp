@@ -7,6 +7,7 @@
 
 #include "obj_file.h"
 #include "percale/error.h"
+#include "whole_file.h"
 
 namespace percale::scenes {
 
@@ -74,6 +75,46 @@ void FrameWriter::write_mesh(const std::string& name, const TriangleMesh& mesh) 
     const std::string file = folder_ + "/" + name;
     write_obj(file, mesh.vertices, mesh.triangles);
     written_.push_back(file);
+}
+
+namespace {
+
+/// The number in NAME_NUMBER.obj, with or without the suffix of an unfinished file; -1 for other names.
+int frame_number(std::string file, const std::string& name) {
+    if (file.ends_with(part_suffix)) file.resize(file.size() - std::string(part_suffix).size());
+    if (!file.starts_with(name + "_") || !file.ends_with(".obj")) return -1;
+    const std::string number = file.substr(name.size() + 1, file.size() - name.size() - 5);
+    const bool digits = number.size() >= 5 && number.size() <= 9 && number.find_first_not_of("0123456789") == std::string::npos;
+    return digits ? std::stoi(number) : -1;
+}
+
+void remove_numbered(const std::string& folder, const std::vector<std::string>& names, int first) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        const std::string file = entry.path().filename().string();
+        const bool ours =
+            std::any_of(names.begin(), names.end(), [&](const std::string& name) { return frame_number(file, name) >= first; });
+        if (ours && entry.symlink_status().type() == std::filesystem::file_type::regular)
+            std::filesystem::remove(entry.path(), error);
+    }
+}
+
+}  // namespace
+
+void FrameWriter::copy(const std::string& folder, const std::string& name) {
+    namespace fs = std::filesystem;
+    const std::string from = folder + "/" + name, to = folder_ + "/" + name, part = to + part_suffix;
+    make_folder(fs::path(to).parent_path().string());
+    std::error_code error;
+    fs::copy_file(from, part, fs::copy_options::overwrite_existing, error);
+    if (!error) fs::rename(part, to, error);
+    if (error) throw SceneError(from + ": cannot be copied to " + to + ": " + error.message());
+    written_.push_back(to);
+}
+
+void FrameWriter::remove_from(int frame) const {
+    remove_numbered(folder_ + "/frames", cloth_names_, frame);
+    remove_numbered(folder_ + "/obstacles", obstacle_names_, frame);
 }
 
 void FrameWriter::discard() {

@@ -26,8 +26,13 @@ public:
 
     /// Throws SceneError naming the file that cannot be written.
     FrameRecord write(const Frame& frame);
-    /// Removes every file written so far.
+    /// Copies a file from another run's folder.
+    void copy(const std::string& folder, const std::string& name);
+    /// Removes every file written since the construction or the last call of `keep`.
     void discard();
+    void keep() { written_.clear(); }
+    /// Removes what runs of this scene have left, whole or not, of frames from this number on.
+    void remove_from(int frame) const;
 
 private:
     void write_mesh(const std::string& name, const TriangleMesh& mesh);

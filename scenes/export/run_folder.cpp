@@ -46,6 +46,52 @@ void remove_earlier_run(const std::string& folder) {
     }
 }
 
+/// A file that a run was writing when it was killed.
+bool is_leftover(const fs::path& file) {
+    std::error_code error;
+    return fs::symlink_status(file, error).type() == fs::file_type::regular;
+}
+
+/// Steps and frames of a run that was killed: its table never got its name.
+void remove_killed_run(const std::string& folder, const FrameWriter& writer) {
+    const fs::path steps = fs::path(folder) / (std::string("steps.csv") + part_suffix);
+    if (is_leftover(steps)) {
+        writer.remove_from(0);
+        remove_file(steps);
+    }
+    for (const char* name : {"report.json", checkpoint_name}) {
+        const fs::path file = fs::path(folder) / (std::string(name) + part_suffix);
+        if (is_leftover(file)) remove_file(file);
+    }
+}
+
+/// The steps of a run that was stopped, or of one that was killed.
+std::string step_file(const std::string& folder) {
+    const std::string whole = folder + "/steps.csv", part = whole + part_suffix;
+    return is_leftover(part) ? part : whole;
+}
+
+/// All files of frames in a folder. Throws SceneError unless all are there.
+std::vector<std::string> files_of(const std::vector<FrameRecord>& frames, const std::string& folder) {
+    std::vector<std::string> all;
+    for (const FrameRecord& frame : frames) {
+        for (const auto* files : {&frame.cloths, &frame.obstacles}) all.insert(all.end(), files->begin(), files->end());
+    }
+    for (const std::string& file : all) {
+        if (!is_frame_file(file)) throw SceneError(file + ": is no frame of a run");
+        if (!fs::exists(fs::path(folder) / file))
+            throw SceneError(folder + "/" + file + ": is missing, and the run cannot be resumed without it");
+    }
+    return all;
+}
+
+void make_run_folder(const std::string& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder))
+        throw SceneError(folder + ": cannot be made: " + (error ? error.message() : "it is a file"));
+}
+
 }  // namespace
 
 RunFolder::RunFolder(const std::string& folder, const Scene& scene, bool with_state_hash)
@@ -57,16 +103,38 @@ RunFolder::RunFolder(const std::string& folder, const Scene& scene, bool with_st
 RunFolder::~RunFolder() {
     if (finished_) return;
     writer_.discard();
-    if (steps_written_) std::remove((folder_ + "/steps.csv").c_str());
+    if (resumable_ && steps_) steps_->leave();
+    if (steps_written_ && !resumable_) std::remove((folder_ + "/steps.csv").c_str());
 }
 
 void RunFolder::begin() {
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error || !fs::is_directory(folder_))
-        throw SceneError(folder_ + ": cannot be made: " + (error ? error.message() : "it is a file"));
+    make_run_folder(folder_);
     remove_earlier_run(folder_);
+    remove_killed_run(folder_, writer_);
+    remove_file(fs::path(folder_) / checkpoint_name);
     steps_.emplace(folder_ + "/steps.csv");
+}
+
+void RunFolder::begin_from(const FolderState& state, const std::string& other) {
+    const std::vector<std::string> files = files_of(state.frames, other);
+    make_run_folder(folder_);
+    std::error_code error;
+    const bool here = fs::equivalent(folder_, other, error);
+    steps_.emplace(folder_ + "/steps.csv", step_file(other), state.step_bytes);
+    resumable_ = here;
+    for (const std::string& file : files) {
+        if (!here) writer_.copy(other, file);
+    }
+    for (const char* name : {"report.json", "steps.csv"}) remove_file(fs::path(folder_) / name);
+    writer_.remove_from(static_cast<int>(state.frames.size()));
+    frames_ = state.frames;
+}
+
+FolderState RunFolder::state() { return {frames_, steps_->sync()}; }
+
+void RunFolder::keep() {
+    writer_.keep();
+    resumable_ = true;
 }
 
 void RunFolder::add(const Frame& frame) {

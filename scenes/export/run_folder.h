@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +11,17 @@
 
 namespace percale::scenes {
 
+/// What a checkpoint has to know of a run's folder.
+struct FolderState {
+    std::vector<FrameRecord> frames;
+    std::uint64_t step_bytes = 0;  // of steps.csv
+};
+
+/// The name of the checkpoint in a run's folder.
+constexpr const char* checkpoint_name = "checkpoint.percale";
+
 /// What a run leaves in its folder: frames, steps.csv, report.json. Without `finish` (a file could not be written) none of these
-/// files stays.
+/// files stays, but for what a checkpoint needs (`keep`).
 class RunFolder {
 public:
     /// Creates nothing yet. Throws SceneError where a name of the scene cannot be part of a file name.
@@ -24,6 +34,13 @@ public:
     /// Makes the folder, or takes what an earlier run's report lists out of it (report.json first: until `finish` there is
     /// none). Throws SceneError if that is not possible.
     void begin();
+    /// Goes on where another run left its folder, which may be this one; frames and steps are copied from others. Throws
+    /// SceneError if what belongs to the state is not there.
+    void begin_from(const FolderState& state, const std::string& other);
+    /// Brings all steps to the disk.
+    FolderState state();
+    /// A checkpoint holds what `state` told last.
+    void keep();
     void add(const Frame& frame);
     void add(const StepReport& report, const Simulation& simulation);
     void finish(const BuiltScene& built, const RunResult& result, std::span<const ExpectationResult> expectations);
@@ -34,7 +51,7 @@ private:
     FrameWriter writer_;
     std::optional<StepTable> steps_;
     std::vector<FrameRecord> frames_;
-    bool steps_written_ = false, finished_ = false;
+    bool steps_written_ = false, resumable_ = false, finished_ = false;
 };
 
 }  // namespace percale::scenes

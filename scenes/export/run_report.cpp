@@ -165,6 +165,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     ordered_json json;
     json["status"] = status_word(result.status);
     if (!result.reason.empty()) json["reason"] = result.reason;
+    if (!result.resumed_at.empty()) json["resumed_at_s"] = result.resumed_at;
     json["title"] = built.scene.title;
     json["scene"] = built.scene.file;
     put_counts(json, result.totals);

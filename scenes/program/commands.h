@@ -20,5 +20,6 @@ void add_certify_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
 void add_doctor_command(CLI::App& program, Action& action);
 void add_drape_command(CLI::App& program, Action& action);
+void add_replay_command(CLI::App& program, Action& action);
 
 }  // namespace percale::program

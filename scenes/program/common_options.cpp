@@ -23,8 +23,6 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
     command.add_option("--frames", options.frames, "Format of the frames: none or obj")->type_name("FORMAT");
     command.add_option("--fps", options.fps, "Output frames per simulated second (default 30)")->type_name("F");
-    command.add_option("--checkpoint", options.checkpoint, "Not in this version")->type_name("SECONDS");
-    command.add_option("--resume", options.resume, "Not in this version")->type_name("FILE");
     command.add_flag("--certify-steps", options.certify_steps,
                      "Certify the state after every step, not only output frames; fails where one is not clear");
     command.add_flag("--replay-hash", options.replay_hash,
@@ -43,11 +41,7 @@ void check_frame_format(const std::string& format) {
 
 }  // namespace
 
-void check_common_options(const CommonOptions& options) {
-    if (!options.checkpoint.empty()) throw SceneError("--checkpoint: this build lacks checkpoints");
-    if (!options.resume.empty()) throw SceneError("--resume: this build lacks checkpoints, so there is none to resume");
-    check_frame_format(options.frames);
-}
+void check_common_options(const CommonOptions& options) { check_frame_format(options.frames); }
 
 std::vector<scenes::Expectation> expected_of(const scenes::Scene& scene, const CommonOptions& options) {
     return options.certify_steps ? scenes::with_every_step(scene.expectations) : scene.expectations;

@@ -15,7 +15,6 @@ namespace percale::program {
 struct CommonOptions {
     std::vector<std::string> set;  // KEY=VALUE
     std::string frames, fps;       // "" = as the scene says
-    std::string checkpoint, resume;
     std::string threads;
     bool quiet = false;
     bool replay_hash = false;

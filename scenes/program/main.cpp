@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -15,7 +16,7 @@ namespace percale::program {
 
 namespace {
 
-const std::vector<std::string> commands_here = {"run", "plan", "check", "explain", "certify", "drape", "compare", "doctor"};
+const std::vector<std::string> commands_here = {"run", "plan", "check", "explain", "certify", "drape", "compare", "doctor", "replay"};
 const std::vector<std::string> commands_later = {"stress", "report", "render"};
 
 bool holds(const std::vector<std::string>& list, const std::string& word) {
@@ -63,6 +64,7 @@ int parse_and_act(int argc, char** argv) {
     add_drape_command(program, action);
     add_compare_command(program, action);
     add_doctor_command(program, action);
+    add_replay_command(program, action);
     if (argc > 1) check_command_name(argv[1]);
     try {
         program.parse(argc, argv);
@@ -93,4 +95,8 @@ int run_program(int argc, char** argv) {
 
 }  // namespace percale::program
 
-int main(int argc, char** argv) { return percale::program::run_program(argc, argv); }
+int main(int argc, char** argv) {
+    // A file that grows beyond its limit is then an error of the write, with a name and a reason, like a full disk.
+    std::signal(SIGXFSZ, SIG_IGN);
+    return percale::program::run_program(argc, argv);
+}

@@ -1,10 +1,13 @@
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "expectations.h"
-#include "export/run_folder.h"
+#include "export/checkpoint.h"
+#include "export/run_settings.h"
 #include "obj_file.h"
 #include "percale/error.h"
 #include "program/commands.h"
@@ -25,7 +28,24 @@ using namespace percale::scenes;
 struct RunOptions {
     CommonOptions common;
     std::string scene, folder;
+    std::string checkpoint;  // s of simulated time between two checkpoints; "" = none are written
+    std::string resume;      // checkpoint to go on from; "" = from the start
 };
+
+/// s; 0 where no checkpoints are asked for.
+double checkpoint_interval(const RunOptions& options) {
+    if (options.checkpoint.empty()) return 0.0;
+    double seconds = 0.0;
+    const char* end = options.checkpoint.data() + options.checkpoint.size();
+    const auto [rest, error] = std::from_chars(options.checkpoint.data(), end, seconds);
+    if (error == std::errc() && rest == end && seconds >= 1e-6 && seconds <= 1e6) return seconds;
+    throw SceneError("--checkpoint " + options.checkpoint + ": must be a number, 1e-6 ... 1e6 s of simulated time");
+}
+
+std::string folder_of(const std::string& file) {
+    const std::string folder = std::filesystem::path(file).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
 
 std::string default_folder(const std::string& scene) {
     const std::string stem = std::filesystem::path(scene).stem().string();
@@ -34,7 +54,9 @@ std::string default_folder(const std::string& scene) {
 }
 
 void print_start(const RunOptions& options, const BuiltScene& built) {
-    std::printf("%s: %s into %s\n", options.scene.c_str(), steps_text(built.scene).c_str(), options.folder.c_str());
+    std::printf("%s: %s into %s", options.scene.c_str(), steps_text(built.scene).c_str(), options.folder.c_str());
+    if (!options.resume.empty()) std::printf(", resumed at %.6g s", built.simulation.time());
+    std::printf("\n");
     for (const std::string& warning : plan_of(built).warnings) std::printf("warning: %s\n", warning.c_str());
     print_start_moves(built.simulation);
     std::fflush(stdout);
@@ -52,8 +74,9 @@ std::string leave_picture(const RunOptions& options, const TriangleMesh& triangl
     return folder + "_start.obj";
 }
 
-BuiltScene built_scene(const RunOptions& options) {
+BuiltScene built_scene(const RunOptions& options, const Checkpoint* from) {
     const Scene scene = load_scene(options.scene, scene_overrides(options.common));
+    if (from) check_same_run(options.resume, *from, scene, options.common.certify_steps, options.common.replay_hash);
     try {
         return build_scene(scene);
     } catch (const StartRefused& refused) {
@@ -82,7 +105,10 @@ int verdict(const RunOptions& options, const RunResult& result, std::span<const 
         return not_as_expected;
     }
     if (result.status == RunStatus::stopped) {
-        std::fprintf(stderr, "percale: %s: %s; the report is written\n", options.scene.c_str(), result.reason.c_str());
+        const std::string resumable =
+            options.checkpoint.empty() ? "" : "; go on with --resume " + options.folder + "/" + checkpoint_name;
+        std::fprintf(stderr, "percale: %s: %s; the report is written%s\n", options.scene.c_str(), result.reason.c_str(),
+                     resumable.c_str());
         return stopped_by_signal;
     }
     std::string failed;
@@ -93,16 +119,29 @@ int verdict(const RunOptions& options, const RunResult& result, std::span<const 
     return not_as_expected;
 }
 
+void save(const RunOptions& options, const Scene& scene, const RunState& state, RunFolder& folder) {
+    const Checkpoint checkpoint{.settings = settings_text(scene),
+                                .certify_steps = options.common.certify_steps,
+                                .replay_hash = options.common.replay_hash,
+                                .run = state,
+                                .folder = folder.state()};
+    write_checkpoint(options.folder + "/" + checkpoint_name, checkpoint);
+    folder.keep();
+}
+
 int run(RunOptions options) {
     check_common_options(options.common);
-    if (options.folder.empty()) options.folder = default_folder(options.scene);
-    BuiltScene built = built_scene(options);
+    const double interval = checkpoint_interval(options);
+    std::optional<Checkpoint> from;
+    if (!options.resume.empty()) from = read_checkpoint(options.resume);
+    if (options.folder.empty()) options.folder = from ? folder_of(options.resume) : default_folder(options.scene);
+    BuiltScene built = built_scene(options, from ? &*from : nullptr);
     RunFolder folder(options.folder, built.scene, options.common.replay_hash);
     const StopSignals signals;
     ProgressBar bar(!options.common.quiet, built.scene.duration);
     RunHooks hooks;
     hooks.begin = [&] {
-        folder.begin();
+        from ? folder.begin_from(from->folder, folder_of(options.resume)) : folder.begin();
         if (!options.common.quiet) print_start(options, built);
     };
     hooks.frame = [&](const Frame& frame) { folder.add(frame); };
@@ -111,7 +150,12 @@ int run(RunOptions options) {
         bar.show(simulation.time());
     };
     hooks.stop_asked = [&] { return signals.asked(); };
-    const RunResult result = run_scene(built, hooks, {.certify_steps = options.common.certify_steps});
+    if (interval > 0.0) hooks.checkpoint = [&](const RunState& state) { save(options, built.scene, state, folder); };
+    const RunResult result = run_scene(built, hooks,
+                                       {.certify_steps = options.common.certify_steps,
+                                        .checkpoint_every = interval,
+                                        .from = from ? &from->run : nullptr,
+                                        .from_file = options.resume});
     bar.clear();
     const std::vector<ExpectationResult> expectations =
         judge(expected_of(built.scene, options.common), measure_values(result.measures));
@@ -129,6 +173,14 @@ void add_run_command(CLI::App& program, Action& action) {
     command->add_option("SCENE", options->scene, "Scene file (TOML)")->required();
     command->add_option("-o", options->folder, "Output folder (default: the scene's name)")->type_name("DIR");
     add_common_options(*command, options->common);
+    command
+        ->add_option("--checkpoint", options->checkpoint,
+                     "Every so many simulated seconds, and when stopped, write DIR/checkpoint.percale to resume from")
+        ->type_name("SECONDS");
+    command
+        ->add_option("--resume", options->resume,
+                     "Go on from a checkpoint of this scene, in its folder unless -o names another; the result is the same")
+        ->type_name("FILE");
     command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "percale/error.h"
 #include "scene_texts.h"
 #include "scenes/scene_file.h"
 #include "tests/support/catch.h"
@@ -257,4 +258,29 @@ TEST_CASE("a moving obstacle is where its motion says at the end of every step, 
         CHECK(built.simulation.obstacle_pose(built.obstacles[1]).translation == Vec3(3, 5, 0));
     }
     CHECK((built.simulation.obstacle_pose(built.obstacles[0]).translation - Vec3(0.004, 5, 0)).norm() < 1e-15);
+}
+
+TEST_CASE("a script goes on where another one stands, in the midst of a move") {
+    const std::string events = event(0.015, move(0, "[0, 1, 0]", "0.1")) + event(0.035, "gravity = [0, 0, 0]") +
+                               event(0.075, "unpin = { cloth = \"flag\", vertices = [0] }");
+    BuiltScene plain = sheet(events), left = sheet(events), resumed = sheet(events);
+    Timeline whole(plain), first(left), second(resumed);
+    run_steps(plain, whole, 12);
+    run_steps(left, first, 5);
+    REQUIRE(first.state().moving_pins.size() == 1);
+    CHECK(first.state().next_event == 2);
+    resumed.simulation.restore(left.simulation.save());
+    second.go_on_from(resumed, first.state());
+    run_steps(resumed, second, 7);
+    CHECK(resumed.simulation.state_hash() == plain.simulation.state_hash());
+}
+
+TEST_CASE("the state of another scene's script is refused") {
+    BuiltScene built = sheet(event(0.1, "gravity = [0, 0, 0]"));
+    Timeline timeline(built);
+    CHECK_THROWS_AS(timeline.go_on_from(built, {.next_event = 2, .moving_pins = {}}), SceneError);
+    CHECK_THROWS_AS(timeline.go_on_from(built, {.next_event = -1, .moving_pins = {}}), SceneError);
+    CHECK_THROWS_AS(timeline.go_on_from(built, {.next_event = 0, .moving_pins = {{.cloth = 0, .vertex = 9}}}), SceneError);
+    CHECK_THROWS_AS(timeline.go_on_from(built, {.next_event = 0, .moving_pins = {{.cloth = 1, .vertex = 0}}}), SceneError);
+    CHECK_NOTHROW(timeline.go_on_from(built, {.next_event = 1, .moving_pins = {{.cloth = 0, .vertex = 8}}}));
 }

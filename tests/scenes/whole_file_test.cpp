@@ -67,3 +67,45 @@ TEST_CASE("a full disk is an error, not a short file") {
     CHECK_THROWS_WITH(file.commit(), Catch::Contains("a.txt"));
     CHECK_FALSE(folder.holds("a.txt"));
 }
+
+TEST_CASE("a file that is left unfinished goes on from as many bytes as are wanted") {
+    const TestFolder folder;
+    const std::string name = folder.path("a.txt");
+    {
+        WholeFile file(name);
+        file.out() << "one\n";
+        CHECK(file.sync() == 4);
+        CHECK(folder.read("a.txt.part") == "one\n");
+        file.out() << "half a li";
+        file.leave();
+    }
+    CHECK_FALSE(folder.holds("a.txt"));
+    WholeFile file(name, name + part_suffix, 4);
+    file.out() << "two\n";
+    CHECK(file.sync() == 8);
+    file.commit();
+    CHECK(folder.read("a.txt") == "one\ntwo\n");
+    CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("a file goes on from another one, which stays") {
+    const TestFolder folder;
+    folder.write("old.txt", "one\ntwo\nthree\n");
+    WholeFile file(folder.path("new.txt"), folder.path("old.txt"), 8);
+    file.out() << "four\n";
+    file.commit();
+    CHECK(folder.read("new.txt") == "one\ntwo\nfour\n");
+    CHECK(folder.read("old.txt") == "one\ntwo\nthree\n");
+    CHECK_THROWS_WITH(WholeFile(folder.path("a.txt"), folder.path("old.txt"), 99), Catch::Contains("old.txt: has 14"));
+    CHECK_THROWS_WITH(WholeFile(folder.path("a.txt"), folder.path("absent"), 1), Catch::Contains("absent: cannot be read"));
+    CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("bytes come back from a durable file") {
+    const TestFolder folder;
+    const std::vector<std::byte> bytes = {std::byte{0}, std::byte{255}, std::byte{10}};
+    write_durable_file(folder.path("a"), bytes);
+    CHECK(read_bytes(folder.path("a")) == bytes);
+    CHECK(folder.file_count() == 1);
+    CHECK_THROWS_WITH(read_bytes(folder.path("b")), Catch::Contains("b: cannot be read: No such file"));
+}

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "percale/contact.h"
+#include "percale/saved_state.h"
 
 namespace percale::test {
 
@@ -66,6 +67,13 @@ public:
     }
 
     double smallest_distance() const override { return smallest_; }
+
+    void save(StateWriter& state) const override {
+        for (const Plane& plane : planes_) state(plane.start, plane.end);
+    }
+    void restore(StateReader& state) override {
+        for (Plane& plane : planes_) state(plane.start, plane.end);
+    }
 
     int refreshes = 0;
 

@@ -11,6 +11,9 @@
 
 namespace percale {
 
+class StateWriter;
+class StateReader;
+
 /// Contact rows, a structure of arrays. Row i says: the cloth point sum_k weight[i][k] x[vertex[i][k]] is
 /// `distance` away from `obstacle_point`, along the unit vector `direction` (from the obstacle towards the cloth):
 /// direction . (sum_k weight[k] x[vertex[k]] - obstacle_point) = distance.
@@ -135,10 +138,18 @@ public:
 
     /// Smallest distance of the last evaluation, m; infinity if nothing was near. Between cloths those of its rows count.
     virtual double smallest_distance() const = 0;
+
+    /// What later calls depend on besides cloth and obstacles: poses, lists, contacts that are kept. A detector with the same
+    /// cloth and obstacles that reads it (saved_state.h) answers them with the same bits. Throws SceneError if it is not able to.
+    virtual void save(StateWriter& state) const;
+    /// Reads to the end. Throws SceneError, and leaves all as it was, if the state is not one of this cloth and these obstacles.
+    virtual void restore(StateReader& state);
 };
 
 inline void ContactDetector::set_self_contact(const SelfContact&) {
     throw SceneError("this contact detector knows obstacles only; self_contact must be false");
 }
+inline void ContactDetector::save(StateWriter&) const { throw SceneError("this contact detector cannot save its state"); }
+inline void ContactDetector::restore(StateReader&) { throw SceneError("this contact detector cannot restore a state"); }
 
 }  // namespace percale

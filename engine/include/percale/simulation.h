@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "percale/contact.h"
 #include "percale/fabric.h"
@@ -98,6 +100,16 @@ public:
     StepEnergy energy() const;
     /// Depends on every bit of positions and velocities.
     std::uint64_t state_hash() const;
+
+    /// Everything that the coming steps depend on, as bytes; changes nothing. A simulation made by the same calls that takes them
+    /// by `restore` makes the same steps in every bit, whatever its number of threads and its kind of tree. They hold gravity,
+    /// wind and time step, but of cloth, seams, obstacles and other settings only what tells them from others; numbers are laid
+    /// out as on this machine. Throws SceneError where the detector cannot save its state.
+    std::vector<std::byte> save() const;
+    /// Throws SceneError, and leaves the simulation as it was, where the bytes are cut off, damaged, of another version of this
+    /// format, or of a simulation with other cloth, seams, obstacles or settings (`threads`, `start` and `check_derivatives` may
+    /// differ).
+    void restore(std::span<const std::byte> saved);
 
 private:
     struct Implementation;

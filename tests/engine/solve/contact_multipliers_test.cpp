@@ -37,4 +37,23 @@ TEST_CASE("Rows of the same cloth features are told apart by obstacle and by its
     CHECK(row_key(rows, 0) == RowKey{.vertex = {4, 5, -1, -1}, .obstacle = 0, .feature = 0});
 }
 
+TEST_CASE("All forces are told in the order of their keys, and another table takes them") {
+    const auto key = [](int i) { return RowKey{.vertex = {i % 5, i, -1, -1}, .obstacle = 0, .feature = i % 3}; };
+    ContactMultipliers first, roomy, copy;
+    first.clear(20);
+    roomy.clear(500);
+    for (int i = 0; i < 20; ++i) first.add(key(i), {.normal = 1.0 + i});
+    for (int i = 19; i >= 0; --i) roomy.add(key(i), {.normal = 1.0 + i});
+    const std::vector<KeyedForce> all = first.all(), same = roomy.all();
+    REQUIRE(all.size() == 20);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        CHECK(all[k].key == same[k].key);
+        if (k > 0) CHECK(all[k - 1].key < all[k].key);
+    }
+    copy.set(all);
+    CHECK(copy.size() == 20);
+    for (int i = 0; i < 20; ++i) CHECK(copy.of(key(i)).normal == 1.0 + i);
+    CHECK(copy.of(key(20)).normal == 0.0);
+}
+
 }  // namespace percale::test

@@ -1,5 +1,6 @@
 #include "export/frames.h"
 
+#include <filesystem>
 #include <fstream>
 
 #include "obj_file.h"
@@ -124,4 +125,22 @@ TEST_CASE("a folder that cannot be made is named") {
     Frame frame;
     frame.cloths = {crooked(0.0)};
     CHECK_THROWS_WITH(writer.write(frame), Catch::Contains("out/frames"));
+}
+
+TEST_CASE("frames of a scene are told from other files by name and number, whole or not") {
+    const TestFolder folder;
+    std::filesystem::create_directories(folder.path("frames"));
+    std::filesystem::create_directories(folder.path("obstacles"));
+    for (const std::string name : {"frames/shirt_00002.obj", "frames/shirt_00003.obj", "frames/shirt_100000.obj.part",
+                                   "frames/shirt_3.obj", "frames/shirt_00003.ply", "frames/shirts_00003.obj",
+                                   "frames/shirt_0000x.obj", "obstacles/ball_00000.obj", "obstacles/ball_00005.obj"})
+        folder.write(name, "");
+    const FrameWriter writer(folder.path(), scene_with({cloth("shirt")}, {obstacle("ball", 2)}));
+    writer.remove_from(3);
+    CHECK(folder.file_count() == 6);
+    for (const std::string name : {"shirt_00002.obj", "shirt_3.obj", "shirt_00003.ply", "shirts_00003.obj", "shirt_0000x.obj"})
+        CHECK(folder.holds("frames/" + name));
+    CHECK(folder.holds("obstacles/ball_00000.obj"));
+    writer.remove_from(0);
+    CHECK(folder.file_count() == 4);
 }

@@ -101,3 +101,73 @@ TEST_CASE("a folder that holds another report, or is a file, is refused and left
     CHECK(folder.file_count() == 1);
     CHECK_THROWS_AS(run_into(folder.path("report.json")), SceneError);
 }
+
+namespace {
+
+/// The first steps of a run, left where a checkpoint was made after `kept` of them.
+FolderState leave_run(const std::string& path, int kept) {
+    BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml"));
+    RunFolder folder(path, built.scene, false);
+    FolderState state;
+    int steps = 0;
+    RunHooks hooks;
+    hooks.begin = [&] { folder.begin(); };
+    hooks.frame = [&](const Frame& frame) {
+        folder.add(frame);
+        if (steps != kept) return;
+        state = folder.state();
+        folder.keep();
+    };
+    hooks.step = [&](const StepReport& report, const Simulation& simulation) {
+        folder.add(report, simulation);
+        ++steps;
+    };
+    run_scene(built, hooks);
+    return state;
+}
+
+}  // namespace
+
+TEST_CASE("a run that fails after a checkpoint leaves just what that needs") {
+    const TestFolder folder;
+    const FolderState state = leave_run(folder.path(), 4);
+    REQUIRE(state.frames.size() == 3);
+    CHECK(folder.holds("frames/sheet_00002.obj"));
+    CHECK_FALSE(folder.holds("frames/sheet_00003.obj"));
+    CHECK(folder.holds("steps.csv.part"));
+    CHECK(folder.file_count() == 4);
+}
+
+TEST_CASE("a folder goes on from what another run left, here or elsewhere, and not where something is missing") {
+    for (const std::string name : {"left", "new"}) {
+        const TestFolder folder;
+        const FolderState state = leave_run(folder.path("left"), 4);
+        const BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml"));
+        folder.write("left/frames/sheet_00004.obj.part", "half");
+        {
+            RunFolder resumed(folder.path(name), built.scene, false);
+            resumed.begin_from(state, folder.path("left"));
+            CHECK(resumed.state().step_bytes == state.step_bytes);
+            CHECK(resumed.state().frames.size() == 3);
+            CHECK(folder.holds(name + "/frames/sheet_00002.obj"));
+            CHECK(std::filesystem::file_size(folder.path(name + "/steps.csv.part")) == state.step_bytes);
+            CHECK(folder.holds("left/frames/sheet_00004.obj.part") == (name == "new"));
+        }
+        CHECK(folder.holds("left/steps.csv.part"));
+        CHECK(folder.holds("left/frames/sheet_00002.obj"));
+        CHECK_FALSE(folder.holds("new/frames/sheet_00002.obj"));
+        CHECK_FALSE(folder.holds("new/steps.csv.part"));
+        std::filesystem::remove(folder.path("left/frames/sheet_00001.obj"));
+        RunFolder again(folder.path(name), built.scene, false);
+        CHECK_THROWS_WITH(again.begin_from(state, folder.path("left")), Catch::Contains("frames/sheet_00001.obj"));
+    }
+}
+
+TEST_CASE("a state that lists files elsewhere is refused") {
+    const TestFolder folder;
+    FolderState state = leave_run(folder.path("left"), 4);
+    state.frames[0].cloths[0] = "../precious.obj";
+    const BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml"));
+    RunFolder resumed(folder.path("new"), built.scene, false);
+    CHECK_THROWS_WITH(resumed.begin_from(state, folder.path("left")), Catch::Contains("is no frame of a run"));
+}

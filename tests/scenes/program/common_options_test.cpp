@@ -52,8 +52,6 @@ TEST_CASE("wrong common options are refused, and nothing is written") {
     CHECK(refused(run_with(folder, {"--threads", "two"}), "threads"));
     CHECK(refused(run_with(folder, {"--fps", "0"}), "percale: --fps: output.fps = 0 1/s is out of range"));
     CHECK(refused(run_with(folder, {"--fps", "fast"}), "fps"));
-    CHECK(refused(run_with(folder, {"--checkpoint", "1"}), "lacks"));
-    CHECK(refused(run_with(folder, {"--resume", "file"}), "lacks"));
     for (const char* format : {"ply", "glb", "pc2", "mdd", "vtp"})
         CHECK(refused(run_with(folder, {"--frames", format}), "lacks"));
     CHECK(refused(run_with(folder, {"--frames", "objj"}), "obj"));

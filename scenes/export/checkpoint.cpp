@@ -1,0 +1,129 @@
+#include "export/checkpoint.h"
+
+#include <nlohmann/json.hpp>
+
+#include "export/run_settings.h"
+#include "percale/error.h"
+#include "percale/saved_report.h"
+#include "whole_file.h"
+
+namespace percale::scenes {
+
+using nlohmann::json;
+
+constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 1, .words = "checkpoint"};
+
+template <class Archive, OfType<RunTotals> Value>
+void exchange(Archive& archive, Value& totals) {
+    archive(totals.steps, totals.rejected_steps, totals.sleeping_steps, totals.simulated_s, totals.smallest_step_s,
+            totals.largest_step_s, totals.newton_iterations, totals.linear_iterations, totals.largest_residual);
+    archive.choice(totals.linear_solver, 4);
+    archive(totals.contacts_most, totals.contact_stiffness, totals.stages, totals.cpu_s, totals.wall_s, totals.energy);
+}
+
+template <class Archive, OfType<FrameCheck> Value>
+void exchange(Archive& archive, Value& check) {
+    archive(check.intersections, check.touching_pairs, check.vertices_inside, check.deepest_penetration, check.smallest_distance);
+}
+
+template <class Archive, OfType<StepChecks> Value>
+void exchange(Archive& archive, Value& checks) {
+    archive(checks.states, checks.intersections, checks.deepest_penetration, checks.smallest_distance, checks.worst_step,
+            checks.worst_time, checks.worst);
+}
+
+template <class Archive, OfType<Measures> Value>
+void exchange(Archive& archive, Value& m) {
+    archive(m.intersections, m.deepest_penetration, m.smallest_distance, m.worst_frame, m.largest_strain, m.energy_gain, m.worst,
+            m.steps);
+}
+
+template <class Archive, OfType<Timeline::MovingPin> Value>
+void exchange(Archive& archive, Value& pin) {
+    archive(pin.cloth, pin.vertex, pin.start, pin.displacement, pin.from, pin.over);
+}
+
+template <class Archive, OfType<RunState> Value>
+void exchange(Archive& archive, Value& run) {
+    archive(run.totals, run.measures, run.resumed_at, run.steps_made, run.step_length, run.next_frame, run.timeline.next_event,
+            run.timeline.moving_pins, run.simulation);
+}
+
+template <class Archive, OfType<FrameRecord> Value>
+void exchange(Archive& archive, Value& frame) {
+    archive(frame.index, frame.time, frame.cloths, frame.obstacles, frame.check, frame.meeting);
+}
+
+template <class Archive, OfType<Checkpoint> Value>
+void exchange(Archive& archive, Value& checkpoint) {
+    archive(checkpoint.settings, checkpoint.certify_steps, checkpoint.replay_hash, checkpoint.run, checkpoint.folder.frames,
+            checkpoint.folder.step_bytes);
+}
+
+namespace {
+
+/// A setting as people write it: /step/time_step is step.time_step.
+std::string key_of(const std::string& pointer) {
+    std::string key = pointer.empty() ? "" : pointer.substr(1);
+    for (char& letter : key)
+        if (letter == '/') letter = '.';
+    return key;
+}
+
+std::string value_text(const json& settings, const std::string& pointer) {
+    const json::json_pointer place(pointer);
+    return settings.contains(place) ? settings.at(place).dump() : "nothing";
+}
+
+/// The first settings that differ, at most three; empty where all are equal.
+std::string differences(const json& here, const json& saved) {
+    std::string text;
+    int count = 0;
+    for (const json& change : json::diff(here, saved)) {
+        const std::string path = change.at("path");
+        if (path == "/step/threads") continue;
+        if (++count > 3) return text + "; and more";
+        text += (text.empty() ? "" : "; ") + key_of(path) + " is " + value_text(here, path) + ", in the checkpoint " +
+                value_text(saved, path);
+    }
+    return text;
+}
+
+void check_option(const std::string& file, const char* option, bool here, bool saved) {
+    if (here == saved) return;
+    throw SceneError(file + ": cannot be resumed: it was made " + (saved ? "with " : "without ") + option +
+                     "; say the same to go on");
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& file, const Checkpoint& checkpoint) {
+    StateWriter writer;
+    writer(checkpoint);
+    write_durable_file(file, sealed(checkpoint_seal, writer.take()));
+}
+
+Checkpoint read_checkpoint(const std::string& file) {
+    const std::vector<std::byte> bytes = read_bytes(file);
+    try {
+        StateReader reader(unsealed(checkpoint_seal, bytes));
+        Checkpoint checkpoint;
+        reader(checkpoint);
+        reader.demand(reader.at_end(), "there is more than belongs to it");
+        reader.demand(checkpoint.run.steps_made > 0 && checkpoint.run.next_frame >= 0, "a run that has not begun");
+        reader.demand(json::accept(checkpoint.settings), "settings that are none");
+        return checkpoint;
+    } catch (const SceneError& error) {
+        throw SceneError(file + ": " + error.what());
+    }
+}
+
+void check_same_run(const std::string& file, const Checkpoint& checkpoint, const Scene& scene, bool certify_steps,
+                    bool replay_hash) {
+    const std::string what = differences(json::parse(settings_text(scene)), json::parse(checkpoint.settings));
+    if (!what.empty()) throw SceneError(file + ": is of another run and cannot be resumed: " + what);
+    check_option(file, "--certify-steps", certify_steps, checkpoint.certify_steps);
+    check_option(file, "--replay-hash", replay_hash, checkpoint.replay_hash);
+}
+
+}  // namespace percale::scenes
