@@ -16,7 +16,8 @@ namespace percale::program {
 
 namespace {
 
-const std::vector<std::string> commands_here = {"run", "plan", "check", "explain", "certify", "drape", "compare", "doctor", "replay"};
+const std::vector<std::string> commands_here = {"run",   "plan",    "check",  "explain", "certify",
+                                                "drape", "compare", "doctor", "replay"};
 const std::vector<std::string> commands_later = {"stress", "report", "render"};
 
 bool holds(const std::vector<std::string>& list, const std::string& word) {
