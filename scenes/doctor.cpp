@@ -36,21 +36,10 @@ std::vector<Finding> examine_mesh_file(const std::string& file, std::optional<Me
             found.insert(found.end(), more.begin(), more.end());
         }
     } catch (const SceneError& error) {
-        const std::string message = error.what();
-        const std::string prefix = file + ": ";
-        found.push_back({.severity = Severity::error,
-                         .kind = "unreadable",
-                         .place = file,
-                         .what = message.starts_with(prefix) ? message.substr(prefix.size()) : message,
-                         .fix = "export the mesh again, as OBJ, OFF, PLY or STL, with triangles and finite coordinates"});
+        found.push_back(refusal("unreadable", error.what(), file,
+                                "export the mesh again, as OBJ, OFF, PLY or STL, with triangles and finite coordinates"));
     }
     return found;
-}
-
-bool is_scene(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    for (char& letter : extension) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-    return extension == ".toml";
 }
 
 }  // namespace
@@ -62,6 +51,15 @@ const char* severity_word(Severity severity) {
 
 const char* role_word(MeshRole role) { return role == MeshRole::cloth ? "cloth" : "obstacle"; }
 
+Finding refusal(const std::string& kind, const std::string& message, const std::string& file, const std::string& fix) {
+    Finding finding{.severity = Severity::error, .kind = kind, .place = file, .what = message, .fix = fix};
+    const std::size_t end = message.starts_with(file + ":") ? message.find(": ", file.size()) : std::string::npos;
+    if (end == std::string::npos) return finding;
+    finding.place = message.substr(0, end);
+    finding.what = message.substr(end + 2);
+    return finding;
+}
+
 long Diagnosis::count(Severity severity) const {
     return std::count_if(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.severity == severity; });
 }
@@ -72,9 +70,9 @@ bool Diagnosis::has(const std::string& kind) const {
 
 Diagnosis diagnose(const std::string& file, const DoctorSettings& settings) {
     check_file(file);
-    Diagnosis diagnosis{
-        .file = file,
-        .findings = is_scene(file) ? examine_scene_file(file, settings.overrides) : examine_mesh_file(file, settings.role)};
+    Diagnosis diagnosis{.file = file,
+                        .findings = extension_of(file) == ".toml" ? examine_scene_file(file, settings.overrides)
+                                                                  : examine_mesh_file(file, settings.role)};
     std::stable_sort(diagnosis.findings.begin(), diagnosis.findings.end(),
                      [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
     return diagnosis;

@@ -31,6 +31,9 @@ struct Finding {
     std::vector<int> elements = {};     // the first of them: vertices, triangles, or vertices of edges two by two
 };
 
+/// An error whose message begins with its place in the file ("file:3:5: what"), which is taken off it.
+Finding refusal(const std::string& kind, const std::string& message, const std::string& file, const std::string& fix);
+
 struct Diagnosis {
     std::string file;
     std::vector<Finding> findings;  // errors first

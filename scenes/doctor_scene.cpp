@@ -21,16 +21,6 @@ bool has_errors(std::span<const Finding> found) {
     return std::any_of(found.begin(), found.end(), [](const Finding& finding) { return finding.severity == Severity::error; });
 }
 
-/// A message that begins with its place, "file:3:5: what", as a finding.
-Finding refusal(const std::string& kind, const std::string& message, const std::string& file, const std::string& fix) {
-    Finding finding{.severity = Severity::error, .kind = kind, .place = file, .what = message, .fix = fix};
-    const std::size_t end = message.starts_with(file + ":") ? message.find(": ", file.size()) : std::string::npos;
-    if (end == std::string::npos) return finding;
-    finding.place = message.substr(0, end);
-    finding.what = message.substr(end + 2);
-    return finding;
-}
-
 /// The meshes of a scene that can be read, each with its number there.
 struct Meshes {
     std::vector<ExaminedMesh> cloths, obstacles;

@@ -20,6 +20,7 @@
 #include "obj_file.h"
 #include "off_file.h"
 #include "percale/error.h"
+#include "scene_text.h"
 
 namespace percale::scenes {
 
@@ -28,14 +29,22 @@ namespace {
 /// The extension in lower case; for one that is none of our own, what the file's first word gives away, since assimp would go by
 /// that, too.
 std::string format_of(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    for (char& letter : extension) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    const std::string extension = extension_of(file);
     if (extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl") return extension;
     std::ifstream in(file, std::ios::binary);
     std::string word;
     in >> std::setw(8) >> word;
     if (word == "OFF" || word == "COFF" || word == "NOFF" || word == "CNOFF") return ".off";
     return word == "ply" ? ".ply" : extension;
+}
+
+/// Formats of meshes that assimp reads in proportion to the file. Not those of scenes that it tessellates or unpacks to any size,
+/// nor raw triangles, on which its reader crashes.
+void check_format(const std::string& file, const std::string& format) {
+    static const std::vector<std::string> read = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".dae", ".fbx",
+                                                  ".3ds", ".amf", ".x3d", ".dxf", ".lwo",  ".ase", ".x"};
+    if (std::find(read.begin(), read.end(), format) != read.end()) return;
+    throw SceneError(file + ": is of no format that is read: " + joined(read));
 }
 
 void check_file(const std::string& file) {
@@ -80,11 +89,21 @@ void append(const aiMesh& part, const aiMatrix4x4& to_world, const std::string& 
     }
 }
 
-void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, const std::string& file,
+/// How often a file places its parts is not bounded by its size: vertices allowed.
+std::size_t most_vertices(const aiScene& scene) {
+    constexpr std::size_t always = 100000, most_copies = 64;
+    std::size_t own = 0;
+    for (unsigned k = 0; k < scene.mNumMeshes; ++k) own += scene.mMeshes[k]->mNumVertices;
+    return std::max(always, most_copies * own);
+}
+
+void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, const std::string& file, std::size_t most,
                  TriangleMesh& mesh) {
     const aiMatrix4x4 to_world = parent * node.mTransformation;
     for (unsigned k = 0; k < node.mNumMeshes; ++k) append(*scene.mMeshes[node.mMeshes[k]], to_world, file, mesh);
-    for (unsigned k = 0; k < node.mNumChildren; ++k) append_node(scene, *node.mChildren[k], to_world, file, mesh);
+    if (mesh.vertices.size() > most)
+        throw SceneError(file + ": copies of its parts come to more than " + std::to_string(most) + " vertices; leave some out");
+    for (unsigned k = 0; k < node.mNumChildren; ++k) append_node(scene, *node.mChildren[k], to_world, file, most, mesh);
 }
 
 struct PositionHash {
@@ -143,16 +162,23 @@ TriangleMesh read_with_assimp(const std::string& file) {
     if (scene == nullptr) throw SceneError(file + ": cannot be imported: " + importer.GetErrorString());
     if (scene->mRootNode == nullptr) throw SceneError(file + ": no vertices");
     TriangleMesh mesh;
-    append_node(*scene, *scene->mRootNode, aiMatrix4x4(), file, mesh);
+    append_node(*scene, *scene->mRootNode, aiMatrix4x4(), file, most_vertices(*scene), mesh);
     return mesh;
 }
 
 }  // namespace
 
+std::string extension_of(const std::string& file) {
+    std::string extension = std::filesystem::path(file).extension().string();
+    for (char& letter : extension) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    return extension;
+}
+
 TriangleMesh import_mesh(const std::string& file, double unit) {
     if (!std::isfinite(unit) || unit <= 0.0) throw SceneError(file + ": unit is " + std::to_string(unit) + ", must be above 0");
     check_file(file);
     const std::string format = format_of(file);
+    check_format(file, format);
     check_mesh_header(file, format);
     TriangleMesh mesh = format == ".obj"   ? read_text(file, read_obj)
                         : format == ".off" ? read_text(file, read_off)

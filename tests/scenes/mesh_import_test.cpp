@@ -150,6 +150,20 @@ TEST_CASE("all parts of an imported scene are joined with their nodes' transform
     CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}});
 }
 
+TEST_CASE("a part may be copied, but not without end") {
+    const TestFolder folder;
+    const auto copies = [&](int count) {
+        std::string text = two_nodes;
+        std::string nodes;
+        for (int i = 0; i < count; ++i) nodes += "<node><instance_geometry url=\"#g\"/></node>";
+        text.insert(text.find("<node id=\"n1\">"), nodes);
+        return text;
+    };
+    CHECK(import_mesh(folder.write("some.dae", copies(1000))).triangles.size() == 1002);
+    CHECK(refusal(folder, "many.dae", copies(33400)) ==
+          ": copies of its parts come to more than 100000 vertices; leave some out");
+}
+
 TEST_CASE("polygons of an imported file become triangles of the same area") {
     const TestFolder folder;
     const std::string quad =
@@ -172,7 +186,8 @@ TEST_CASE("files that are missing, empty, folders or of unknown kind are refused
     CHECK(message_of([&] { import_mesh(folder.path()); }) == folder.path() + ": not a file");
     for (const std::string name : {"e.obj", "e.off", "e.ply", "e.stl", "e.dae", "e"})
         CHECK(refusal(folder, name, "") == ": no vertices: the file is empty");
-    CHECK(refusal(folder, "notes.txt", "not a mesh at all\n").find(": cannot be imported: ") == 0);
+    for (const std::string name : {"notes.txt", "tubes.nff", "a.raw", "a.blend", "a"})
+        CHECK(refusal(folder, name, "not a mesh at all\n").find(": is of no format that is read: .obj, .off, .ply, ") == 0);
     CHECK(refusal(folder, "broken.dae", "<COLLADA").find(": cannot be imported: ") == 0);
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/doctor.h"
 #include "scenes/expectations.h"
 #include "scenes/run_scene.h"
 #include "scenes/scene_file.h"
@@ -47,6 +48,7 @@ std::vector<std::filesystem::path> shipped_scenes() {
 TEST_CASE("Shipped scenes have the same contacts and states in every step whatever finds the contacts") {
     const auto file = GENERATE(from_range(shipped_scenes()));
     CAPTURE(file.string());
+    CHECK(diagnose(file.string()).count(Severity::error) == 0);
     const HashedRun with_fcl = run_hashed(file, "fcl");
     REQUIRE(with_fcl.result.status == RunStatus::finished);
     REQUIRE(with_fcl.steps > 0);
