@@ -60,8 +60,11 @@ bool is_good(const ListedFeature& feature, std::size_t packs, std::size_t vertic
     const auto cloth = pair.vertices();
     const bool known = std::all_of(cloth.begin(), cloth.end(),
                                    [&](int vertex) { return vertex >= 0 && static_cast<std::size_t>(vertex) < vertices; });
-    return known && pair.obstacle >= 0 && static_cast<std::size_t>(pair.obstacle) < obstacles.size() && feature.first >= 0 &&
-           feature.count > 0 && static_cast<std::size_t>(feature.first) + static_cast<std::size_t>(feature.count) <= packs;
+    const bool rest_unused =
+        std::all_of(pair.cloth.begin() + pair.cloth_count(), pair.cloth.end(), [](int v) { return v == -1; });
+    return known && rest_unused && pair.obstacle >= 0 && static_cast<std::size_t>(pair.obstacle) < obstacles.size() &&
+           feature.first >= 0 && feature.count > 0 &&
+           static_cast<std::size_t>(feature.first) + static_cast<std::size_t>(feature.count) <= packs;
 }
 
 /// Whether the packs of a feature are of its kind and the marks are of packs that there are.

@@ -52,17 +52,15 @@ bool is_leftover(const fs::path& file) {
     return fs::symlink_status(file, error).type() == fs::file_type::regular;
 }
 
+void remove_leftover(const std::string& folder, const char* name) {
+    const fs::path file = fs::path(folder) / (std::string(name) + part_suffix);
+    if (is_leftover(file)) remove_file(file);
+}
+
 /// Steps and frames of a run that was killed: its table never got its name.
 void remove_killed_run(const std::string& folder, const FrameWriter& writer) {
-    const fs::path steps = fs::path(folder) / (std::string("steps.csv") + part_suffix);
-    if (is_leftover(steps)) {
-        writer.remove_from(0);
-        remove_file(steps);
-    }
-    for (const char* name : {"report.json", checkpoint_name}) {
-        const fs::path file = fs::path(folder) / (std::string(name) + part_suffix);
-        if (is_leftover(file)) remove_file(file);
-    }
+    if (is_leftover(fs::path(folder) / (std::string("steps.csv") + part_suffix))) writer.remove_from(0);
+    for (const char* name : {"steps.csv", "report.json", checkpoint_name}) remove_leftover(folder, name);
 }
 
 /// The steps of a run that was stopped, or of one that was killed.
@@ -126,6 +124,7 @@ void RunFolder::begin_from(const FolderState& state, const std::string& other) {
         if (!here) writer_.copy(other, file);
     }
     for (const char* name : {"report.json", "steps.csv"}) remove_file(fs::path(folder_) / name);
+    for (const char* name : {"report.json", checkpoint_name}) remove_leftover(folder_, name);
     writer_.remove_from(static_cast<int>(state.frames.size()));
     frames_ = state.frames;
 }

@@ -1,10 +1,7 @@
-#include <nlohmann/json.hpp>
-
-#include "export/run_report.h"
 #include "percale/error.h"
-#include "run_scene.h"
 #include "scene_file.h"
 #include "tests/scenes/small_scenes.h"
+#include "tests/scenes/watched_run.h"
 #include "tests/support/catch.h"
 
 // Runs of scenes that are left on their way and resumed with the scene built anew.
@@ -14,58 +11,18 @@ using namespace percale::scenes::test;
 
 namespace {
 
-/// A run with its hashes and the states it was left in.
-struct Watched {
-    RunResult result;
-    std::vector<std::uint64_t> hashes;
-    std::vector<RunState> states;
-    std::vector<std::size_t> hashes_before;  // each of the states
-    std::vector<int> frames;
-    nlohmann::json report;
-};
-
-Watched watch(const Scene& scene, RunSettings settings) {
-    Watched run;
-    BuiltScene built = build_scene(scene);
-    RunHooks hooks;
-    hooks.frame = [&](const Frame& frame) { run.frames.push_back(frame.index); };
-    hooks.step = [&](const StepReport& report, const Simulation& simulation) {
-        run.hashes.push_back(report.contact_hash ^ simulation.state_hash());
-    };
-    hooks.checkpoint = [&](const RunState& state) {
-        run.states.push_back(state);
-        run.hashes_before.push_back(run.hashes.size());
-    };
-    run.result = run_scene(built, hooks, settings);
-    run.report = nlohmann::json::parse(run_report_text(built, run.result, {}, {}));
-    for (const char* cost : {"cpu_s", "wall_s", "peak_memory_bytes", "stages"}) run.report.erase(cost);
-    return run;
-}
-
-template <class Values>
-bool ends_with(const Values& all, const Values& end) {
-    return end.size() <= all.size() && std::equal(end.rbegin(), end.rend(), all.rbegin());
-}
-
-/// Three quarters of the way: every run from there has the same steps, frames and figures.
+/// Left after every quarter of the way.
 void check_resumes(const std::string& text, const std::vector<Override>& overrides, bool certify_steps = false) {
     const Scene scene = parse_scene(text, "test.toml", overrides);
-    const Watched plain = watch(scene, {.certify_steps = certify_steps});
-    const Watched left = watch(scene, {.certify_steps = certify_steps, .checkpoint_every = 0.25 * scene.duration});
+    const WatchedRun plain = watch(scene, {.certify_steps = certify_steps});
+    const WatchedRun left = watch(scene, {.certify_steps = certify_steps, .checkpoint_every = 0.25 * scene.duration});
     CHECK(plain.states.empty());
     CHECK(plain.hashes == left.hashes);
     CHECK(plain.report == left.report);
     REQUIRE(left.states.size() >= 3);
     for (std::size_t k = 0; k < left.states.size(); ++k) {
-        const RunState& state = left.states[k];
-        Watched resumed = watch(scene, {.certify_steps = certify_steps, .from = &state, .from_file = "state"});
-        CHECK(resumed.hashes.size() + left.hashes_before[k] == plain.hashes.size());
-        CHECK(ends_with(plain.hashes, resumed.hashes));
-        CHECK(ends_with(plain.frames, resumed.frames));
-        CHECK(resumed.frames.size() + static_cast<std::size_t>(state.next_frame) == plain.frames.size());
-        CHECK(resumed.report.at("resumed_at_s") == nlohmann::json{state.totals.simulated_s});
-        resumed.report.erase("resumed_at_s");
-        CHECK(resumed.report == plain.report);
+        CAPTURE(k);
+        CHECK(resumes_as(plain, left, k, watch(scene, {.certify_steps = certify_steps, .from = &left.states[k]})));
     }
 }
 
@@ -127,11 +84,11 @@ TEST_CASE("a scene is resumed between parts of fast motion and between adaptive 
 
 TEST_CASE("a run that was resumed is left and resumed again") {
     const Scene scene = parse_scene(sheet_on_box(), "test.toml");
-    const Watched plain = watch(scene, {});
-    const Watched first = watch(scene, {.checkpoint_every = 0.05});
-    const Watched second = watch(scene, {.checkpoint_every = 0.05, .from = &first.states[0]});
+    const WatchedRun plain = watch(scene, {});
+    const WatchedRun first = watch(scene, {.checkpoint_every = 0.05});
+    const WatchedRun second = watch(scene, {.checkpoint_every = 0.05, .from = &first.states[0]});
     REQUIRE(second.states.size() == first.states.size() - 1);
-    const Watched third = watch(scene, {.from = &second.states[1]});
+    const WatchedRun third = watch(scene, {.from = &second.states[1]});
     CHECK(ends_with(plain.hashes, third.hashes));
     REQUIRE(third.result.resumed_at.size() == 2);
     CHECK(third.result.resumed_at[0] < third.result.resumed_at[1]);
@@ -149,13 +106,13 @@ TEST_CASE("a run that is stopped hands out the state in which it was stopped") {
     CHECK(run_scene(built, hooks).status == RunStatus::stopped);
     REQUIRE(states.size() == 1);
     CHECK(states[0].totals.steps == 5);
-    const Watched plain = watch(scene, {}), resumed = watch(scene, {.from = &states[0]});
-    CHECK(resumed.hashes.size() == plain.hashes.size() - 5);
+    const WatchedRun plain = watch(scene, {}), resumed = watch(scene, {.from = &states[0]});
+    CHECK(resumed.hashes.size() == plain.hashes.size() - 10);
     CHECK(ends_with(plain.hashes, resumed.hashes));
 }
 
 TEST_CASE("a state of another scene is refused by the name of its file before anything is begun") {
-    const Watched left = watch(parse_scene(sheet_on_box(), "test.toml"), {.checkpoint_every = 0.05});
+    const WatchedRun left = watch(parse_scene(sheet_on_box(), "test.toml"), {.checkpoint_every = 0.05});
     BuiltScene other = build_scene(parse_scene(falling_sheet(), "test.toml"));
     RunHooks hooks;
     bool begun = false;

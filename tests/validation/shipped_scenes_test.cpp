@@ -7,6 +7,7 @@
 #include "scenes/expectations.h"
 #include "scenes/run_scene.h"
 #include "scenes/scene_file.h"
+#include "tests/scenes/watched_run.h"
 #include "tests/support/catch.h"
 
 namespace percale::scenes {
@@ -62,6 +63,21 @@ TEST_CASE("Shipped scenes have the same contacts and states in every step whatev
         CAPTURE(differs - with_fcl.hashes.begin());
         CHECK(differs == with_fcl.hashes.end());
     }
+}
+
+TEST_CASE("The first 0.3 s of shipped scenes are the same on two threads and where they are resumed") {
+    const auto file = GENERATE(from_range(shipped_scenes()));
+    CAPTURE(file.string());
+    const auto beginning = [&](const std::string& threads) {
+        const std::vector<Override> overrides{{"duration", "0.3"}, {"step.threads", threads}};
+        return load_scene(file.string(), overrides);
+    };
+    using test::resumes_as, test::watch;
+    const test::WatchedRun plain = watch(beginning("1"), {}), left = watch(beginning("2"), {.checkpoint_every = 0.08});
+    CHECK(left.hashes == plain.hashes);
+    REQUIRE(left.states.size() == 3);
+    for (std::size_t k = 0; k < left.states.size(); ++k)
+        CHECK(resumes_as(plain, left, k, watch(beginning("1"), {.from = &left.states[k]})));
 }
 
 }  // namespace

@@ -144,6 +144,7 @@ TEST_CASE("a folder goes on from what another run left, here or elsewhere, and n
         const FolderState state = leave_run(folder.path("left"), 4);
         const BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml"));
         folder.write("left/frames/sheet_00004.obj.part", "half");
+        folder.write("left/checkpoint.percale.part", "half");
         {
             RunFolder resumed(folder.path(name), built.scene, false);
             resumed.begin_from(state, folder.path("left"));
@@ -152,6 +153,7 @@ TEST_CASE("a folder goes on from what another run left, here or elsewhere, and n
             CHECK(folder.holds(name + "/frames/sheet_00002.obj"));
             CHECK(std::filesystem::file_size(folder.path(name + "/steps.csv.part")) == state.step_bytes);
             CHECK(folder.holds("left/frames/sheet_00004.obj.part") == (name == "new"));
+            CHECK(folder.holds("left/checkpoint.percale.part") == (name == "new"));
         }
         CHECK(folder.holds("left/steps.csv.part"));
         CHECK(folder.holds("left/frames/sheet_00002.obj"));
