@@ -19,5 +19,6 @@ void add_explain_command(CLI::App& program, Action& action);
 void add_certify_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
 void add_drape_command(CLI::App& program, Action& action);
+void add_stress_command(CLI::App& program, Action& action);
 
 }  // namespace percale::program

@@ -15,8 +15,8 @@ namespace percale::program {
 
 namespace {
 
-const std::vector<std::string> commands_here = {"run", "plan", "check", "explain", "certify", "drape", "compare"};
-const std::vector<std::string> commands_later = {"doctor", "stress", "report", "render"};
+const std::vector<std::string> commands_here = {"run", "plan", "check", "explain", "certify", "drape", "compare", "stress"};
+const std::vector<std::string> commands_later = {"doctor", "report", "render"};
 
 bool holds(const std::vector<std::string>& list, const std::string& word) {
     return std::find(list.begin(), list.end(), word) != list.end();
@@ -62,6 +62,7 @@ int parse_and_act(int argc, char** argv) {
     add_certify_command(program, action);
     add_drape_command(program, action);
     add_compare_command(program, action);
+    add_stress_command(program, action);
     if (argc > 1) check_command_name(argv[1]);
     try {
         program.parse(argc, argv);

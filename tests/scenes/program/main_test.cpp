@@ -24,7 +24,7 @@ TEST_CASE("the help of every command shows an example of it") {
 }
 
 TEST_CASE("a command that this build lacks is told from one that does not exist") {
-    for (const char* command : {"doctor", "stress", "report", "render"}) CHECK(refused(run_program({command}), "lacks"));
+    for (const char* command : {"doctor", "report", "render"}) CHECK(refused(run_program({command}), "lacks"));
     CHECK(refused(run_program({"chek", "a.toml"}), "check"));
 }
 
