@@ -320,7 +320,7 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     update_points(world.state);
     implementation_->update_views();
     world.contact_energy = 0.0;  // known again after the next step
-    world.stages.earlier_length = 0.0;
+    world.stages.forget();
     world.changed = true;
     wake(world.rest);
 }
@@ -337,7 +337,7 @@ void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities)
         const bool free = world.script.free[range.index_of(i)] > 0.0;
         world.state.velocities.set(range.index_of(i), free ? velocities[i] : Vec3(Vec3::Zero()));
     }
-    world.stages.earlier_length = 0.0;
+    world.stages.forget();
     wake(world.rest);
 }
 

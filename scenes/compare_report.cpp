@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "report/csv.h"
 #include "scene_text.h"
 
 namespace percale::scenes {
@@ -88,16 +89,6 @@ std::string aligned(const std::vector<Row>& rows) {
         text += row.back() + "\n";
     }
     return text;
-}
-
-std::string csv_number(double value) { return std::isfinite(value) ? formatted("%.9g", value) : ""; }
-
-/// A field of a CSV file (RFC 4180).
-std::string csv_text(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
-    return quoted + "\"";
 }
 
 std::string csv_line(const Variant& variant, const std::string& status, const Distances& error, const VariantRun* run) {

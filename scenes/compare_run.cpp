@@ -49,14 +49,6 @@ std::vector<Override> overrides_of(const Variant& variant) {
     return overrides;
 }
 
-/// Leaves only the steps: no frames but the first, no measures, no expectations.
-void strip(Scene& scene) {
-    scene.output.frames = FrameFormat::none;
-    scene.output.fps = 1e-9;
-    scene.expectations.clear();
-    scene.step.measure = StepMeasures::none;
-}
-
 /// A number in -1 ... 1 from the bits of an index (splitmix64, Steele 2014).
 double scatter(std::uint64_t index) {
     std::uint64_t z = (index + 1) * 0x9e3779b97f4a7c15u;
@@ -139,10 +131,17 @@ VariantRun run_built(BuiltScene& built, const std::function<bool()>& stop_asked)
 
 }  // namespace
 
+void leave_only_steps(Scene& scene) {
+    scene.output.frames = FrameFormat::none;
+    scene.output.fps = 1e-9;
+    scene.expectations.clear();
+}
+
 VariantRun run_variant(const SceneSource& source, const Variant& variant, const std::function<bool()>& stop_asked,
                        double disturbance) {
     Scene scene = source(overrides_of(variant));
-    strip(scene);
+    leave_only_steps(scene);
+    scene.step.measure = StepMeasures::none;
     try {
         BuiltScene built = build_scene(scene);
         if (disturbance > 0.0) disturb(built, disturbance);

@@ -55,6 +55,9 @@ struct VariantRun {
     int rejected = 0;  // tried and found too inexact, or redone as shorter ones
 };
 
+/// No frames but the first and no expectations.
+void leave_only_steps(Scene& scene);
+
 /// Steps a scene to its end without writing, measuring or judging anything. `disturbance`: every free vertex starts so far, m,
 /// from where it should, in directions that depend on its number alone. What the scheme refuses (an explicit one takes no
 /// obstacles) is an end like any other. Throws SceneError where the scene itself is wrong, ComparisonStopped after a stop.

@@ -98,6 +98,14 @@ void WholeFile::commit() {
     kept_ = true;
 }
 
+std::string made_folder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder))
+        throw SceneError(folder + ": cannot be made: " + (error ? error.message() : "it is a file"));
+    return folder;
+}
+
 void write_whole_file(const std::string& file, const std::string& text) {
     WholeFile whole(file);
     whole.out() << text;

@@ -40,6 +40,9 @@ private:
     bool kept_ = false;
 };
 
+/// Makes a folder where there is none and returns its name. Throws SceneError if it cannot be made.
+std::string made_folder(const std::string& folder);
+
 /// Text as a whole file.
 void write_whole_file(const std::string& file, const std::string& text);
 

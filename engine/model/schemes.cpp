@@ -21,7 +21,7 @@ constexpr SchemeFacts table[] = {
     {Scheme::implicit_midpoint, "implicit_midpoint", 2, true, false, always, 0, 1,
      "amplitude kept at every a, angular momentum too; what is faster than the step rings on"},
     {Scheme::trapezoid, "trapezoid", 2, true, false, always, 0, 1,
-     "amplitude kept at every a in linear systems; stiff cloth (a > 10) can gain energy"},
+     "amplitude kept at every a in linear systems; stiff cloth (a > 3) can gain energy"},
     {Scheme::bdf2, "bdf2", 2, true, false, always, 0, 1, "damped at every a, by a^4/4 a step where a is small"},
     {Scheme::tr_bdf2, "tr_bdf2", 2, true, true, always, 0, 2,
      "damped at every a, to nothing for large a; the accurate choice of adaptive steps"},

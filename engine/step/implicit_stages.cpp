@@ -90,17 +90,35 @@ void set_end_acceleration(World& world) {
                      stages.acceleration);
 }
 
+void set_start_accelerations(World& world) {
+    set_seams_at(world, 0.0);
+    set_accelerations(world, world.stages.start, world.stages.acceleration);
+}
+
+/// The old acceleration of the trapezoid, M a = f + what the last solve left unbalanced. Without that, stiff springs would answer
+/// an error e of the solver's positions by (w h)^2 e, and again in each step.
+void set_old_accelerations(World& world) {
+    StageSpace& stages = world.stages;
+    set_start_accelerations(world);
+    if (stages.unbalanced.padded_size() == 0) return;
+    for (int i = 0; i < world.model.vertex_count(); ++i) {
+        if (world.script.free[i] > 0.0) stages.acceleration.add(i, stages.unbalanced.at(i) / world.model.mass[i]);
+    }
+}
+
+/// world.stages.unbalanced of the state that the last stage led to.
+void keep_unbalanced(World& world) {
+    StageSpace& stages = world.stages;
+    stages.unbalanced.resize(world.model.vertex_count());
+    add_scaled(stages.unbalanced, 1.0 / stages.base.h, world.newton.current.residual);
+}
+
 NewtonReport solve_backward_euler(World& world, StepFraction span) {
     set_part_targets(world, span.to);
     set_seams_at(world, 1.0);
     const NewtonReport report = solve_stage(world, {.span = span});
     world.stages.error += report.time_error;
     return report;
-}
-
-void set_start_accelerations(World& world) {
-    set_seams_at(world, 0.0);
-    set_accelerations(world, world.stages.start, world.stages.acceleration);
 }
 
 NewtonReport solve_midpoint(World& world, StepFraction span) {
@@ -125,13 +143,14 @@ NewtonReport solve_midpoint(World& world, StepFraction span) {
     return report;
 }
 
-NewtonReport solve_trapezoid(World& world, StepFraction span) {
+NewtonReport solve_trapezoid(World& world, StepFraction span, bool go_on) {
     StageSpace& stages = world.stages;
-    set_start_accelerations(world);
+    set_old_accelerations(world);
     set_trapezoid_base(stages.start, stages.acceleration, world.settings.time_step * (span.to - span.from), stages.base);
     set_seams_at(world, 1.0);
     const NewtonReport report = solve_from_base(world, span, 1.0);
     stages.error += report.time_error;
+    if (usable(report.end, go_on)) keep_unbalanced(world);
     return report;
 }
 
@@ -188,7 +207,7 @@ NewtonReport solve_tr_bdf2(World& world, StepFraction span, bool go_on) {
     StageSpace& stages = world.stages;
     const double length = world.settings.time_step * (span.to - span.from), first = trapezoid_share * length;
     const double middle = span.from + trapezoid_share * (span.to - span.from);
-    set_start_accelerations(world);
+    set_old_accelerations(world);
     set_trapezoid_base(stages.start, stages.acceleration, first, stages.base);
     set_seams_at(world, trapezoid_share);
     const NewtonReport trapezoid = solve_from_base(world, {span.from, middle}, 2.0);
@@ -205,6 +224,7 @@ NewtonReport solve_tr_bdf2(World& world, StepFraction span, bool go_on) {
     if (world.plan.contacts) settle_impacts(world, world.newton.start_positions, length - first);
     stages.obstacle_work += stages.base.h * world.newton.current.forces.contact.obstacle_power;
     set_end_acceleration(world);
+    keep_unbalanced(world);
     return report;
 }
 
@@ -234,7 +254,7 @@ NewtonReport solve_by_scheme(World& world, StepFraction span, bool go_on) {
         case Scheme::implicit_midpoint:
             return solve_midpoint(world, span);
         case Scheme::trapezoid:
-            return solve_trapezoid(world, span);
+            return solve_trapezoid(world, span, go_on);
         case Scheme::bdf2:
             return solve_bdf2(world, span, go_on);
         case Scheme::tr_bdf2:

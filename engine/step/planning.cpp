@@ -92,7 +92,7 @@ void update_plan(World& world) {
 
 void scene_changed(World& world) {
     world.plan_outdated = true;
-    world.stages.earlier_length = 0.0;
+    world.stages.forget();
     wake(world.rest);
 }
 

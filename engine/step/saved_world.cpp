@@ -32,7 +32,7 @@ struct SavedWorld {
     std::vector<double> clamps;        // of the hinges
     StepPlan plan;
     RestState rest;
-    StageSpace stages;  // what BDF2 and adaptive steps keep
+    StageSpace stages;  // what schemes of several stages and adaptive steps keep
     ContactProjection::Kept projection;
     bool solver_is_set = false;
     StepSolver::Choice solver;
@@ -94,7 +94,7 @@ void exchange(Archive& archive, Value& rest) {
 
 template <class Archive, OfType<StageSpace> Value>
 void exchange(Archive& archive, Value& stages) {
-    archive(stages.earlier, stages.earlier_length, stages.acceleration);
+    archive(stages.earlier, stages.earlier_length, stages.acceleration, stages.unbalanced);
     archive(stages.control.length, stages.control.left, stages.control.share_before, stages.control.just_rejected);
 }
 
@@ -203,6 +203,7 @@ SavedWorld state_of(const World& world) {
     saved.stages.earlier = world.stages.earlier;
     saved.stages.earlier_length = world.stages.earlier_length;
     saved.stages.acceleration = world.stages.acceleration;
+    saved.stages.unbalanced = world.stages.unbalanced;
     saved.stages.control = world.stages.control;
     saved.projection = world.newton.projection.kept();
     saved.solver_is_set = world.newton.solver.is_for(world.model);
@@ -304,6 +305,7 @@ private:
         for (const Vectors* vectors : {&stages.earlier.positions, &stages.earlier.velocities, &stages.acceleration}) {
             reader_.demand(known ? fits(*vectors) : fits_or_empty(*vectors), "a wrong number of vertices");
         }
+        reader_.demand(fits_or_empty(stages.unbalanced), "a wrong number of vertices");
         reader_.demand(stages.control.length == 0.0 || stages.control.length >= shortest_step, "a time step too short");
     }
 

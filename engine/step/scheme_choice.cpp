@@ -6,6 +6,7 @@
 
 #include "model/plan_costs.h"
 #include "model/schemes.h"
+#include "percale/stability.h"
 #include "shape_loss.h"
 
 namespace percale {
@@ -14,7 +15,7 @@ namespace {
 constexpr int power_iterations = 40;
 constexpr double safety = 0.8;                // of the estimated stable step
 constexpr double usual_implicit = 1.0 / 240;  // s, of adaptive TR-BDF2
-constexpr double most_stiff = 10.0;           // w dt of the trapezoid
+constexpr double most_stiff = 3.0;            // w dt of the trapezoid
 constexpr int fine_sheet = 4000;              // vertices
 
 std::string number_text(double value) {
@@ -108,8 +109,7 @@ double stable_step(const World& world, Scheme scheme) {
     if (square == 0.0) return std::numeric_limits<double>::infinity();
     const double damping = largest_eigenvalue(
         world, [&](const Vectors& x, Vectors& y) { multiply_springs(world, world.model.springs.damping, x, y); });
-    // Symplectic Euler with damping explicit: (w dt)^2 + 2 c dt < 4, c the eigenvalue of damping; likewise with another limit.
-    return (std::sqrt(damping * damping + limit * limit * square) - damping) / square;
+    return longest_stable_step(scheme, {square, damping});
 }
 
 SchemeChoice choose_scheme(const World& world, const SceneFacts& facts) {

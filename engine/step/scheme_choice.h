@@ -7,9 +7,9 @@
 
 namespace percale {
 
-/// Estimated longest stable step of a scheme for the cloth as it is now, s: stable_up_to/w with the largest angular frequency w
-/// of the springs, shorter where damping takes its share. Infinity for schemes that are always stable, 0 for those that never
-/// are.
+/// Estimated longest stable step of a scheme for the cloth as it is now, s: that of an oscillator with the springs' largest
+/// angular frequency and largest damping (percale/stability.h). Infinity for schemes that are always stable, 0 for those that let
+/// what is not damped grow.
 double stable_step(const World& world, Scheme scheme);
 
 /// What stands for Scheme::automatic, and why.

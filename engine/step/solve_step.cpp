@@ -114,6 +114,7 @@ void save_attempt(World& world) {
     attempt.positions = world.state.positions;
     attempt.velocities = world.state.velocities;
     attempt.grips = world.state.grips;
+    world.stages.attempt_unbalanced = world.stages.unbalanced;
     world.stages.error = 0.0;
 }
 
@@ -123,7 +124,8 @@ void take_back(World& world, StepStatus status, const StepEnergy& energy) {
     world.state.velocities = attempt.velocities;
     world.state.grips = attempt.grips;
     update_points(world.state);
-    world.stages.earlier_length = 0.0;
+    world.stages.forget();
+    world.stages.unbalanced = world.stages.attempt_unbalanced;
     world.report.status = status;
     world.report.energy = energy;
     ++world.report.rejected;
@@ -175,7 +177,7 @@ void solve_step(World& world) {
     }
     world.contact_dt = std::max(world.settings.time_step, world.contact_dt - fastest_shortening * world.settings.time_step);
     const bool good = world.settings.adaptive ? cover_adaptively(world) : cover(world, {0.0, 1.0});
-    if (!good) world.stages.earlier_length = 0.0;
+    if (!good) world.stages.forget();
     if (good && world.report.halvings > 0 && world.report.status == StepStatus::ok) world.report.status = StepStatus::halved;
 }
 

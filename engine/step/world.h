@@ -45,12 +45,20 @@ struct StageSpace {
     ClothState start, earlier;    // of the span being solved, and one before it; without points
     double earlier_length = 0.0;  // s, from `earlier` to the present state; 0: nothing is known of it
     Vectors acceleration;         // m/s^2, at the start of the stage; of BDF2 kept to the next step
+    Vectors unbalanced;           // N, M a - f that the solver left at the present state; empty: nothing is known of it
     Vectors scratch;
     std::vector<std::size_t> row_order;  // of contact rows; work space
     double obstacle_work = 0.0;          // J, of the span
     double error = 0.0;                  // m, estimated, of the spans since it was set to 0
     ClothState attempt;                  // before an adaptive attempt
+    Vectors attempt_unbalanced;          // likewise
     StepControl control;
+
+    /// The present state does not follow from the last solve.
+    void forget() {
+        earlier_length = 0.0;
+        unbalanced.resize(0);
+    }
 };
 
 /// What the ledger of energy goes by within a step.

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <optional>
 
 #include "expectations.h"
 #include "lacking.h"
@@ -60,6 +62,36 @@ std::vector<scenes::Override> scene_overrides(const CommonOptions& options) {
     if (!options.frames.empty()) overrides.push_back({"output.frames", "\"" + options.frames + "\"", "--frames"});
     if (!options.fps.empty()) overrides.push_back({"output.fps", options.fps, "--fps"});
     return overrides;
+}
+
+namespace {
+
+std::optional<double> read_number(std::string_view text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+/// "0.004" or "1/240".
+std::optional<double> read_quotient(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const std::optional<double> first = read_number(std::string_view(text).substr(0, slash));
+    if (!first || slash == std::string::npos) return first;
+    const std::optional<double> second = read_number(std::string_view(text).substr(slash + 1));
+    return second ? std::optional(*first / *second) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<double> read_numbers(const char* option, const std::vector<std::string>& texts) {
+    std::vector<double> values;
+    for (const std::string& text : texts) {
+        const std::optional<double> value = read_quotient(text);
+        if (!value) throw SceneError(std::string(option) + " " + text + ": must be numbers such as 0.004 or 1/240");
+        values.push_back(*value);
+    }
+    return values;
 }
 
 }  // namespace percale::program

@@ -36,4 +36,7 @@ void check_common_options(const CommonOptions& options);
 /// The options that stand for keys of the scene file, --set first. Throws SceneError for a --set that is not KEY=VALUE.
 std::vector<scenes::Override> scene_overrides(const CommonOptions& options);
 
+/// The values of a list of numbers such as 0.004 or 1/240. Throws SceneError naming the option and the first that is none.
+std::vector<double> read_numbers(const char* option, const std::vector<std::string>& texts);
+
 }  // namespace percale::program

@@ -2,11 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <sstream>
 
 #include "compare_report.h"
@@ -31,32 +29,6 @@ struct CompareOptions {
     int repeats = 3;
     double reference_error = 1e-9;
 };
-
-std::optional<double> read_number(std::string_view text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
-/// "0.004" or "1/240".
-std::optional<double> read_quotient(const std::string& text) {
-    const std::size_t slash = text.find('/');
-    const std::optional<double> first = read_number(std::string_view(text).substr(0, slash));
-    if (!first || slash == std::string::npos) return first;
-    const std::optional<double> second = read_number(std::string_view(text).substr(slash + 1));
-    return second ? std::optional(*first / *second) : std::nullopt;
-}
-
-std::vector<double> read_numbers(const char* option, const std::vector<std::string>& texts) {
-    std::vector<double> values;
-    for (const std::string& text : texts) {
-        const std::optional<double> value = read_quotient(text);
-        if (!value) throw SceneError(std::string(option) + " " + text + ": must be numbers such as 0.004 or 1/240");
-        values.push_back(*value);
-    }
-    return values;
-}
 
 CompareSettings settings_of(const CompareOptions& options) {
     if (options.repeats < 1 || options.repeats > 1000)
@@ -101,11 +73,7 @@ std::string folder_name(const CompareOptions& options) {
 std::string folder_of(const CompareOptions& options) {
     const std::string folder = folder_name(options);
     if (folder.empty()) throw SceneError(options.scene + ": no folder can be named after this; name one with -o");
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error || !std::filesystem::is_directory(folder))
-        throw SceneError(folder + ": cannot be made: " + (error ? error.message() : "it is a file"));
-    return folder;
+    return made_folder(folder);
 }
 
 void print(const Comparison& comparison, const std::string& folder) {

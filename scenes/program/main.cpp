@@ -17,8 +17,8 @@ namespace percale::program {
 namespace {
 
 const std::vector<std::string> commands_here = {"run",   "plan",    "check",  "explain", "certify",
-                                                "drape", "compare", "doctor", "replay"};
-const std::vector<std::string> commands_later = {"stress", "report", "render"};
+                                                "drape", "compare", "doctor", "replay",  "stress"};
+const std::vector<std::string> commands_later = {"report", "render"};
 
 bool holds(const std::vector<std::string>& list, const std::string& word) {
     return std::find(list.begin(), list.end(), word) != list.end();
@@ -66,6 +66,7 @@ int parse_and_act(int argc, char** argv) {
     add_compare_command(program, action);
     add_doctor_command(program, action);
     add_replay_command(program, action);
+    add_stress_command(program, action);
     if (argc > 1) check_command_name(argv[1]);
     try {
         program.parse(argc, argv);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "report/svg_text.h"
 
 namespace percale::scenes {
 
@@ -16,42 +17,6 @@ constexpr double legend_left = 660.0, legend_line = 24.0;
 // Dark enough on white; the first seven told apart with any colour vision (Okabe and Ito 2008), the others by their markers, too.
 constexpr std::array<const char*, 12> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#b8860b",
                                                  "#56b4e9", "#7b3294", "#a50026", "#666666", "#1b7837", "#e377c2"};
-
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f", value);
-    return text;
-}
-
-/// Text for XML; control characters, which it cannot hold, as question marks.
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char letter : text) {
-        if (letter == '&')
-            result += "&amp;";
-        else if (letter == '<')
-            result += "&lt;";
-        else if (letter == '>')
-            result += "&gt;";
-        else if (letter == '"')
-            result += "&quot;";
-        else
-            result += static_cast<unsigned char>(letter) < 0x20 ? '?' : letter;
-    }
-    return result;
-}
-
-std::string attribute(const char* name, double value) { return std::string(" ") + name + "=\"" + number(value) + "\""; }
-std::string attribute(const char* name, const std::string& value) { return std::string(" ") + name + "=\"" + value + "\""; }
-
-std::string line(double x1, double y1, double x2, double y2, const std::string& style) {
-    return "<line" + attribute("x1", x1) + attribute("y1", y1) + attribute("x2", x2) + attribute("y2", y2) + " " + style + "/>\n";
-}
-
-std::string text_at(double x, double y, const std::string& anchor, const std::string& text, const std::string& more = "") {
-    return "<text" + attribute("x", x) + attribute("y", y) + attribute("text-anchor", anchor) + more + ">" + escaped(text) +
-           "</text>\n";
-}
 
 /// Corners of a marker about (0, 0), pixels; empty: a circle.
 std::vector<std::array<double, 2>> marker_corners(std::size_t kind) {
@@ -72,13 +37,14 @@ std::vector<std::array<double, 2>> marker_corners(std::size_t kind) {
 /// The first five kinds are filled, the next five hollow.
 std::string marker(std::size_t kind, double x, double y, const std::string& label) {
     const std::string colour = colours[kind % colours.size()];
-    const std::string style = attribute("fill", kind % 10 < 5 ? colour : "white") + attribute("stroke", colour) +
-                              " stroke-width=\"1.5\"><title>" + escaped(label) + "</title>";
+    const std::string style = svg_attribute("fill", kind % 10 < 5 ? colour : "white") + svg_attribute("stroke", colour) +
+                              " stroke-width=\"1.5\"><title>" + svg_escaped(label) + "</title>";
     const auto corners = marker_corners(kind);
-    if (corners.empty()) return "<circle" + attribute("cx", x) + attribute("cy", y) + attribute("r", 4.5) + style + "</circle>\n";
+    if (corners.empty())
+        return "<circle" + svg_attribute("cx", x) + svg_attribute("cy", y) + svg_attribute("r", 4.5) + style + "</circle>\n";
     std::string points;
-    for (const auto& [dx, dy] : corners) points += (points.empty() ? "" : " ") + number(x + dx) + "," + number(y + dy);
-    return "<polygon" + attribute("points", points) + style + "</polygon>\n";
+    for (const auto& [dx, dy] : corners) points += (points.empty() ? "" : " ") + svg_number(x + dx) + "," + svg_number(y + dy);
+    return "<polygon" + svg_attribute("points", points) + style + "</polygon>\n";
 }
 
 bool has_place(double value) { return std::isfinite(value) && value > 0.0; }
@@ -124,31 +90,31 @@ void for_ticks(const LogAxis& axis, Visit visit) {
 std::string grid(const Axes& axes) {
     std::string text;
     for_ticks(axes.x, [&](double x, int digit, int power) {
-        text += line(x, top, x, bottom, digit == 1 ? thick : thin);
-        if (is_labelled(digit, axes.x)) text += text_at(x, bottom + 20.0, "middle", tick_text(digit, power));
+        text += svg_line(x, top, x, bottom, digit == 1 ? thick : thin);
+        if (is_labelled(digit, axes.x)) text += svg_text(x, bottom + 20.0, "middle", tick_text(digit, power));
     });
     for_ticks(axes.y, [&](double y, int digit, int power) {
-        text += line(left, y, right, y, digit == 1 ? thick : thin);
-        if (is_labelled(digit, axes.y)) text += text_at(left - 8.0, y + 4.5, "end", tick_text(digit, power));
+        text += svg_line(left, y, right, y, digit == 1 ? thick : thin);
+        if (is_labelled(digit, axes.y)) text += svg_text(left - 8.0, y + 4.5, "end", tick_text(digit, power));
     });
     return text;
 }
 
 std::string frame_and_labels(const Plot& plot) {
     const double middle = 0.5 * (top + bottom);
-    std::string text = "<rect" + attribute("x", left) + attribute("y", top) + attribute("width", right - left) +
-                       attribute("height", bottom - top) + " fill=\"none\" stroke=\"#444444\"/>\n";
-    text += text_at(0.5 * (left + right), 30.0, "middle", plot.title, " font-size=\"17\"");
-    text += text_at(0.5 * (left + right), bottom + 48.0, "middle", plot.x_label);
-    const std::string turned = " transform=\"rotate(-90 24 " + number(middle) + ")\"";
-    return text + text_at(24.0, middle, "middle", plot.y_label, turned);
+    std::string text = "<rect" + svg_attribute("x", left) + svg_attribute("y", top) + svg_attribute("width", right - left) +
+                       svg_attribute("height", bottom - top) + " fill=\"none\" stroke=\"#444444\"/>\n";
+    text += svg_text(0.5 * (left + right), 30.0, "middle", plot.title, " font-size=\"17\"");
+    text += svg_text(0.5 * (left + right), bottom + 48.0, "middle", plot.x_label);
+    const std::string turned = " transform=\"rotate(-90 24 " + svg_number(middle) + ")\"";
+    return text + svg_text(24.0, middle, "middle", plot.y_label, turned);
 }
 
 std::string floor_line(const Plot& plot, const Axes& axes) {
     if (!has_place(plot.floor)) return "";
     const double y = axes.y.place(plot.floor);
-    return line(left, y, right, y, "stroke=\"#444444\" stroke-dasharray=\"6 4\"") +
-           text_at(right - 6.0, y - 6.0, "end", plot.floor_label);
+    return svg_line(left, y, right, y, "stroke=\"#444444\" stroke-dasharray=\"6 4\"") +
+           svg_text(right - 6.0, y - 6.0, "end", plot.floor_label);
 }
 
 std::string curve(const PlotSeries& series, std::size_t kind, const Axes& axes) {
@@ -156,18 +122,18 @@ std::string curve(const PlotSeries& series, std::size_t kind, const Axes& axes) 
     for (const PlotPoint& point : series.points) {
         if (!has_place(point)) continue;
         const double x = axes.x.place(point.x), y = axes.y.place(point.y);
-        places += (places.empty() ? "" : " ") + number(x) + "," + number(y);
+        places += (places.empty() ? "" : " ") + svg_number(x) + "," + svg_number(y);
         markers += marker(kind, x, y, point.label);
     }
-    return "<polyline" + attribute("points", places) + " fill=\"none\" stroke-width=\"2\"" +
-           attribute("stroke", std::string(colours[kind % colours.size()])) + "/>\n" + markers;
+    return "<polyline" + svg_attribute("points", places) + " fill=\"none\" stroke-width=\"2\"" +
+           svg_attribute("stroke", std::string(colours[kind % colours.size()])) + "/>\n" + markers;
 }
 
 std::string legend_entry(const PlotSeries& series, std::size_t kind) {
     const double y = top + 12.0 + legend_line * static_cast<double>(kind);
-    return line(legend_left, y, legend_left + 28.0, y,
-                "stroke-width=\"2\"" + attribute("stroke", std::string(colours[kind % colours.size()]))) +
-           marker(kind, legend_left + 14.0, y, series.name) + text_at(legend_left + 36.0, y + 4.5, "start", series.name);
+    return svg_line(legend_left, y, legend_left + 28.0, y,
+                    "stroke-width=\"2\"" + svg_attribute("stroke", std::string(colours[kind % colours.size()]))) +
+           marker(kind, legend_left + 14.0, y, series.name) + svg_text(legend_left + 36.0, y + 4.5, "start", series.name);
 }
 
 }  // namespace
@@ -187,10 +153,7 @@ LogAxis axis_around(const std::vector<double>& values, double from, double to) {
 
 std::string plot_svg(const Plot& plot) {
     const Axes axes = axes_of(plot);
-    std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"" +
-                       attribute("width", width) + attribute("height", height) + " viewBox=\"0 0 " + number(width) + " " +
-                       number(height) + "\" font-family=\"sans-serif\" font-size=\"14\">\n<title>" + escaped(plot.title) +
-                       "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+    std::string text = svg_opening(width, height, plot.title);
     text += grid(axes) + frame_and_labels(plot) + floor_line(plot, axes);
     for (std::size_t k = 0; k < plot.series.size(); ++k) text += curve(plot.series[k], k, axes);
     for (std::size_t k = 0; k < plot.series.size(); ++k) text += legend_entry(plot.series[k], k);

@@ -1,0 +1,72 @@
+#include "percale/stability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "schemes.h"
+
+namespace percale {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double least_share = 1e-6;  // of 1/|lambda|: shorter stable steps count as none
+constexpr double march = 1.02;        // from one trial to the next
+constexpr double rounding = 1e-12;    // of |R|
+constexpr double beyond_all = 4.0;    // of 1/|lambda|: no Taylor polynomial of degree 4 or less is stable there
+
+/// 1 + z + ... + z^degree/degree!
+Complex taylor(int degree, Complex z) {
+    Complex sum = 1.0, term = 1.0;
+    for (int k = 1; k <= degree; ++k) {
+        term *= z / static_cast<double>(k);
+        sum += term;
+    }
+    return sum;
+}
+
+/// The eigenvalue of larger size.
+Complex eigenvalue(const Oscillator& oscillator) {
+    const Complex root = std::sqrt(Complex(oscillator.damping * oscillator.damping - 4.0 * oscillator.square));
+    return 0.5 * (-oscillator.damping - root);
+}
+
+/// Where the ray along lambda leaves |R| <= 1 for the first time.
+double taylor_limit(int degree, const Oscillator& oscillator) {
+    const Complex lambda = eigenvalue(oscillator);
+    const double size = std::abs(lambda);
+    const auto stable = [&](double dt) { return std::abs(taylor(degree, lambda * dt)) <= 1.0 + rounding; };
+    double inside = least_share / size, outside = inside;
+    while (stable(outside) && outside * size < beyond_all) {
+        inside = outside;
+        outside *= march;
+    }
+    if (outside == inside) return 0.0;
+    for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (inside + outside);
+        (stable(middle) ? inside : outside) = middle;
+    }
+    return inside;
+}
+
+}  // namespace
+
+double longest_stable_step(Scheme scheme, const Oscillator& oscillator) {
+    const auto& [square, damping] = oscillator;
+    switch (scheme) {
+        case Scheme::forward_euler:
+            return damping * damping < 4.0 * square ? damping / square : 2.0 / std::abs(eigenvalue(oscillator));
+        case Scheme::symplectic_euler:
+            return (std::sqrt(damping * damping + 4.0 * square) - damping) / square;
+        case Scheme::midpoint:
+            return damping > 0.0 ? taylor_limit(2, oscillator) : 0.0;
+        case Scheme::rk4:
+            return taylor_limit(4, oscillator);
+        default:
+            return std::numeric_limits<double>::infinity();
+    }
+}
+
+}  // namespace percale

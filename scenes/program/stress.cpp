@@ -1,0 +1,167 @@
+#include "stress.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "compare.h"
+#include "percale/error.h"
+#include "program/commands.h"
+#include "program/common_options.h"
+#include "program/exit_codes.h"
+#include "program/stop_signals.h"
+#include "scene_text.h"
+#include "stress_report.h"
+#include "whole_file.h"
+
+namespace percale::program {
+
+namespace {
+
+using namespace percale::scenes;
+
+constexpr int told_failures = 10;
+constexpr int matrix_steps = 16;
+
+struct StressOptions {
+    CommonOptions common;
+    std::string scene, folder;
+    std::vector<std::string> schemes;
+    std::vector<std::string> time_steps = {"1e-4", "1e-3", "1e-2", "1e-1", "1"}, factors = {"1e-2", "1", "1e2", "1e4"};
+    int steps = matrix_steps, cell = -1;
+};
+
+void check(const StressOptions& options) {
+    if (options.steps < 1 || options.steps > 1000000)
+        throw SceneError("--most-steps " + std::to_string(options.steps) + " is outside the allowed range 1 ... 1000000");
+    for (const double factor : read_numbers("--factors", options.factors))
+        if (!(factor >= 1e-9 && factor <= 1e9))
+            throw SceneError("--factors " + number_text(factor) + " is outside the allowed range 1e-9 ... 1e9");
+    if (options.scene.empty() && !options.common.set.empty()) throw SceneError("--set: without a scene there is nothing to set");
+    if (!options.scene.empty() && options.cell >= 0) throw SceneError("--cell: only cells of the default matrix have numbers");
+}
+
+SceneSource source_of(const StressOptions& options) {
+    return [file = options.scene, given = scene_overrides(options.common)](std::span<const Override> more) {
+        std::vector<Override> overrides = given;
+        overrides.insert(overrides.end(), more.begin(), more.end());
+        return load_scene(file, overrides);
+    };
+}
+
+/// Has every word and number judged as the key of the scene file that it stands for.
+void check_keys(const StressOptions& options, const SceneSource& source) {
+    for (const std::string& scheme : options.schemes) source(std::vector<Override>{{"step.scheme", scheme, "--schemes"}});
+    for (const double step : read_numbers("--steps", options.time_steps))
+        source(std::vector<Override>{{"step.time_step", number_text(step), "--steps"}});
+}
+
+/// The cells of the default matrix that are asked for.
+std::vector<StressCell> wanted_cells(const StressOptions& options) {
+    std::vector<StressCell> cells = stress_matrix();
+    if (options.cell >= static_cast<int>(cells.size()))
+        throw SceneError("--cell " + std::to_string(options.cell) + " is outside the allowed range 0 ... " +
+                         std::to_string(cells.size() - 1));
+    if (options.cell >= 0) return {cells[static_cast<std::size_t>(options.cell)]};
+    const std::vector<std::string> words = scheme_words();
+    for (const std::string& scheme : options.schemes)
+        if (std::find(words.begin(), words.end(), scheme) == words.end())
+            throw SceneError("--schemes " + scheme + ": no such scheme; valid: " + joined(words));
+    if (options.schemes.empty()) return cells;
+    std::erase_if(cells, [&](const StressCell& cell) {
+        const std::string& word = words[static_cast<std::size_t>(cell.scheme)];
+        return std::find(options.schemes.begin(), options.schemes.end(), word) == options.schemes.end();
+    });
+    return cells;
+}
+
+StressRun made_run(const StressOptions& options, const SceneSource& source) {
+    const StopSignals signals;
+    StressHooks hooks;
+    hooks.stop_asked = [&] { return signals.asked(); };
+    if (options.scene.empty()) return stress_cells(wanted_cells(options), options.steps, hooks);
+    return stress_scene(source,
+                        {.schemes = options.schemes,
+                         .time_steps = read_numbers("--steps", options.time_steps),
+                         .factors = read_numbers("--factors", options.factors),
+                         .steps = options.steps},
+                        hooks);
+}
+
+std::string folder_of(const StressOptions& options) {
+    if (!options.folder.empty()) return options.folder;
+    return options.scene.empty() ? "stress" : std::filesystem::path(options.scene).stem().string();
+}
+
+void print(const StressOptions& options, const StressRun& run) {
+    std::printf("%zu cells of at most %d steps", run.rows.size(), run.steps);
+    std::printf(run.of_scene ? "\n" : ", of explicit schemes %d\n", explicit_factor * run.steps);
+    std::fputs(stress_summary(run).c_str(), stdout);
+    std::fputs(stress_failures(run, told_failures).c_str(), stdout);
+    if (run.failures() > 0 && options.scene.empty())
+        std::printf("%d failures; `percale stress --cell N` repeats cell N\n", run.failures());
+    std::printf("%s/stress.csv, %s/stress.svg\n", folder_of(options).c_str(), folder_of(options).c_str());
+}
+
+int stress(const StressOptions& options) {
+    check(options);
+    const SceneSource source = source_of(options);
+    if (options.scene.empty()) {
+        wanted_cells(options);
+    } else {
+        check_keys(options, source);
+        build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
+    }
+    const std::string folder = made_folder(folder_of(options));
+    WholeFile table(folder + "/stress.csv"), map(folder + "/stress.svg");
+    try {
+        const StressRun run = made_run(options, source);
+        table.out() << stress_csv(run);
+        map.out() << map_svg(stress_map(run));
+        for (WholeFile* file : {&table, &map}) {
+            file->out().flush();
+            file->check();
+        }
+        table.commit();
+        map.commit();
+        if (!options.common.quiet) print(options, run);
+        return run.failures() > 0 ? not_as_expected : all_well;
+    } catch (const ComparisonStopped&) {
+        std::fprintf(stderr, "percale: stress: stopped; nothing is written\n");
+        return stopped_by_signal;
+    }
+}
+
+}  // namespace
+
+void add_stress_command(CLI::App& program, Action& action) {
+    auto options = std::make_shared<StressOptions>();
+    CLI::App* command = program.add_subcommand("stress", "Where schemes are stable, and whether what is not says so");
+    command->footer(
+        "Without SCENE: small cloths, time steps of 1e-4 ... 1 s, stiffness of 1 ... 1e8 N/m, mass ratios to 1e6, damping, "
+        "slivers,\n"
+        "hard starts, contact. Exit code 1 if backward_euler or tr_bdf2 failed, or any scheme without a word.\n"
+        "Example: percale stress data/scenes/hang.toml --schemes rk4,backward_euler --steps 1e-3,1e-2 --factors 1,100 -o out");
+    command->add_option("SCENE", options->scene, "Scene file (TOML); without one the default matrix is run");
+    command->add_option("--schemes", options->schemes, "Words of step.scheme (default: all)")->delimiter(',')->type_name("A,B");
+    command->add_option("--steps", options->time_steps, "Time steps of a scene in s (default 1e-4 ... 1)")
+        ->delimiter(',')
+        ->type_name("S1,S2");
+    command->add_option("--factors", options->factors, "Factors on a scene's stiffness (default 1e-2 ... 1e4)")
+        ->delimiter(',')
+        ->type_name("F1,F2");
+    command
+        ->add_option("--most-steps", options->steps,
+                     "Steps of a cell, at most (default 16); of an explicit scheme in the default matrix 8 times as many")
+        ->type_name("N");
+    command->add_option("--cell", options->cell, "Only this cell of the default matrix, as stress.csv numbers them")
+        ->type_name("N");
+    command->add_option("-o", options->folder, "Output folder (default: the scene's name, or stress)")->type_name("DIR");
+    command->add_flag("--quiet", options->common.quiet, "Print nothing but errors");
+    add_scene_options(*command, options->common);
+    command->callback([options, &action] { action = [options] { return stress(*options); }; });
+}
+
+}  // namespace percale::program

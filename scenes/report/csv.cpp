@@ -1,0 +1,21 @@
+#include "report/csv.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace percale::scenes {
+
+std::string csv_number(double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    return std::isfinite(value) ? text : "";
+}
+
+std::string csv_text(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
+    return quoted + "\"";
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+// Fields of a CSV file (RFC 4180).
+namespace percale::scenes {
+
+/// Nine digits; empty where the number is not finite.
+std::string csv_number(double value);
+
+/// In quotes where the text needs them.
+std::string csv_text(const std::string& text);
+
+}  // namespace percale::scenes

@@ -1,0 +1,22 @@
+#include "scenes/report/csv.h"
+
+#include <limits>
+
+#include "tests/support/catch.h"
+
+namespace percale::scenes::test {
+
+TEST_CASE("Numbers of a table read back to nine digits, and what is not finite is empty") {
+    CHECK(std::stod(csv_number(1.0 / 3.0)) == Approx(1.0 / 3.0).epsilon(1e-9));
+    CHECK(csv_number(std::numeric_limits<double>::infinity()).empty());
+    CHECK(csv_number(std::numeric_limits<double>::quiet_NaN()).empty());
+}
+
+TEST_CASE("Text is quoted where a comma, a quote or a line end would break the line") {
+    CHECK(csv_text("plain words") == "plain words");
+    CHECK(csv_text("a, b") == "\"a, b\"");
+    CHECK(csv_text("say \"b\"") == "\"say \"\"b\"\"\"");
+    CHECK(csv_text("a\nb") == "\"a\nb\"");
+}
+
+}  // namespace percale::scenes::test
