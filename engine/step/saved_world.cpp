@@ -7,6 +7,7 @@
 #include "percale/error.h"
 #include "percale/options.h"
 #include "percale/saved_report.h"
+#include "support/hash.h"
 
 namespace percale {
 
@@ -131,26 +132,59 @@ struct Identity {
     std::uint64_t cloth = 0, obstacles = 0, settings = 0;
 };
 
-void describe_springs(const SpringNetwork& springs, StateWriter& writer) {
-    writer(springs.first, springs.second, springs.stiffness, springs.damping);
+/// Hashes lists of numbers and of arrays of them, without a copy.
+class ListHash {
+public:
+    void add(int number) { hash_.add(number); }
+    void add(double number) { hash_.add(number); }
+    void add(const Vec3& x) { add_all(std::span<const double>(x.data(), 3)); }
+    template <class Value, std::size_t count>
+    void add(const std::array<Value, count>& values) {
+        add_all(std::span<const Value>(values));
+    }
+    template <class Values>
+    void add_all(const Values& values) {
+        add(static_cast<int>(values.size()));
+        for (const auto& value : values) add(value);
+    }
+    std::uint64_t value() const { return hash_.value(); }
+
+private:
+    Hash hash_;
+};
+
+void add_springs(const SpringNetwork& springs, ListHash& hash) {
+    for (const auto* ends : {&springs.first, &springs.second}) hash.add_all(*ends);
+    for (const auto* constants : {&springs.stiffness, &springs.damping}) hash.add_all(*constants);
     for (int k = 0; k < springs.size(); ++k) {
-        const bool seam = springs.kind[k] == SpringKind::seam;
-        writer(static_cast<int>(springs.kind[k]), seam ? 0.0 : springs.rest_length[k]);
+        hash.add(static_cast<int>(springs.kind[k]));
+        if (springs.kind[k] != SpringKind::seam) hash.add(springs.rest_length[k]);
     }
 }
 
 std::uint64_t cloth_hash(const ClothModel& model) {
-    StateWriter writer;
-    for (const ClothRange& cloth : model.cloths) writer(cloth.first, cloth.count, cloth.columns, cloth.fabric.self_contact);
-    writer(model.mass, model.thickness, model.rest, model.triangles);
-    describe_springs(model.springs, writer);
-    for (const MembraneTriangle& t : model.membrane) {
-        writer(t.vertex, t.rest_square);
-        for (const double entry : t.stiffness.reshaped()) writer(entry);
+    ListHash hash;
+    for (const ClothRange& cloth : model.cloths) {
+        for (const int number : {cloth.first, cloth.count, cloth.columns, static_cast<int>(cloth.fabric.self_contact)}) {
+            hash.add(number);
+        }
+        for (const double drag : {cloth.fabric.drag_normal, cloth.fabric.drag_tangential}) hash.add(drag);
     }
-    for (const Hinge& hinge : model.hinges.all) writer(hinge.vertex, hinge.weight, hinge.stiffness, hinge.rest_angle);
-    for (const ClothRange& cloth : model.cloths) writer(cloth.fabric.drag_normal, cloth.fabric.drag_tangential);
-    return checksum(writer.take());
+    for (const auto* numbers : {&model.mass, &model.thickness}) hash.add_all(*numbers);
+    hash.add_all(model.rest);
+    hash.add_all(model.triangles);
+    add_springs(model.springs, hash);
+    for (const MembraneTriangle& t : model.membrane) {
+        hash.add(t.vertex);
+        hash.add(t.rest_square);
+        hash.add_all(std::span<const double>(t.stiffness.data(), 9));
+    }
+    for (const Hinge& hinge : model.hinges.all) {
+        hash.add(hinge.vertex);
+        hash.add(hinge.weight);
+        for (const double number : {hinge.stiffness, hinge.rest_angle}) hash.add(number);
+    }
+    return hash.value();
 }
 
 std::uint64_t obstacles_hash(const World& world) {
