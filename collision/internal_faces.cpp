@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "certificate/inside_test.h"
@@ -51,13 +52,19 @@ Meeting meeting_of(const Solid& solid, int i, int j) {
     return overlap == Overlap::touching && !neighbours ? Meeting::touched : Meeting::none;
 }
 
-std::vector<Meeting> find_meetings(const Solid& solid) {
+/// Nothing where so many triangles lie side by side (a fan of n around one vertex has n^2/2 pairs) that it would take long.
+std::optional<std::vector<Meeting>> find_meetings(const Solid& solid) {
+    const long most_tests = 2000000 + 200 * static_cast<long>(solid.triangles.size());
     std::vector<Meeting> meeting(solid.triangles.size(), Meeting::none);
-    solid.tree.walk_overlaps(solid.tree, [&](int i, int j) {
+    long tests = 0;
+    const auto visit = [&](int i, int j) {
         if (i >= j || (meeting[i] == Meeting::crossed && meeting[j] == Meeting::crossed)) return;
+        ++tests;
         const Meeting what = meeting_of(solid, i, j);
         for (const int triangle : {i, j}) meeting[triangle] = std::max(meeting[triangle], what);
-    });
+    };
+    solid.tree.walk_overlaps(solid.tree, visit, [&] { return tests >= most_tests; });
+    if (tests >= most_tests) return std::nullopt;
     return meeting;
 }
 
@@ -143,8 +150,8 @@ std::vector<bool> internal_faces(std::span<const Vec3> vertices, std::span<const
     std::vector<Corners> corners = certificate::corners_of(mesh);
     BoxTree tree{std::span<const Corners>(corners)};
     const Solid solid{triangles, std::move(corners), std::move(tree)};
-    const std::vector<Meeting> meeting = find_meetings(solid);
-    return Regions(solid, meeting).internal();
+    const std::optional<std::vector<Meeting>> meeting = find_meetings(solid);
+    return meeting ? Regions(solid, *meeting).internal() : std::vector<bool>(triangles.size(), false);
 }
 
 }  // namespace percale

@@ -48,7 +48,7 @@ struct DoctorSettings {
 };
 
 /// Looks at a file: a scene if its name ends in .toml, else a mesh. What is wrong inside the file is a finding; throws SceneError
-/// only where there is no such file.
+/// only where there is no such file, or for an override that is wrong.
 Diagnosis diagnose(const std::string& file, const DoctorSettings& settings = {});
 
 }  // namespace percale::scenes

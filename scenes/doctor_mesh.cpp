@@ -111,7 +111,7 @@ void find_self_crossing(const JoinedMesh& joined, Severity severity, const std::
     found.add_elements(severity, "self_crossing", pairs, "pair|pairs of its triangles" + more + " cross each other", fix);
     if (search.complete || !pairs.empty()) return;
     found.add(Severity::note, "crossings_unknown", "too many of its triangles lie side by side to test every pair for crossings",
-              "run `percale certify` on frames of it, or mesh it with triangles of more even size");
+              "mesh it with triangles of more even size, such as a grid in place of a fan");
 }
 
 /// Faults for which cloth is refused.
@@ -251,11 +251,12 @@ std::vector<Finding> examine_pair(const ExaminedMesh& cloth, const ExaminedMesh&
     const double size = cloth.facts.extent(), other = obstacle.facts.extent(), ratio = std::max(size / other, other / size);
     if ((cloth.from_file || obstacle.from_file) && ratio > 50.0) {
         const bool centimetres = ratio < 500.0;
-        const std::string larger = size > other ? "it" : obstacle.name;
+        const std::string larger = size > other ? "it" : obstacle.name, smaller = size > other ? obstacle.name : "it";
         found.add(Severity::warning, "size_ratio",
                   "it is " + short_number(size) + " m large and " + obstacle.name + " " + short_number(other) +
                       " m: they look like meshes in different units",
-                  "say unit = \"" + std::string(centimetres ? "cm" : "mm") + "\" for " + larger + " if it is not meant so");
+                  "say unit = \"" + std::string(centimetres ? "cm" : "mm") + "\" for " + larger + ", or leave out the unit of " +
+                      smaller + ", if it is not meant so");
         return found.take();
     }
     std::array<double, 3> sides;

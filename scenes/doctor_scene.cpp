@@ -304,7 +304,9 @@ std::vector<Finding> examine_scene_file(const std::string& file, std::span<const
     try {
         return examine_scene(load_scene(file, overrides));
     } catch (const SceneError& error) {
-        return {refusal("refused", error.what(), file, see_keys)};
+        const std::string message = error.what();
+        if (message.starts_with("--")) throw;  // an override, which is not the file's fault
+        return {refusal("refused", message, file, see_keys)};
     }
 }
 

@@ -1,6 +1,7 @@
 #include "collision/internal_faces.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "collision/certificate/inside_test.h"
 #include "collision/obstacle_surface.h"
@@ -113,4 +114,29 @@ TEST_CASE("what is dropped of a body scan that passes through itself has the sol
     CHECK(count(dropped) > 100);
     CHECK(wrong == 0);
     CHECK(cleaning_report(*scan).internal_triangles == count(dropped));
+}
+
+namespace {
+
+/// Two cones of n triangles each on one rim, with a small ball inside.
+TriangleMesh spindle_with_ball(int n) {
+    TriangleMesh mesh = make_sphere(0.1, 1);
+    const int first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {Vec3(0, 1, 0), Vec3(0, -1, 0)});
+    for (int i = 0; i < n; ++i) {
+        const double angle = 2.0 * 3.14159265358979 * i / n;
+        mesh.vertices.emplace_back(std::cos(angle), 0.0, std::sin(angle));
+        const int a = first + 2 + i, b = first + 2 + (i + 1) % n;
+        mesh.triangles.push_back({first, b, a});
+        mesh.triangles.push_back({first + 1, a, b});
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("where too many triangles lie side by side the search ends, and all stay") {
+    CHECK(count(internal(spindle_with_ball(100))) == 80);
+    CHECK(count(internal(spindle_with_ball(2500))) == 0);
+    CHECK(cleaning_report(spindle_with_ball(2500)).triangles == 5080);
 }

@@ -57,6 +57,9 @@ TEST_CASE("doctor refuses files that are not there and options that make no sens
     folder.write("triangle.obj", lone_triangle);
     CHECK(refused(run_program({"doctor", "triangle.obj", "none.obj"}, folder.path()), "none.obj: no such file"));
     CHECK(refused(run_program({"doctor", "."}, folder.path()), "not a file"));
+    folder.write("sheet.toml", sheet_on_box());
+    CHECK(refused(run_program({"doctor", "sheet.toml", "--set", "step.scehme=rk4"}, folder.path()), "'scheme'"));
+    CHECK(refused(run_program({"doctor", "sheet.toml", "--set", "duration=-1"}, folder.path()), "out of range"));
     CHECK(refused(run_program({"doctor"}, folder.path()), "FILE"));
     CHECK(refused(run_program({"doctor", "triangle.obj", "--as", "hat"}, folder.path()), "hat"));
 }
