@@ -7,10 +7,11 @@
 namespace percale::scenes {
 
 /// Reads a mesh file. OBJ and OFF by our own readers (vertices exactly the file's, in its order; polygons fanned), everything
-/// else through assimp (float precision; all parts of the file joined, node transforms applied) with vertices welded by position
-/// so that a file's shared vertices are shared again, in the order of first appearance. Coordinates are multiplied by `unit`
-/// (m per unit of the file, > 0). Throws SceneError naming the file, and the line for OBJ and OFF: missing or unreadable file,
-/// empty, NaN or infinite coordinate, index out of range, no triangles, a header that claims more than the file can hold.
+/// else through assimp (float precision; polygons fanned, too, all parts of the file joined, node transforms applied) with
+/// vertices welded by position so that a file's shared vertices are shared again, in the order of first appearance. Coordinates
+/// are multiplied by `unit` (m per unit of the file, > 0). Throws SceneError naming the file, and the line for OBJ and OFF:
+/// missing or unreadable file, empty, NaN or infinite coordinate, index out of range, no triangles, a header that claims more
+/// than the file can hold.
 TriangleMesh import_mesh(const std::string& file, double unit = 1.0);
 
 }  // namespace percale::scenes
