@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <istream>
+#include <iterator>
+#include <limits>
 #include <vector>
 
 #include "text_scan.h"
@@ -14,15 +17,20 @@ namespace percale::scenes {
 
 namespace {
 
+struct PlyProperty {
+    unsigned long long count_bytes = 0;  // of a list's length; 0: no list
+    unsigned long long item_bytes = 0;
+};
+
 struct PlyElement {
     std::string name;
     unsigned long long count = 0;
     unsigned long long least_bytes = 0;  // of one element
-    unsigned long long properties = 0;
+    std::vector<PlyProperty> properties = {};
 };
 
 struct PlyHeader {
-    bool text = false;
+    bool text = false, big_endian = false;
     std::vector<PlyElement> elements;
 };
 
@@ -39,17 +47,33 @@ unsigned long long type_bytes(std::string_view type, const TextPlace& place) {
 
 void read_property(std::string_view line, const TextPlace& place, PlyHeader& header) {
     if (header.elements.empty()) fail_at(place, "a property before the first element");
+    PlyProperty property;
     std::string_view type = next_word(line);
-    if (type == "list") type = next_word(line);  // an empty list is its count alone
-    header.elements.back().least_bytes += type_bytes(type, place);
-    header.elements.back().properties += 1;
+    if (type == "list") {
+        type = next_word(line);
+        property.count_bytes = type_bytes(type, place);
+        if (type.starts_with("float") || type.starts_with("double"))
+            fail_at(place, "the length of a list must be a whole number, not a " + shown(type));
+        type = next_word(line);
+    }
+    property.item_bytes = type_bytes(type, place);
+    PlyElement& element = header.elements.back();
+    // An empty list is its count alone.
+    element.least_bytes += property.count_bytes > 0 ? property.count_bytes : property.item_bytes;
+    element.properties.push_back(property);
 }
 
 void read_header_line(std::string_view line, const TextPlace& place, PlyHeader& header) {
     const std::string_view keyword = next_word(line);
-    if (keyword == "format") header.text = next_word(line) == "ascii";
-    if (keyword == "property") read_property(line, place, header);
-    if (keyword != "element") return;
+    if (keyword == "ply" || keyword == "comment" || keyword == "obj_info" || keyword.empty()) return;
+    if (keyword == "property") return read_property(line, place, header);
+    if (keyword == "format") {
+        const std::string_view format = next_word(line);
+        header.text = format == "ascii";
+        header.big_endian = format == "binary_big_endian";
+        return;
+    }
+    if (keyword != "element") fail_at(place, "unknown word in the header of a PLY file: " + shown(keyword));
     const std::string name(next_word(line));
     const long long count = to_integer(next_word(line), place, "element count");
     if (count < 0) fail_at(place, "element count is " + std::to_string(count));
@@ -85,16 +109,80 @@ unsigned long long room(std::istream& in, bool text) {
     return static_cast<unsigned long long>(in.tellg() - start);
 }
 
-void check_ply(std::istream& in, const std::string& file) {
-    const PlyHeader header = read_ply_header(in, file);
-    unsigned long long left = room(in, header.text);
+void check_counts(const PlyHeader& header, unsigned long long left, const std::string& file) {
     for (const PlyElement& element : header.elements) {
-        if (element.properties == 0 || element.count == 0) continue;
+        if (element.properties.empty() || element.count == 0) continue;
         const unsigned long long each = header.text ? 1 : element.least_bytes;
         if (element.count > left / each)
             fail_claim(file, std::to_string(element.count) + " elements \"" + element.name + "\"", left / each);
         left -= element.count * each;
     }
+}
+
+/// What stands behind a PLY header, read from front to back.
+struct PlyBody {
+    const PlyHeader& header;
+    std::string bytes;
+    std::string_view rest;
+
+    /// How long a list is that begins here.
+    unsigned long long length(const PlyProperty& list) {
+        if (header.text) {
+            const std::string_view word = next_word(rest);
+            unsigned long long count = 0;
+            const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), count);
+            return status == std::errc() && end == word.data() + word.size() ? count : most();
+        }
+        unsigned long long count = 0;
+        for (std::size_t k = 0; k < list.count_bytes; ++k) {
+            const std::size_t at = header.big_endian ? k : list.count_bytes - 1 - k;
+            count = count << 8 | static_cast<unsigned char>(rest[at]);
+        }
+        rest.remove_prefix(list.count_bytes);
+        return count;
+    }
+
+    /// Leaves out values; false if there are not so many.
+    bool skip(unsigned long long count, unsigned long long bytes_each) {
+        if (count > rest.size() / (header.text ? 1 : bytes_each)) return false;
+        if (!header.text) rest.remove_prefix(count * bytes_each);
+        for (unsigned long long k = 0; header.text && k < count; ++k) {
+            if (next_word(rest).empty()) return false;
+        }
+        return true;
+    }
+
+    static unsigned long long most() { return std::numeric_limits<unsigned long long>::max(); }
+
+    bool skip(const PlyProperty& property) {
+        if (property.count_bytes == 0) return skip(1, property.item_bytes);
+        if (rest.size() < (header.text ? 1 : property.count_bytes)) return false;
+        return skip(length(property), property.item_bytes);
+    }
+};
+
+/// Lists must not be longer than the file, or reading them takes any time and memory.
+void check_lists(std::istream& in, const PlyHeader& header, const std::string& file) {
+    PlyBody body{header, {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}, {}};
+    if (header.text) std::replace(body.bytes.begin(), body.bytes.end(), '\n', ' ');
+    body.rest = body.bytes;
+    for (const PlyElement& element : header.elements) {
+        for (unsigned long long k = 0; k < (element.properties.empty() ? 0 : element.count); ++k) {
+            const auto fits = [&](const PlyProperty& property) { return body.skip(property); };
+            if (std::all_of(element.properties.begin(), element.properties.end(), fits)) continue;
+            throw SceneError(file + ": the file ends within element \"" + element.name + "\" " + std::to_string(k));
+        }
+    }
+}
+
+void check_ply(std::istream& in, const std::string& file) {
+    const PlyHeader header = read_ply_header(in, file);
+    const auto start = in.tellg();
+    const unsigned long long left = room(in, header.text);
+    in.clear();
+    in.seekg(start);
+    check_counts(header, left, file);
+    check_lists(in, header, file);
 }
 
 /// Binary STL: 80 bytes of title, a 32-bit count, 50 bytes a triangle. Text files start with "solid" and have no counts; a binary

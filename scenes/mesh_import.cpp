@@ -1,9 +1,7 @@
 #include "mesh_import.h"
 
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cerrno>
@@ -69,9 +67,22 @@ void check_finite(const Point& x, std::size_t vertex, const std::string& file) {
             throw SceneError(file + ": vertex " + std::to_string(vertex) + ": coordinate " + names[axis] + " is not finite");
 }
 
+/// Fans a face from its first corner; points and lines give nothing. assimp's own way to triangles follows indices that are out
+/// of range, and ends the program where a polygon has no area.
+void append_face(const aiMesh& part, unsigned number, std::size_t first, const std::string& file, TriangleMesh& mesh) {
+    const std::span<const unsigned> indices(part.mFaces[number].mIndices, part.mFaces[number].mNumIndices);
+    for (const unsigned index : indices) {
+        if (index < part.mNumVertices) continue;
+        throw SceneError(file + ": face " + std::to_string(number) + ": vertex index " + std::to_string(index) +
+                         " is out of range 0 ... " + std::to_string(static_cast<long>(part.mNumVertices) - 1));
+    }
+    const auto corner = [&](std::size_t k) { return static_cast<int>(first + indices[k]); };
+    for (std::size_t k = 2; k < indices.size(); ++k) mesh.triangles.push_back({corner(0), corner(k - 1), corner(k)});
+}
+
 /// Appends one mesh of an imported scene with its node's transform.
 void append(const aiMesh& part, const aiMatrix4x4& to_world, const std::string& file, TriangleMesh& mesh) {
-    if ((part.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) return;
+    if ((part.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)) == 0) return;
     const std::size_t first = mesh.vertices.size();
     if (first + part.mNumVertices > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw SceneError(file + ": more vertices than an index can name");
@@ -80,13 +91,7 @@ void append(const aiMesh& part, const aiMatrix4x4& to_world, const std::string& 
         const aiVector3D x = to_world * part.mVertices[k];
         mesh.vertices.emplace_back(x.x, x.y, x.z);
     }
-    for (unsigned k = 0; k < part.mNumFaces; ++k) {
-        const aiFace& face = part.mFaces[k];
-        if (face.mNumIndices != 3) continue;  // points and lines
-        Triangle triangle{};
-        for (unsigned corner = 0; corner < 3; ++corner) triangle[corner] = static_cast<int>(first + face.mIndices[corner]);
-        mesh.triangles.push_back(triangle);
-    }
+    for (unsigned k = 0; k < part.mNumFaces; ++k) append_face(part, k, first, file, mesh);
 }
 
 /// How often a file places its parts is not bounded by its size: vertices allowed.
@@ -129,33 +134,12 @@ TriangleMesh weld(const TriangleMesh& split) {
     return mesh;
 }
 
-void check_indices(const aiMesh& part, const std::string& file) {
-    for (unsigned k = 0; k < part.mNumFaces; ++k) {
-        const std::span<const unsigned> indices(part.mFaces[k].mIndices, part.mFaces[k].mNumIndices);
-        const auto wrong =
-            std::find_if(indices.begin(), indices.end(), [&](unsigned index) { return index >= part.mNumVertices; });
-        if (wrong == indices.end()) continue;
-        throw SceneError(file + ": face " + std::to_string(k) + ": vertex index " + std::to_string(*wrong) +
-                         " is out of range 0 ... " + std::to_string(static_cast<long>(part.mNumVertices) - 1));
-    }
-}
-
-/// In two steps, as assimp follows the indices of polygons when it makes triangles of them, whatever they are.
-const aiScene* read_triangles(Assimp::Importer& importer, const std::string& file) {
-    const aiScene* scene = importer.ReadFile(file, 0);
-    if (scene == nullptr) return nullptr;
-    for (unsigned k = 0; k < scene->mNumMeshes; ++k) check_indices(*scene->mMeshes[k], file);
-    return importer.ApplyPostProcessing(aiProcess_Triangulate);
-}
-
 /// Exporters split vertices at seams of texture or shading, and STL shares none.
 TriangleMesh read_with_assimp(const std::string& file) {
     Assimp::Importer importer;
     const aiScene* scene = nullptr;
     try {
-        scene = read_triangles(importer, file);
-    } catch (const SceneError&) {
-        throw;
+        scene = importer.ReadFile(file, 0);
     } catch (const std::exception& error) {
         throw SceneError(file + ": cannot be imported: " + error.what());
     }

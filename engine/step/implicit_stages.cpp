@@ -154,14 +154,13 @@ NewtonReport solve_trapezoid(World& world, StepFraction span, bool go_on) {
     return report;
 }
 
-/// Rows one after another, as a row changes what the next ones see: by their features, since the order in which they were found
-/// depends on the axes.
-std::span<const std::size_t> in_order_of_features(const ContactRows& rows, std::vector<std::size_t>& order) {
+/// The nearest row first. A row changes what the next ones see, and the order in which they were found depends on the axes.
+std::span<const std::size_t> in_order_of_distance(const ContactRows& rows, std::vector<std::size_t>& order) {
     order.resize(rows.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::tie(rows.vertex[a], rows.obstacle[a], rows.feature[a]) <
-               std::tie(rows.vertex[b], rows.obstacle[b], rows.feature[b]);
+        return std::tie(rows.distance[a], rows.vertex[a], rows.feature[a]) <
+               std::tie(rows.distance[b], rows.vertex[b], rows.feature[b]);
     });
     return order;
 }
@@ -170,7 +169,7 @@ std::span<const std::size_t> in_order_of_features(const ContactRows& rows, std::
 /// than it went in the mean of the stage, and not at all if it came nearer.
 void settle_impacts(World& world, const Vectors& start, double length) {
     const ContactRows& rows = world.newton.current.forces.rows;
-    for (const std::size_t row : in_order_of_features(rows, world.stages.row_order)) {
+    for (const std::size_t row : in_order_of_distance(rows, world.stages.row_order)) {
         if (rows.distance[row] >= rows.thickness[row]) continue;
         Vec3 velocity = -rows.obstacle_displacement[row] / world.settings.time_step, mean = velocity;
         double mobility = 0.0;

@@ -138,7 +138,7 @@ std::vector<TightWay> tight_ways() {
             {{"hanging, TR-BDF2", {.settings = tight(Scheme::tr_bdf2), .ball = false}, 30}},
             {{"on a ball, penalty", {.settings = tight(Scheme::backward_euler)}, 20}},
             {{"on a ball, projection", {.settings = tight(Scheme::backward_euler, ContactResponse::projection)}, 20}, 1e-4},
-            {{"on a ball, TR-BDF2", {.settings = tight(Scheme::tr_bdf2)}, 15}}};
+            {{"on a ball, TR-BDF2", {.settings = tight(Scheme::tr_bdf2)}, 10}}};
 }
 
 constexpr double size = 0.4;  // m, of the sheet, to which differences are relative

@@ -61,11 +61,27 @@ TEST_CASE("the counts of a PLY cannot be made to wrap around") {
     CHECK(refusal_of(".ply", ply_header(format, "-3", "1")) == ":4: element count is -3");
 }
 
+TEST_CASE("the lists of a PLY must end within the file") {
+    const std::string text = ply_header("ascii", "3", "1") + "0 0 0\n1 0 0\n0 1 0\n";
+    CHECK(refusal_of(".ply", text + "2000000000 0 1 2\n") == ": the file ends within element \"face\" 0");
+    CHECK(refusal_of(".ply", text + "-3 0 1 2\n") == ": the file ends within element \"face\" 0");
+    for (const std::string format : {"binary_little_endian", "binary_big_endian"}) {
+        const std::string vertices(48, '\0'), indices(12, '\0');
+        CHECK(refusal_of(".ply", ply_header(format, "3", "1") + vertices + '\3' + indices).empty());
+        CHECK(refusal_of(".ply", ply_header(format, "3", "1") + vertices + '\4' + indices) ==
+              ": the file ends within element \"face\" 0");
+    }
+}
+
 TEST_CASE("a PLY header that cannot be understood is refused") {
     CHECK(refusal_of(".ply", "OFF\n") == ":1: not a PLY file: it starts with \"OFF\"");
     CHECK(refusal_of(".ply", "ply\nformat ascii 1.0\nelement vertex 3\n") == ": not a PLY file: its header has no end");
     CHECK(refusal_of(".ply", "ply\nproperty float x\n") == ":2: a property before the first element");
     CHECK(refusal_of(".ply", "ply\nelement vertex 3\nproperty half x\n") == ":3: unknown PLY type \"half\"");
+    CHECK(refusal_of(".ply", "ply\nelement vertex 3\nprortey float x\n") ==
+          ":3: unknown word in the header of a PLY file: \"prortey\"");
+    CHECK(refusal_of(".ply", "ply\nelement face 3\nproperty list float int x\n") ==
+          ":3: the length of a list must be a whole number, not a \"float\"");
 }
 
 TEST_CASE("a binary STL needs 50 bytes a triangle") {

