@@ -89,11 +89,14 @@ void set_end_acceleration(World& world) {
                      stages.acceleration);
 }
 
-/// The old acceleration of the trapezoid, M a = f + what the last solve left unbalanced. Without that, stiff springs would answer
-/// an error e of the solver's positions by (w h)^2 e, and again in each step.
-void set_old_accelerations(World& world) {
+/// The old acceleration of the trapezoid, M a = f + what the last solve left unbalanced, seams as long as they were. Without
+/// that, stiff springs would answer an error e of the solver's positions, or what a seam closes by, by (w h)^2 e, and again in
+/// each step.
+void set_old_accelerations(World& world, StepFraction span) {
     StageSpace& stages = world.stages;
+    if (world.plan.seams_close) set_seams_at(world, span.from);
     set_accelerations(world, stages.start, stages.acceleration);
+    if (world.plan.seams_close) set_seams_at(world, span.to);
     if (stages.unbalanced.padded_size() == 0) return;
     for (int i = 0; i < world.model.vertex_count(); ++i) {
         if (world.script.free[i] > 0.0) stages.acceleration.add(i, stages.unbalanced.at(i) / world.model.mass[i]);
@@ -137,7 +140,7 @@ NewtonReport solve_midpoint(World& world, StepFraction span) {
 
 NewtonReport solve_trapezoid(World& world, StepFraction span, bool go_on) {
     StageSpace& stages = world.stages;
-    set_old_accelerations(world);
+    set_old_accelerations(world, span);
     set_trapezoid_base(stages.start, stages.acceleration, world.settings.time_step * (span.to - span.from), stages.base);
     const NewtonReport report = solve_from_base(world, span, 1.0);
     stages.error += report.time_error;
@@ -186,7 +189,7 @@ NewtonReport solve_tr_bdf2(World& world, StepFraction span, bool go_on) {
     StageSpace& stages = world.stages;
     const double length = world.settings.time_step * (span.to - span.from), first = trapezoid_share * length;
     const double middle = span.from + trapezoid_share * (span.to - span.from);
-    set_old_accelerations(world);
+    set_old_accelerations(world, span);
     set_trapezoid_base(stages.start, stages.acceleration, first, stages.base);
     const NewtonReport trapezoid = solve_from_base(world, {span.from, middle}, 2.0);
     if (!usable(trapezoid.end, go_on)) return trapezoid;

@@ -29,6 +29,11 @@ void set_part_seams(World& world, StepFraction span) {
     }
 }
 
+void set_seams_at(World& world, double fraction) {
+    for (const Seam& seam : world.script.seams)
+        set_seam_lengths(seam, world.time + fraction * world.settings.time_step, world.state.positions, world.model);
+}
+
 StepWind* set_wind_at(World& world, const Vectors& positions) {
     if (!world.plan.wind) return nullptr;
     set_step_wind(world.model, *world.settings.wind, world.settings.air_density, positions, world.wind);

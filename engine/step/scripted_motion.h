@@ -18,6 +18,9 @@ void set_part_targets(World& world, double fraction);
 /// are now, J.
 void set_part_seams(World& world, StepFraction span);
 
+/// Gives seams the rest lengths of a time within the step.
+void set_seams_at(World& world, double fraction);
+
 /// The air around cloth that lies at these positions, if there is any; null: none.
 StepWind* set_wind_at(World& world, const Vectors& positions);
 
