@@ -25,7 +25,7 @@ const char* word_of(StressVerdict verdict);
 struct StressFigures {
     bool finite = true;
     bool pins_kept = true;     // to the bit
-    double gain = 0.0;         // total energy above that of the start and work, largest
+    double gain = 0.0;         // total energy above that of the start and work, largest; see StressWatch
     double bound = 0.0;        // what `gain` may be
     double step_excess = 0.0;  // backward Euler: gain of a step above its own bound, largest
     double residual = 0.0;     // largest of a step
@@ -37,7 +37,8 @@ struct StressFigures {
     std::string said = {};      // warnings of the plan, or why it was refused
 };
 
-/// Collects the figures of a run, step by step.
+/// Collects the figures of a run, step by step. Of backward Euler the work of what the solver left unbalanced counts as work: its
+/// law is E <= E_0 + both.
 class StressWatch {
 public:
     /// The simulation before its first step; it must report energies.
@@ -59,6 +60,7 @@ private:
     double start_ = 0.0, inner_ = 0.0, gravity_ = 0.0;  // J, at the start: total, kinetic and elastic, of gravity
     double before_ = 0.0;                               // J, total before the coming step
     double work_ = 0.0, handled_ = 0.0, fallen_ = 0.0;  // J: work, its size, most that gravity gave
+    double unbalanced_ = 0.0;                           // J, size of the work of what backward Euler's solver left
     std::vector<std::vector<Vec3>> velocities_;         // m/s, before the coming step
 };
 
