@@ -1,6 +1,7 @@
 #include "mesh_header.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
@@ -30,7 +31,7 @@ struct PlyElement {
 };
 
 struct PlyHeader {
-    bool text = false, big_endian = false;
+    bool has_format = false, text = false, big_endian = false;
     std::vector<PlyElement> elements;
 };
 
@@ -63,16 +64,27 @@ void read_property(std::string_view line, const TextPlace& place, PlyHeader& hea
     element.properties.push_back(property);
 }
 
+void read_format(std::string_view format, const TextPlace& place, PlyHeader& header) {
+    constexpr std::array<std::string_view, 3> known = {"ascii", "binary_little_endian", "binary_big_endian"};
+    if (std::find(known.begin(), known.end(), format) == known.end()) fail_at(place, "unknown PLY format " + shown(format));
+    if (header.has_format) fail_at(place, "a second format");
+    header.has_format = true;
+    header.text = format == known[0];
+    header.big_endian = format == known[2];
+}
+
 void read_header_line(std::string_view line, const TextPlace& place, PlyHeader& header) {
-    const std::string_view keyword = next_word(line);
-    if (keyword == "ply" || keyword == "comment" || keyword == "obj_info" || keyword.empty()) return;
-    if (keyword == "property") return read_property(line, place, header);
-    if (keyword == "format") {
-        const std::string_view format = next_word(line);
-        header.text = format == "ascii";
-        header.big_endian = format == "binary_big_endian";
-        return;
+    const std::string_view all = line, keyword = next_word(line);
+    const bool free_text = keyword == "comment" || keyword == "obj_info";
+    // Other readers take a line to end at a control character.
+    for (const char letter : all) {
+        const auto code = static_cast<unsigned char>(letter);
+        if ((code >= ' ' || letter == '\t' || letter == '\r') && (code <= '~' || free_text)) continue;
+        fail_at(place, "a character in the header of a PLY file that is no text: code " + std::to_string(code));
     }
+    if (keyword == "ply" || free_text || keyword.empty()) return;
+    if (keyword == "property") return read_property(line, place, header);
+    if (keyword == "format") return read_format(next_word(line), place, header);
     if (keyword != "element") fail_at(place, "unknown word in the header of a PLY file: " + shown(keyword));
     const std::string name(next_word(line));
     const long long count = to_integer(next_word(line), place, "element count");

@@ -78,6 +78,11 @@ TEST_CASE("a PLY header that cannot be understood is refused") {
     CHECK(refusal_of(".ply", "ply\nformat ascii 1.0\nelement vertex 3\n") == ": not a PLY file: its header has no end");
     CHECK(refusal_of(".ply", "ply\nproperty float x\n") == ":2: a property before the first element");
     CHECK(refusal_of(".ply", "ply\nelement vertex 3\nproperty half x\n") == ":3: unknown PLY type \"half\"");
+    CHECK(refusal_of(".ply", "ply\nformat binary\n") == ":2: unknown PLY format \"binary\"");
+    CHECK(refusal_of(".ply", "ply\nformat ascii 1.0\nformat ascii 1.0\n") == ":3: a second format");
+    CHECK(refusal_of(".ply", "ply\ncomment a \x05 b\n") == ":2: a character in the header of a PLY file that is no text: code 5");
+    CHECK(refusal_of(".ply", "ply\nelement v\xff 3\n") ==
+          ":2: a character in the header of a PLY file that is no text: code 255");
     CHECK(refusal_of(".ply", "ply\nelement vertex 3\nprortey float x\n") ==
           ":3: unknown word in the header of a PLY file: \"prortey\"");
     CHECK(refusal_of(".ply", "ply\nelement face 3\nproperty list float int x\n") ==
