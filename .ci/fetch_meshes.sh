@@ -13,7 +13,7 @@ if [ "${1:-}" = --required ]; then
 fi
 case "${1:-}" in -*) echo "fetch_meshes.sh: no option '$1' (--required)"; exit 2 ;; esac
 
-directory=${1:-"$(cd "$(dirname "$0")/.." && pwd)/build/real_meshes"}
+directory=$(realpath -m "${1:-"$(dirname "$0")/../build/real_meshes"}")
 meshes=(man armadillo bunny00 refined_elephant elephant fandisk anchor_dense knot1 hand larger_sphere
         b9_mesh blobby_3cc elephant-with-holes boeing ALSTOM_TEST4 sphere966 dino cactus)
 
