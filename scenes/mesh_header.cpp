@@ -64,6 +64,17 @@ void read_property(std::string_view line, const TextPlace& place, PlyHeader& hea
     element.properties.push_back(property);
 }
 
+bool is_free_text(std::string_view keyword) { return keyword == "comment" || keyword == "obj_info"; }
+
+/// Other readers take a line to end at a control character.
+void check_letters(std::string_view line, std::string_view keyword, const TextPlace& place) {
+    for (const char letter : line) {
+        const auto code = static_cast<unsigned char>(letter);
+        if ((code >= ' ' || letter == '\t' || letter == '\r') && (code <= '~' || is_free_text(keyword))) continue;
+        fail_at(place, "a character in the header of a PLY file that is no text: code " + std::to_string(code));
+    }
+}
+
 void read_format(std::string_view format, const TextPlace& place, PlyHeader& header) {
     constexpr std::array<std::string_view, 3> known = {"ascii", "binary_little_endian", "binary_big_endian"};
     if (std::find(known.begin(), known.end(), format) == known.end()) fail_at(place, "unknown PLY format " + shown(format));
@@ -74,15 +85,8 @@ void read_format(std::string_view format, const TextPlace& place, PlyHeader& hea
 }
 
 void read_header_line(std::string_view line, const TextPlace& place, PlyHeader& header) {
-    const std::string_view all = line, keyword = next_word(line);
-    const bool free_text = keyword == "comment" || keyword == "obj_info";
-    // Other readers take a line to end at a control character.
-    for (const char letter : all) {
-        const auto code = static_cast<unsigned char>(letter);
-        if ((code >= ' ' || letter == '\t' || letter == '\r') && (code <= '~' || free_text)) continue;
-        fail_at(place, "a character in the header of a PLY file that is no text: code " + std::to_string(code));
-    }
-    if (keyword == "ply" || free_text || keyword.empty()) return;
+    const std::string_view keyword = next_word(line);
+    if (keyword == "ply" || is_free_text(keyword) || keyword.empty()) return;
     if (keyword == "property") return read_property(line, place, header);
     if (keyword == "format") return read_format(next_word(line), place, header);
     if (keyword != "element") fail_at(place, "unknown word in the header of a PLY file: " + shown(keyword));
@@ -99,6 +103,7 @@ PlyHeader read_ply_header(std::istream& in, const std::string& name) {
         std::string_view words = line;
         const std::string_view keyword = next_word(words);
         if (number == 1 && keyword != "ply") fail_at({name, number}, "not a PLY file: it starts with " + shown(keyword));
+        check_letters(line, keyword, {name, number});
         if (keyword == "end_header") return header;
         read_header_line(line, {name, number}, header);
     }
