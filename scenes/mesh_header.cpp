@@ -46,6 +46,19 @@ unsigned long long type_bytes(std::string_view type, const TextPlace& place) {
     fail_at(place, "unknown PLY type " + shown(type));
 }
 
+/// Of an element or a property. Other readers skip what does not begin like a name.
+std::string read_name(std::string_view& line, const TextPlace& place) {
+    const std::string_view name = next_word(line);
+    const char first = name.empty() ? ' ' : name[0];
+    if ((first >= 'A' && first <= 'Z') || (first >= 'a' && first <= 'z') || first == '_') return std::string(name);
+    fail_at(place, "a name must begin with a letter, not " + shown(name));
+}
+
+void check_end(std::string_view line, const TextPlace& place) {
+    const std::string_view word = next_word(line);
+    if (!word.empty()) fail_at(place, "more than belongs on this line of a PLY header: " + shown(word));
+}
+
 void read_property(std::string_view line, const TextPlace& place, PlyHeader& header) {
     if (header.elements.empty()) fail_at(place, "a property before the first element");
     PlyProperty property;
@@ -58,6 +71,8 @@ void read_property(std::string_view line, const TextPlace& place, PlyHeader& hea
         type = next_word(line);
     }
     property.item_bytes = type_bytes(type, place);
+    read_name(line, place);
+    check_end(line, place);
     PlyElement& element = header.elements.back();
     // An empty list is its count alone.
     element.least_bytes += property.count_bytes > 0 ? property.count_bytes : property.item_bytes;
@@ -90,9 +105,10 @@ void read_header_line(std::string_view line, const TextPlace& place, PlyHeader& 
     if (keyword == "property") return read_property(line, place, header);
     if (keyword == "format") return read_format(next_word(line), place, header);
     if (keyword != "element") fail_at(place, "unknown word in the header of a PLY file: " + shown(keyword));
-    const std::string name(next_word(line));
+    const std::string name = read_name(line, place);
     const long long count = to_integer(next_word(line), place, "element count");
     if (count < 0) fail_at(place, "element count is " + std::to_string(count));
+    check_end(line, place);
     header.elements.push_back({name, static_cast<unsigned long long>(count)});
 }
 
