@@ -46,6 +46,19 @@ unsigned long long type_bytes(std::string_view type, const TextPlace& place) {
     fail_at(place, "unknown PLY type " + shown(type));
 }
 
+/// Of an element or a property. Other readers skip what does not begin like a name.
+std::string read_name(std::string_view& line, const TextPlace& place) {
+    const std::string_view name = next_word(line);
+    const char first = name.empty() ? ' ' : name[0];
+    if ((first >= 'A' && first <= 'Z') || (first >= 'a' && first <= 'z') || first == '_') return std::string(name);
+    fail_at(place, "a name must begin with a letter, not " + shown(name));
+}
+
+void check_end(std::string_view line, const TextPlace& place) {
+    const std::string_view word = next_word(line);
+    if (!word.empty()) fail_at(place, "more than belongs on this line of a PLY header: " + shown(word));
+}
+
 void read_property(std::string_view line, const TextPlace& place, PlyHeader& header) {
     if (header.elements.empty()) fail_at(place, "a property before the first element");
     PlyProperty property;
@@ -58,10 +71,23 @@ void read_property(std::string_view line, const TextPlace& place, PlyHeader& hea
         type = next_word(line);
     }
     property.item_bytes = type_bytes(type, place);
+    read_name(line, place);
+    check_end(line, place);
     PlyElement& element = header.elements.back();
     // An empty list is its count alone.
     element.least_bytes += property.count_bytes > 0 ? property.count_bytes : property.item_bytes;
     element.properties.push_back(property);
+}
+
+bool is_free_text(std::string_view keyword) { return keyword == "comment" || keyword == "obj_info"; }
+
+/// Other readers take a line to end at a control character.
+void check_letters(std::string_view line, std::string_view keyword, const TextPlace& place) {
+    for (const char letter : line) {
+        const auto code = static_cast<unsigned char>(letter);
+        if ((code >= ' ' || letter == '\t' || letter == '\r') && (code <= '~' || is_free_text(keyword))) continue;
+        fail_at(place, "a character in the header of a PLY file that is no text: code " + std::to_string(code));
+    }
 }
 
 void read_format(std::string_view format, const TextPlace& place, PlyHeader& header) {
@@ -74,21 +100,15 @@ void read_format(std::string_view format, const TextPlace& place, PlyHeader& hea
 }
 
 void read_header_line(std::string_view line, const TextPlace& place, PlyHeader& header) {
-    const std::string_view all = line, keyword = next_word(line);
-    const bool free_text = keyword == "comment" || keyword == "obj_info";
-    // Other readers take a line to end at a control character.
-    for (const char letter : all) {
-        const auto code = static_cast<unsigned char>(letter);
-        if ((code >= ' ' || letter == '\t' || letter == '\r') && (code <= '~' || free_text)) continue;
-        fail_at(place, "a character in the header of a PLY file that is no text: code " + std::to_string(code));
-    }
-    if (keyword == "ply" || free_text || keyword.empty()) return;
+    const std::string_view keyword = next_word(line);
+    if (keyword == "ply" || is_free_text(keyword) || keyword.empty()) return;
     if (keyword == "property") return read_property(line, place, header);
     if (keyword == "format") return read_format(next_word(line), place, header);
     if (keyword != "element") fail_at(place, "unknown word in the header of a PLY file: " + shown(keyword));
-    const std::string name(next_word(line));
+    const std::string name = read_name(line, place);
     const long long count = to_integer(next_word(line), place, "element count");
     if (count < 0) fail_at(place, "element count is " + std::to_string(count));
+    check_end(line, place);
     header.elements.push_back({name, static_cast<unsigned long long>(count)});
 }
 
@@ -99,6 +119,7 @@ PlyHeader read_ply_header(std::istream& in, const std::string& name) {
         std::string_view words = line;
         const std::string_view keyword = next_word(words);
         if (number == 1 && keyword != "ply") fail_at({name, number}, "not a PLY file: it starts with " + shown(keyword));
+        check_letters(line, keyword, {name, number});
         if (keyword == "end_header") return header;
         read_header_line(line, {name, number}, header);
     }

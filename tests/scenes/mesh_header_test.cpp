@@ -81,6 +81,9 @@ TEST_CASE("a PLY header that cannot be understood is refused") {
     CHECK(refusal_of(".ply", "ply\nformat binary\n") == ":2: unknown PLY format \"binary\"");
     CHECK(refusal_of(".ply", "ply\nformat ascii 1.0\nformat ascii 1.0\n") == ":3: a second format");
     CHECK(refusal_of(".ply", "ply\ncomment a \x05 b\n") == ":2: a character in the header of a PLY file that is no text: code 5");
+    CHECK(refusal_of(".ply", "ply\nend_header\v\n") == ":2: a character in the header of a PLY file that is no text: code 11");
+    CHECK(refusal_of(".ply", "ply\nelement 1vertex 3\n") == ":2: a name must begin with a letter, not \"1vertex\"");
+    CHECK(refusal_of(".ply", "ply\nelement vertex 3 4\n") == ":2: more than belongs on this line of a PLY header: \"4\"");
     CHECK(refusal_of(".ply", "ply\nelement v\xff 3\n") ==
           ":2: a character in the header of a PLY file that is no text: code 255");
     CHECK(refusal_of(".ply", "ply\nelement vertex 3\nprortey float x\n") ==
