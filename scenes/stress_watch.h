@@ -37,8 +37,8 @@ struct StressFigures {
     std::string said = {};      // warnings of the plan, or why it was refused
 };
 
-/// Collects the figures of a run, step by step. Of backward Euler the work of what the solver left unbalanced counts as work: its
-/// law is E <= E_0 + both.
+/// Collects the figures of a run, step by step. Of backward Euler the work of what the solver left unbalanced counts as work;
+/// where pins, seams or obstacles do work its bound becomes that of schemes without a law.
 class StressWatch {
 public:
     /// The simulation before its first step; it must report energies.

@@ -42,6 +42,17 @@ TEST_CASE("A pin that moves in its last bit is seen, and so is energy that came 
     CHECK(watch.figures.step_excess > 1.0);
 }
 
+TEST_CASE("Where a pin is moved backward Euler has the bound of the other schemes") {
+    StressCase made = make_case({.start = StressStart::hang});
+    StressWatch watch(made.simulation, made.cloths, {});
+    watch.figures.bound = gain_bound(Scheme::backward_euler, 1e-2, 1.0);
+    watch.look(made.simulation.step(), made.simulation);
+    CHECK(watch.figures.bound == gain_bound(Scheme::backward_euler, 1e-2, 1.0));
+    made.simulation.move_pin(made.cloths[0], 0, made.held[0].place + Vec3(0.0, 0.01, 0.0));
+    watch.look(made.simulation.step(), made.simulation);
+    CHECK(watch.figures.bound == 1.0);
+}
+
 TEST_CASE("An explicit scheme beyond its step gains energy or ends with a status, and the plan has said so") {
     const StressFigures figures = watched({.scheme = Scheme::rk4, .time_step = 0.1, .stiffness = 1e6}, 16);
     CHECK(figures.said.find("longer than the longest stable one") != std::string::npos);
