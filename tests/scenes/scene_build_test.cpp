@@ -285,7 +285,7 @@ TEST_CASE("every detector carries the same scene through the same states") {
 }
 
 TEST_CASE("a preset on a mesh is isotropic and says so; on a grid, or with moduli of its own, it is not touched") {
-    const test::TestFolder folder("preset_on_mesh");
+    const test::TestFolder folder;
     const BuiltScene on_mesh = build_scene(load_scene(mesh_scene(folder, square, "", "preset = \"denim_11oz\"")));
     REQUIRE(on_mesh.warnings.size() == 1);
     const std::string& warning = on_mesh.warnings.front();

@@ -174,7 +174,8 @@ scenes::BuiltScene build(const Draw& draw) {
                              .cloths = {},
                              .cloth_meshes = {draw.cloth.mesh},
                              .obstacles = {},
-                             .obstacle_meshes = {draw.obstacle.mesh}};
+                             .obstacle_meshes = {draw.obstacle.mesh},
+                             .warnings = {}};
     built.scene.step = draw.settings;
     built.scene.detector = draw.detector;
     built.scene.fabrics["fabric"] = draw.fabric;
