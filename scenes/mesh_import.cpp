@@ -14,11 +14,12 @@
 #include <span>
 #include <unordered_map>
 
-#include "mesh_header.h"
 #include "obj_file.h"
 #include "off_file.h"
 #include "percale/error.h"
+#include "ply_file.h"
 #include "scene_text.h"
+#include "stl_header.h"
 
 namespace percale::scenes {
 
@@ -36,8 +37,8 @@ std::string format_of(const std::string& file) {
     return word == "ply" ? ".ply" : extension;
 }
 
-/// Formats of meshes that assimp reads in proportion to the file. Not those of scenes that it tessellates or unpacks to any size,
-/// nor raw triangles, on which its reader crashes.
+/// Our own formats and those of meshes that assimp reads in proportion to the file. Not those of scenes that it tessellates or
+/// unpacks to any size, nor raw triangles, on which its reader crashes.
 void check_format(const std::string& file, const std::string& format) {
     static const std::vector<std::string> read = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".dae", ".fbx",
                                                   ".3ds", ".amf", ".x3d", ".dxf", ".lwo",  ".ase", ".x"};
@@ -52,7 +53,16 @@ void check_file(const std::string& file) {
     if (std::filesystem::file_size(file, status) == 0) throw SceneError(file + ": no vertices: the file is empty");
 }
 
-TriangleMesh read_text(const std::string& file, TriangleMesh (*read)(std::istream&, const std::string&)) {
+using Reader = TriangleMesh (*)(std::istream&, const std::string&);
+
+/// Null where assimp reads the format.
+Reader own_reader(const std::string& format) {
+    if (format == ".obj") return read_obj;
+    if (format == ".off") return read_off;
+    return format == ".ply" ? read_ply : nullptr;
+}
+
+TriangleMesh read_with(Reader read, const std::string& file) {
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in) throw SceneError(file + ": cannot be read: " + std::strerror(errno));
@@ -163,13 +173,12 @@ TriangleMesh import_mesh(const std::string& file, double unit) {
     check_file(file);
     const std::string format = format_of(file);
     check_format(file, format);
-    check_mesh_header(file, format);
-    TriangleMesh mesh = format == ".obj"   ? read_text(file, read_obj)
-                        : format == ".off" ? read_text(file, read_off)
-                                           : read_with_assimp(file);
+    if (format == ".stl") check_stl_header(file);
+    const Reader own = own_reader(format);
+    TriangleMesh mesh = own != nullptr ? read_with(own, file) : read_with_assimp(file);
     if (mesh.triangles.empty()) throw SceneError(file + ": no triangles");
     for (std::size_t k = 0; k < mesh.vertices.size(); ++k) check_finite(mesh.vertices[k] *= unit, k, file);
-    return format == ".obj" || format == ".off" ? mesh : weld(mesh);
+    return own != nullptr ? mesh : weld(mesh);
 }
 
 }  // namespace percale::scenes

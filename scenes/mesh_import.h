@@ -9,13 +9,13 @@ namespace percale::scenes {
 /// The extension of a file's name in lower case, with its dot.
 std::string extension_of(const std::string& file);
 
-/// Reads a mesh file. OBJ and OFF by our own readers (vertices exactly the file's, in its order; polygons fanned), PLY, STL, glTF
+/// Reads a mesh file. OBJ, OFF and PLY by our own readers (vertices exactly the file's, in its order; polygons fanned), STL, glTF
 /// and GLB, Collada (DAE), FBX, 3DS, AMF, X3D, DXF, LWO, ASE and X through assimp (float precision; polygons fanned, too; all
 /// parts of the file joined, node transforms applied) with vertices welded by position so that a file's shared vertices are
 /// shared again, in the order of first appearance. Coordinates are multiplied by `unit` (m per unit of the file, > 0). Throws
-/// SceneError naming the file, and the line for OBJ and OFF: missing or unreadable file, empty, NaN or infinite coordinate, index
-/// out of range, no triangles, a header that claims more than the file can hold, another format, copies of parts beyond 64 in the
-/// mean and 100000 vertices.
+/// SceneError naming the file, and the line for OBJ, OFF and PLY in text: missing or unreadable file, empty, NaN or infinite
+/// coordinate, index out of range, no triangles, a header that claims more than the file can hold, another format, copies of
+/// parts beyond 64 in the mean and 100000 vertices.
 TriangleMesh import_mesh(const std::string& file, double unit = 1.0);
 
 }  // namespace percale::scenes

@@ -23,9 +23,7 @@ std::string next_line(std::string_view& text, std::size_t& line_number) {
     std::string joined;
     bool goes_on = true;
     while (goes_on && !text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        std::string_view line = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
+        std::string_view line = take_line(text);
         ++line_number;
         if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
         goes_on = !line.empty() && line.back() == '\\';

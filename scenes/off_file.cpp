@@ -23,9 +23,7 @@ struct OffText {
 /// The next line that says something, without its comment; empty at the end.
 std::string_view next_line(OffText& text) {
     while (!text.rest.empty()) {
-        const std::size_t end = std::min(text.rest.find('\n'), text.rest.size());
-        std::string_view line = text.rest.substr(0, end);
-        text.rest.remove_prefix(std::min(end + 1, text.rest.size()));
+        std::string_view line = take_line(text.rest);
         ++text.line;
         line = line.substr(0, line.find('#'));
         std::string_view words = line;

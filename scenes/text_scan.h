@@ -29,6 +29,14 @@ inline std::string shown(std::string_view word) {
     return "\"" + text + (word.size() > 40 ? "...\"" : "\"");
 }
 
+/// Takes the next line off the front of a text, without its line end.
+inline std::string_view take_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return line;
+}
+
 /// Takes the next word off the front of a line; empty at its end.
 inline std::string_view next_word(std::string_view& line) {
     constexpr std::string_view blank = " \t\r\f\v";
