@@ -81,7 +81,8 @@ stage_sanitizers() {
     UBSAN_OPTIONS=print_stacktrace=1 run_tests build/ci-asan -LE long
 }
 
-# Targets of tests/fuzz for half a minute, from the corpus and what it finds; what fails is left in build/ci-fuzz-found.
+# Targets of tests/fuzz for half a minute, from the corpus and what it finds; what fails is left in build/ci-fuzz-found. Sanitizers
+# make a second about three.
 stage_fuzz() {
     local seconds=${PERCALE_FUZZ_SECONDS:-30} found=$root/build/ci-fuzz-found build_target=fuzz name
     configure_and_build build/ci-fuzz -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo \
@@ -90,7 +91,7 @@ stage_fuzz() {
     for name in scene obj off ply; do
         mkdir -p "$found/$name"
         echo "fuzz $name:"
-        build/ci-fuzz/percale_fuzz_$name -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=8192 \
+        build/ci-fuzz/percale_fuzz_$name -seed=1 -max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048 -max_len=8192 \
             -artifact_prefix="$found/$name-" -print_final_stats=1 "$found/$name" "tests/fuzz/corpus/$name" >"$found/$name.log" 2>&1 ||
             { tail -60 "$found/$name.log"; return 1; }
         grep -a -E '^(Done|stat::number_of_executed_units|stat::peak_rss)' "$found/$name.log"
