@@ -164,9 +164,9 @@ TEST_CASE("checkpoints of other runs, damaged ones and wrong intervals are refus
     CHECK(refused(run_program({"run", "box.toml", "-o", "new", "--resume", file}, folder.path()), "with --replay-hash"));
     CHECK(refused(run_box(folder, {"-o", "new", "--resume", "absent"}), "absent: cannot be read"));
     CHECK(refused(run_box(folder, {"-o", "new", "--resume", "box.toml"}), "box.toml: checkpoint: it is none"));
-    for (const char* interval : {"0", "-1", "x", "1s", "nan", "1e9", ""}) {
+    for (const char* interval : {"0", "-1", "x", "1s", "nan", "1e9"}) {
         CAPTURE(interval);
-        if (*interval) CHECK(refused(run_box(folder, {"-o", "new", "--checkpoint", interval}), "1e-6 ... 1e6 s"));
+        CHECK(refused(run_box(folder, {"-o", "new", "--checkpoint", interval}), "1e-6 ... 1e6 s"));
     }
     CHECK_FALSE(folder.holds("new"));
     CHECK(folder.file_count() == files);
