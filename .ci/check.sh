@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # All that a change must pass, in order; stops at the first stage that fails: .ci/check.sh [STAGE...]
-# Stages: format layers gcc engine_only clang sanitizers fuzz scenes consumer readme. Builds are kept under build/ci-*.
+# Stages: format layers release scenes consumer engine_only sanitizers fuzz. Builds are kept under build/ci-*. Each compiler builds
+# everything once: g++ as the README says, clang++ under sanitizers.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
 
-stages=(format layers gcc engine_only clang sanitizers fuzz scenes consumer readme)
+stages=(format layers release scenes consumer engine_only sanitizers fuzz)
+release_copy="$root/build/ci-release/a path with a space"
 jobs=${PERCALE_JOBS:-2}
 export CMAKE_BUILD_PARALLEL_LEVEL=$jobs CTEST_PARALLEL_LEVEL=$jobs CTEST_OUTPUT_ON_FAILURE=1
 export PERCALE_REAL_MESHES=${PERCALE_REAL_MESHES:-$root/build/real_meshes}
@@ -23,20 +25,13 @@ project_files() {
     fi
 }
 
-# configure_and_build FOLDER [CMAKE ARGUMENT...]; all, or what the caller's variable build_target names.
+# configure_and_build FOLDER [CMAKE ARGUMENT...]
 configure_and_build() {
     local folder=$1 generator=()
     shift
     if command -v ninja >/dev/null; then generator=(-G Ninja); fi
     cmake -B "$folder" "${generator[@]}" -DPERCALE_REAL_MESHES="$PERCALE_REAL_MESHES" "$@" >"$folder.log" 2>&1 || { cat "$folder.log"; return 1; }
-    cmake --build "$folder" --target "${build_target:-all}"
-}
-
-# run_tests FOLDER [CTEST ARGUMENT...]; a build without tests is a failure.
-run_tests() {
-    local folder=$1
-    shift
-    ctest --test-dir "$folder" --no-tests=error "$@" | tee "$folder.ctest.log"
+    cmake --build "$folder"
 }
 
 # The shell or C++ text of the README's fenced block behind the line <!-- ci:NAME -->.
@@ -56,9 +51,34 @@ stage_layers() {
     python3 .ci/perf_gate_test.py
 }
 
-stage_gcc() {
-    configure_and_build build/ci-gcc -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DPERCALE_WERROR=ON
-    run_tests build/ci-gcc
+# The README's two commands, as a newcomer would type them, in a copy of the checkout in a path with a space: the release build by g++
+# and the whole test suite. Packages are there already; warnings are errors; the body scans lie where fetch_meshes.sh puts them.
+stage_release() {
+    local name
+    rm -rf "$root/build/ci-release"
+    mkdir -p "$release_copy/build"
+    project_files | tar --null -T - -cf - | tar -xf - -C "$release_copy"
+    ln -s "$PERCALE_REAL_MESHES" "$release_copy/build/real_meshes"
+    for name in drape test; do
+        readme_block "$name" >"$release_copy/../$name.sh"
+        [ -s "$release_copy/../$name.sh" ] || { echo "README.md has no block behind <!-- ci:$name -->"; return 1; }
+        echo "README, $name:"
+        cat "$release_copy/../$name.sh"
+        (
+            cd "$release_copy"
+            export CXX=g++ CXXFLAGS=-Werror
+            sudo() { "$@"; }
+            apt-get() { echo "(skipped: apt-get $1)"; }
+            set -e
+            # shellcheck source=/dev/null
+            . "../$name.sh"
+        ) | tee "$release_copy/../$name.log"
+    done
+    find "$release_copy" -name report.json -not -path '*/data/*' -not -path '*/Testing/*' -printf '%h\0' >"$release_copy/../runs"
+    [ -s "$release_copy/../runs" ] || { echo "the README's first command left no report.json"; return 1; }
+    xargs -0 -n 1 "$release_copy/build/percale" certify <"$release_copy/../runs"
+    echo "without body scans:"
+    PERCALE_REAL_MESHES=$root/build/ci-release/none ctest --test-dir "$release_copy/build" --no-tests=error -R 'body scan|scanned'
 }
 
 # The engine must build where FCL, Bullet and assimp are missing; CMake is told not to find them.
@@ -68,47 +88,50 @@ stage_engine_only() {
         hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
     done
     configure_and_build build/ci-engine-only --preset engine-only -DCMAKE_CXX_COMPILER=clang++ "${hidden[@]}"
-    run_tests build/ci-engine-only
+    ctest --test-dir build/ci-engine-only --no-tests=error
 }
 
-stage_clang() {
-    configure_and_build build/ci-clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release -DPERCALE_WERROR=ON
-    run_tests build/ci-clang -LE long
+# clang++, address and undefined-behaviour sanitizers, with what the stage fuzz needs.
+build_sanitizers() {
+    configure_and_build build/ci-sanitizers -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+        -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only"
 }
 
 stage_sanitizers() {
-    configure_and_build build/ci-asan --preset asan -DCMAKE_CXX_COMPILER=g++
-    UBSAN_OPTIONS=print_stacktrace=1 run_tests build/ci-asan -LE long
+    build_sanitizers
+    UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/ci-sanitizers --no-tests=error -LE long
 }
 
-# Targets of tests/fuzz for half a minute, from the corpus and what it finds; what fails is left in build/ci-fuzz-found. Sanitizers
-# make a second about three.
+# fuzz_one NAME: from the corpus and what it finds; what fails is left in build/ci-fuzz-found. Sanitizers make a second about three.
+fuzz_one() {
+    local name=$1 found=$root/build/ci-fuzz-found
+    mkdir -p "$found/$name"
+    "build/ci-sanitizers/percale_fuzz_$name" -seed=1 -max_total_time="${PERCALE_FUZZ_SECONDS:-30}" -timeout=30 -rss_limit_mb=2048 -max_len=8192 \
+        -artifact_prefix="$found/$name-" -print_final_stats=1 "$found/$name" "tests/fuzz/corpus/$name" >"$found/$name.log" 2>&1 ||
+        { tail -60 "$found/$name.log"; return 1; }
+    echo "fuzz $name: $(grep -a -E '^(Done|stat::number_of_executed_units|stat::peak_rss)' "$found/$name.log" | paste -s -d ' ')"
+}
+
+# Targets of tests/fuzz for half a minute each, as many at once as there are jobs.
 stage_fuzz() {
-    local seconds=${PERCALE_FUZZ_SECONDS:-30} found=$root/build/ci-fuzz-found build_target=fuzz name
-    configure_and_build build/ci-fuzz -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-        -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only"
-    rm -rf "$found"
-    for name in scene obj off ply; do
-        mkdir -p "$found/$name"
-        echo "fuzz $name:"
-        build/ci-fuzz/percale_fuzz_$name -seed=1 -max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048 -max_len=8192 \
-            -artifact_prefix="$found/$name-" -print_final_stats=1 "$found/$name" "tests/fuzz/corpus/$name" >"$found/$name.log" 2>&1 ||
-            { tail -60 "$found/$name.log"; return 1; }
-        grep -a -E '^(Done|stat::number_of_executed_units|stat::peak_rss)' "$found/$name.log"
-    done
+    build_sanitizers
+    rm -rf "$root/build/ci-fuzz-found"
+    export -f fuzz_one
+    export root
+    printf '%s\n' tests/fuzz/*_target.cpp | sed 's|.*/\(.*\)_target.cpp|\1|' | xargs -P "$jobs" -n 1 bash -c 'fuzz_one "$1"' fuzz_one
 }
 
 stage_scenes() {
-    [ -x build/ci-gcc/percale ] || { echo "build/ci-gcc/percale is missing: run the stage gcc first"; return 1; }
-    build/ci-gcc/percale check data/scenes/*.toml
+    [ -x "$release_copy/build/percale" ] || { echo "$release_copy/build/percale is missing: run the stage release first"; return 1; }
+    "$release_copy/build/percale" check data/scenes/*.toml
 }
 
 # Installs into a fresh prefix and builds somebody else's program against it, by CMake and by pkg-config.
 stage_consumer() {
     local prefix=$root/build/ci-install scratch=$root/build/ci-consumer pc_path
-    [ -d build/ci-gcc ] || { echo "build/ci-gcc is missing: run the stage gcc first"; return 1; }
+    [ -d "$release_copy/build" ] || { echo "$release_copy/build is missing: run the stage release first"; return 1; }
     rm -rf "$prefix" "$scratch" "$scratch-source"
-    cmake --install build/ci-gcc --prefix "$prefix" >build/ci-install.log
+    cmake --install "$release_copy/build" --prefix "$prefix" >build/ci-install.log
     cp -r .ci/consumer "$scratch-source"
     readme_block embed >"$scratch-source/readme_example.cpp"
     [ -s "$scratch-source/readme_example.cpp" ] || { echo "README.md has no block behind <!-- ci:embed -->"; return 1; }
@@ -121,32 +144,6 @@ stage_consumer() {
         xargs g++ -std=c++20 "$scratch-source/hang.cpp" -I "$scratch-source" -o "$scratch/hang_by_pkg_config"
     "$scratch/hang_by_pkg_config"
     "$prefix/bin/percale" --version
-}
-
-# The README's two commands, as a newcomer would type them, in a copy of the checkout in a path with a space. Packages are there already.
-stage_readme() {
-    local copy="$root/build/ci-readme/a path with a space" name
-    rm -rf "$root/build/ci-readme"
-    mkdir -p "$copy"
-    project_files | tar --null -T - -cf - | tar -xf - -C "$copy"
-    for name in drape test; do
-        readme_block "$name" >"$copy/../$name.sh"
-        [ -s "$copy/../$name.sh" ] || { echo "README.md has no block behind <!-- ci:$name -->"; return 1; }
-        echo "README, $name:"
-        cat "$copy/../$name.sh"
-        (
-            cd "$copy"
-            unset PERCALE_REAL_MESHES
-            sudo() { "$@"; }
-            apt-get() { echo "(skipped: apt-get $1)"; }
-            set -e
-            # shellcheck source=/dev/null
-            . "../$name.sh"
-        )
-    done
-    find "$copy" -name report.json -not -path '*/data/*' -not -path '*/Testing/*' -printf '%h\0' >"$copy/../runs"
-    [ -s "$copy/../runs" ] || { echo "the README's first command left no report.json"; return 1; }
-    xargs -0 -n 1 "$copy/build/percale" certify <"$copy/../runs"
 }
 
 selected=("$@")
@@ -171,4 +168,4 @@ for stage in "${selected[@]}"; do
 done
 echo "check.sh: all stages passed: $(printf '%s, ' "${times[@]}" | sed 's/, $//')"
 # The closing lines of the whole test suite come last.
-case " ${selected[*]} " in *" gcc "*) echo "whole test suite (stage gcc):" && sed -n '/% tests passed/,$p' build/ci-gcc.ctest.log ;; esac
+case " ${selected[*]} " in *" release "*) echo "whole test suite (stage release):" && sed -n '/% tests passed/,$p' "$release_copy/../test.log" ;; esac
