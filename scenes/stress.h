@@ -47,10 +47,10 @@ StressRun stress_cells(std::span<const StressCell> cells, int steps, const Stres
 
 /// Which steps, stiffness factors and schemes a scene is run with.
 struct SceneStress {
-    std::vector<std::string> schemes = {};  // empty: all
-    std::vector<double> time_steps = {};    // s
-    std::vector<double> factors = {};       // on all constants of springs and moduli
-    int steps = 20;                         // of each run, at most
+    std::vector<std::string> schemes = {};                           // empty: all
+    std::vector<double> time_steps = {1e-4, 1e-3, 1e-2, 1e-1, 1.0};  // s
+    std::vector<double> factors = {1e-2, 1.0, 1e2, 1e4};             // on all constants of springs and moduli
+    int steps = 20;                                                  // of each run, at most
 };
 
 /// The same with a scene: each run ends with the scene's duration or after so many steps. Throws SceneError where the scene is

@@ -51,13 +51,18 @@ void change_mesh(int kind, StressCell& cell) {
     if (kind < 3) cell.aspect = aspects[static_cast<std::size_t>(kind)];
 }
 
-/// Both responses where the scheme takes both, at rest and thrown, light and heavy cloth below.
+/// At rest and thrown; backward Euler by both responses with little and much damping, TR-BDF2, which takes one, with four
+/// amounts.
 void change_contact(int kind, StressCell& cell) {
-    const bool projects = kind % 2 == 1 && cell.scheme == Scheme::backward_euler;
-    cell.contact = projects ? StressContact::projection : StressContact::penalty;
+    const int second = kind % 2, damping = kind / 4;
     cell.start = kind % 4 < 2 ? StressStart::hang : StressStart::thrown;
-    if (kind >= 4) cell.damping_ratio = 1.0;
-    if (kind % 2 == 1 && !projects) cell.damping_ratio = 0.0;
+    cell.contact = StressContact::penalty;
+    if (cell.scheme == Scheme::backward_euler) {
+        if (second == 1) cell.contact = StressContact::projection;
+        cell.damping_ratio = std::array{0.1, 1.0}[damping];
+    } else {
+        cell.damping_ratio = std::array{0.1, 0.0, 1.0, 10.0}[2 * damping + second];
+    }
 }
 
 }  // namespace

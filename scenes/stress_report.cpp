@@ -65,13 +65,19 @@ std::string row_text(const StressRow& row, bool of_scene) {
     return text + ", status " + figures.status + " after " + std::to_string(figures.steps) + " steps";
 }
 
-std::string csv_row(const StressRow& row) {
+/// What only cells of the matrix have: six fields, empty for a scene.
+std::string matrix_fields(const StressCell& cell, bool of_scene) {
+    if (of_scene) return ",,,,,,";
+    std::string fields;
+    for (const double value : {cell.mass_ratio, cell.damping_ratio, cell.aspect}) fields += "," + csv_number(value);
+    return fields + "," + word_of(cell.mesh) + "," + word_of(cell.start) + "," + word_of(cell.contact);
+}
+
+std::string csv_row(const StressRow& row, bool of_scene) {
     const auto& [cell, figures, verdict] = row;
-    std::string line = std::to_string(cell.number) + "," + cell.sweep + "," + scheme_word(cell.scheme);
-    for (const double value : {cell.time_step, cell.stiffness, cell.mass_ratio, cell.damping_ratio, cell.aspect})
-        line += "," + csv_number(value);
-    line +=
-        std::string(",") + word_of(cell.mesh) + "," + word_of(cell.start) + "," + word_of(cell.contact) + "," + word_of(verdict);
+    std::string line = std::to_string(cell.number) + "," + cell.sweep + "," + scheme_word(cell.scheme) + "," +
+                       csv_number(cell.time_step) + "," + csv_number(cell.stiffness) + matrix_fields(cell, of_scene) + "," +
+                       word_of(verdict);
     line += figures.finite ? ",yes" : ",no";
     line += figures.pins_kept ? ",yes" : ",no";
     for (const double value : {figures.gain, figures.bound, figures.step_excess, figures.residual, figures.strain})
@@ -137,7 +143,7 @@ std::string stress_csv(const StressRun& run) {
                        ",mass_ratio,damping_ratio,aspect,mesh,start,contact,verdict,finite,pins_kept,gain,gain_bound,step_excess,"
                        "largest_residual,largest_strain,steps,halved_steps,not_converged_steps,newton_iterations,"
                        "linear_iterations,status,said\n";
-    for (const StressRow& row : run.rows) text += csv_row(row);
+    for (const StressRow& row : run.rows) text += csv_row(row, run.of_scene);
     return text;
 }
 

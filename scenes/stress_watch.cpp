@@ -132,9 +132,9 @@ StressVerdict verdict_of(const StressFigures& figures) {
     const bool gained = figures.gain > figures.bound || figures.step_excess > solver_share;
     const bool said = !figures.said.empty() || figures.status != "ok" || figures.not_converged > 0;
     if (!good || (gained && !said)) return StressVerdict::silent;
+    if (figures.status == status_word(StepStatus::not_finite)) return StressVerdict::not_finite;
     if (gained) return StressVerdict::gained;
-    if (figures.status == "ok") return StressVerdict::stable;
-    return figures.status == status_word(StepStatus::not_finite) ? StressVerdict::not_finite : StressVerdict::refused;
+    return figures.status == "ok" ? StressVerdict::stable : StressVerdict::refused;
 }
 
 bool is_failure(Scheme scheme, StressVerdict verdict) {

@@ -14,8 +14,8 @@ namespace percale::scenes {
 enum class StressVerdict {
     stable,
     refused,     // not run, or a step failed and its status says why; the state stayed good
-    not_finite,  // a step ended with that status; the state before it stays
-    gained,      // energy above the bound, and a warning or a status said so
+    not_finite,  // a step ended with that status, whatever energy was gained on the way; the state before it stays
+    gained,      // energy above the bound, and a warning or another status said so
     silent,      // energy above the bound, a pin that moved or a state that is not finite, and nothing said so
 };
 const char* word_of(StressVerdict verdict);

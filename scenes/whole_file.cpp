@@ -98,12 +98,28 @@ void WholeFile::commit() {
     kept_ = true;
 }
 
-std::string made_folder(const std::string& folder) {
+void commit_together(std::initializer_list<WholeFile*> files) {
+    for (WholeFile* file : files) {
+        file->out().flush();
+        file->check();
+    }
+    for (WholeFile* file : files) file->commit();
+}
+
+OutputFolder::OutputFolder(const std::string& folder) {
+    namespace fs = std::filesystem;
     std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error || !std::filesystem::is_directory(folder))
+    for (fs::path path = fs::path(folder).lexically_normal(); !path.empty() && !fs::exists(path, error);
+         path = path.parent_path())
+        made_.push_back(path.string());
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder))
         throw SceneError(folder + ": cannot be made: " + (error ? error.message() : "it is a file"));
-    return folder;
+}
+
+OutputFolder::~OutputFolder() {
+    std::error_code error;  // a folder with something in it stays
+    for (const std::string& folder : made_) std::filesystem::remove(folder, error);
 }
 
 void write_whole_file(const std::string& file, const std::string& text) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,8 +41,21 @@ private:
     bool kept_ = false;
 };
 
-/// Makes a folder where there is none and returns its name. Throws SceneError if it cannot be made.
-std::string made_folder(const std::string& folder);
+/// Commits all files, or none where one could not be written.
+void commit_together(std::initializer_list<WholeFile*> files);
+
+/// A folder for output, made where there is none and gone again if it was new and nothing is in it at the end. Throws SceneError
+/// if it cannot be made.
+class OutputFolder {
+public:
+    explicit OutputFolder(const std::string& folder);
+    ~OutputFolder();
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
+
+private:
+    std::vector<std::string> made_;  // the innermost first
+};
 
 /// Text as a whole file.
 void write_whole_file(const std::string& file, const std::string& text);

@@ -1,6 +1,7 @@
 #include "schemes.h"
 
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "percale/options.h"
@@ -32,6 +33,21 @@ constexpr SchemeFacts table[] = {
 std::span<const SchemeFacts> scheme_table() { return table; }
 
 const SchemeFacts& facts_of(Scheme scheme) { return table[static_cast<int>(scheme)]; }
+
+std::array<StageWeight, 3> stage_weights(Scheme scheme) {
+    constexpr double w = std::numbers::sqrt2 / 4.0;
+    switch (scheme) {
+        case Scheme::trapezoid:
+            return {{{0.5, 0.0}, {}, {0.5, 1.0}}};
+        case Scheme::tr_bdf2:
+            return {{{w, 0.0}, {w, trapezoid_share}, {1.0 - 2.0 * w, 1.0}}};
+        case Scheme::backward_euler:
+        case Scheme::bdf2:
+            return {{{}, {}, {1.0, 1.0}}};
+        default:
+            return {{{}, {}, {1.0, 0.5}}};
+    }
+}
 
 std::string scheme_table_text() {
     std::string text =

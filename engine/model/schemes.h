@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <numbers>
 #include <span>
 #include <string_view>
 
@@ -25,5 +27,17 @@ std::span<const SchemeFacts> scheme_table();
 
 /// Of any scheme but `automatic`.
 const SchemeFacts& facts_of(Scheme scheme);
+
+/// TR-BDF2 (Bank et al. 1985; Hosea and Shampine 1996): with this share for the trapezoid both stages have the same h.
+constexpr double trapezoid_share = 2.0 - std::numbers::sqrt2;
+
+/// Where a scheme takes forces: their share, and the time as a part of the span.
+struct StageWeight {
+    double share = 0.0, place = 1.0;
+};
+
+/// What a step of the scheme is made of, at its start, between, and last. Explicit schemes keep the rest lengths of seams as in
+/// the middle of the step, which is of second order.
+std::array<StageWeight, 3> stage_weights(Scheme scheme);
 
 }  // namespace percale

@@ -1,7 +1,6 @@
 #include "scripted_motion.h"
 
-#include <numbers>
-
+#include "model/schemes.h"
 #include "planning.h"
 
 namespace percale {
@@ -32,21 +31,6 @@ void set_targets(World& world) {
 
 void finish_motion(World& world) {
     for (ObstacleState& obstacle : world.script.obstacles) obstacle.start = obstacle.end;
-}
-
-std::array<StageWeight, 3> stage_weights(Scheme scheme) {
-    constexpr double w = std::numbers::sqrt2 / 4.0;
-    switch (scheme) {
-        case Scheme::trapezoid:
-            return {{{0.5, 0.0}, {}, {0.5, 1.0}}};
-        case Scheme::tr_bdf2:
-            return {{{w, 0.0}, {w, trapezoid_share}, {1.0 - 2.0 * w, 1.0}}};
-        case Scheme::backward_euler:
-        case Scheme::bdf2:
-            return {{{}, {}, {1.0, 1.0}}};
-        default:
-            return {{{}, {}, {1.0, 0.5}}};
-    }
 }
 
 void set_seams_at(World& world, double place) {

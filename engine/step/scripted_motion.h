@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <numbers>
-
 #include "world.h"
 
 namespace percale {
@@ -16,18 +13,6 @@ void finish_motion(World& world);
 
 /// world.part_targets: where pins are after the given fraction of the step, on the straight line from its start.
 void set_part_targets(World& world, double fraction);
-
-/// TR-BDF2 (Bank et al. 1985; Hosea and Shampine 1996): with this share for the trapezoid both stages have the same h.
-constexpr double trapezoid_share = 2.0 - std::numbers::sqrt2;
-
-/// Where a scheme takes forces: their share, and the time as a part of the span.
-struct StageWeight {
-    double share = 0.0, place = 1.0;
-};
-
-/// What a step of the scheme is made of, at its start, between, and last. Explicit schemes keep the rest lengths of seams as in
-/// the middle of the step, which is of second order.
-std::array<StageWeight, 3> stage_weights(Scheme scheme);
 
 /// Rest lengths of closing seams at a place of the span world.part.
 void set_seams_at(World& world, double place);

@@ -152,7 +152,7 @@ bool cover_adaptively(World& world) {
             world.ledger.contact = contact;
             continue;
         }
-        if (world.stages.control.missed) report.status = StepStatus::tolerance_missed;
+        if (world.stages.control.missed && report.status == StepStatus::ok) report.status = StepStatus::tolerance_missed;
         ++report.parts;
         shortest = std::min(shortest, length);
         longest = std::max(longest, length);

@@ -3,12 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <optional>
 
 #include "expectations.h"
 #include "lacking.h"
 #include "nearest_name.h"
 #include "percale/error.h"
+#include "scene_text.h"
 
 namespace percale::program {
 
@@ -62,6 +64,32 @@ std::vector<scenes::Override> scene_overrides(const CommonOptions& options) {
     if (!options.frames.empty()) overrides.push_back({"output.frames", "\"" + options.frames + "\"", "--frames"});
     if (!options.fps.empty()) overrides.push_back({"output.fps", options.fps, "--fps"});
     return overrides;
+}
+
+scenes::SceneSource scene_source(const std::string& file, const CommonOptions& options) {
+    return [file, given = scene_overrides(options)](std::span<const scenes::Override> more) {
+        std::vector<scenes::Override> overrides = given;
+        overrides.insert(overrides.end(), more.begin(), more.end());
+        return scenes::load_scene(file, overrides);
+    };
+}
+
+std::string default_folder(const std::string& scene) {
+    const std::string stem = std::filesystem::path(scene).stem().string();
+    if (stem.empty()) throw SceneError(scene + ": no folder can be named after this; name one with -o");
+    return stem;
+}
+
+void check_once(const char* option, const std::vector<std::string>& values) {
+    for (auto value = values.begin(); value != values.end(); ++value)
+        if (std::find(values.begin(), value, *value) != value)
+            throw SceneError(std::string(option) + " " + *value + ": given twice");
+}
+
+void check_once(const char* option, const std::vector<double>& values) {
+    std::vector<std::string> texts;
+    for (const double value : values) texts.push_back(scenes::number_text(value));
+    check_once(option, texts);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "compare_run.h"
 #include "scene_file.h"
 
 namespace CLI {
@@ -35,6 +36,16 @@ void check_common_options(const CommonOptions& options);
 
 /// The options that stand for keys of the scene file, --set first. Throws SceneError for a --set that is not KEY=VALUE.
 std::vector<scenes::Override> scene_overrides(const CommonOptions& options);
+
+/// The scene of a file with what these options and then others override.
+scenes::SceneSource scene_source(const std::string& file, const CommonOptions& options);
+
+/// The name of the scene file without its ending. Throws SceneError if that is empty.
+std::string default_folder(const std::string& scene);
+
+/// Throws SceneError naming the option if a value is there twice.
+void check_once(const char* option, const std::vector<std::string>& values);
+void check_once(const char* option, const std::vector<double>& values);
 
 /// The values of a list of numbers such as 0.004 or 1/240. Throws SceneError naming the option and the first that is none.
 std::vector<double> read_numbers(const char* option, const std::vector<std::string>& texts);

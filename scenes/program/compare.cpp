@@ -3,9 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <sstream>
 
 #include "compare_report.h"
 #include "percale/error.h"
@@ -43,16 +41,6 @@ CompareSettings settings_of(const CompareOptions& options) {
             .reference_error = options.reference_error};
 }
 
-template <class T>
-void check_once(const char* option, const std::vector<T>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (std::find(values.begin(), values.begin() + i, values[i]) == values.begin() + i) continue;
-        std::ostringstream text;
-        text << option << " " << values[i] << ": given twice";
-        throw SceneError(text.str());
-    }
-}
-
 /// Has every word and number judged as the key of the scene file that it stands for.
 void check_settings(const CompareSettings& settings, const SceneSource& source) {
     const auto check = [&](const char* key, const std::string& value, const char* option) {
@@ -64,16 +52,6 @@ void check_settings(const CompareSettings& settings, const SceneSource& source) 
     for (const std::string& scheme : settings.schemes) check("step.scheme", scheme, "--schemes");
     for (const double step : settings.steps) check("step.time_step", number_text(step), "--steps");
     for (const double tolerance : settings.tolerances) check("step.tolerance", number_text(tolerance), "--tolerances");
-}
-
-std::string folder_name(const CompareOptions& options) {
-    return options.folder.empty() ? std::filesystem::path(options.scene).stem().string() : options.folder;
-}
-
-std::string folder_of(const CompareOptions& options) {
-    const std::string folder = folder_name(options);
-    if (folder.empty()) throw SceneError(options.scene + ": no folder can be named after this; name one with -o");
-    return made_folder(folder);
 }
 
 void print(const Comparison& comparison, const std::string& folder) {
@@ -101,12 +79,7 @@ int compare_into(const std::string& folder, const CompareOptions& options, const
         const Comparison comparison = compared(options, settings, source);
         table.out() << comparison_csv(comparison);
         diagram.out() << plot_svg(comparison_plot(comparison));
-        for (WholeFile* file : {&table, &diagram}) {
-            file->out().flush();
-            file->check();
-        }
-        table.commit();
-        diagram.commit();
+        commit_together({&table, &diagram});
         if (!options.common.quiet) print(comparison, folder);
         const bool any = std::any_of(comparison.runs.begin(), comparison.runs.end(),
                                      [](const ComparedRun& run) { return run.run.end == VariantEnd::finished; });
@@ -119,19 +92,12 @@ int compare_into(const std::string& folder, const CompareOptions& options, const
 
 int compare(const CompareOptions& options) {
     const CompareSettings settings = settings_of(options);
-    const std::vector<Override> given = scene_overrides(options.common);
-    const SceneSource source = [&](std::span<const Override> more) {
-        std::vector<Override> overrides = given;
-        overrides.insert(overrides.end(), more.begin(), more.end());
-        return load_scene(options.scene, overrides);
-    };
+    const SceneSource source = scene_source(options.scene, options.common);
     check_settings(settings, source);
     build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
-    const bool is_new = !std::filesystem::exists(folder_name(options));
-    const std::string folder = folder_of(options);
-    const int code = compare_into(folder, options, settings, source);
-    if (code == stopped_by_signal && is_new) std::filesystem::remove(folder);
-    return code;
+    const std::string name = options.folder.empty() ? default_folder(options.scene) : options.folder;
+    const OutputFolder folder(name);
+    return compare_into(name, options, settings, source);
 }
 
 }  // namespace

@@ -27,19 +27,24 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
 
 }  // namespace
 
-std::string progress_text(double done, double total, double elapsed) {
+std::string progress_text(double done, double total, double elapsed, ProgressUnit unit) {
     constexpr int width = 30;
     // A part that is whole up to rounding (0.1 * 30 = 2.9999...) counts as whole.
     const double part = total > 0.0 ? std::clamp(done / total + 1e-9, 0.0, 1.0) : 1.0;
     const int filled = static_cast<int>(part * width);
     char text[96];
-    std::snprintf(text, sizeof text, "] %3d %%  %.2f of %.2f s  ", static_cast<int>(100.0 * part), done, total);
+    std::snprintf(text, sizeof text, "] %3d %%  %.*f of %.*f %s  ", static_cast<int>(100.0 * part), unit.decimals, done,
+                  unit.decimals, total, unit.name);
     return "[" + std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.') +
            text + eta_text(done, total, elapsed);
 }
 
-ProgressBar::ProgressBar(bool wanted, double total)
-    : active_(wanted && isatty(STDERR_FILENO) == 1), total_(total), start_(std::chrono::steady_clock::now()), last_(start_) {}
+ProgressBar::ProgressBar(bool wanted, double total, ProgressUnit unit)
+    : active_(wanted && isatty(STDERR_FILENO) == 1),
+      total_(total),
+      unit_(unit),
+      start_(std::chrono::steady_clock::now()),
+      last_(start_) {}
 
 ProgressBar::~ProgressBar() { clear(); }
 
@@ -49,7 +54,7 @@ void ProgressBar::show(double done) {
     if (drawn_ && seconds_between(last_, now) < 0.1) return;
     last_ = now;
     drawn_ = true;
-    std::fprintf(stderr, "\r%s\033[K", progress_text(done, total_, seconds_between(start_, now)).c_str());
+    std::fprintf(stderr, "\r%s\033[K", progress_text(done, total_, seconds_between(start_, now), unit_).c_str());
     std::fflush(stderr);
 }
 

@@ -5,15 +5,21 @@
 
 namespace percale::program {
 
-/// "[#####.....]  50 %  1.00 of 2.00 s  ETA 0:07". `done` and `total` in simulated s, `elapsed` in s of wall time; without a
-/// measured speed (done = 0) the ETA is left open.
-std::string progress_text(double done, double total, double elapsed);
+/// What a bar counts: simulated seconds, or whole things.
+struct ProgressUnit {
+    const char* name = "s";
+    int decimals = 2;
+};
+
+/// "[#####.....]  50 %  1.00 of 2.00 s  ETA 0:07". `elapsed` in s of wall time; without a measured speed (done = 0) the ETA is
+/// left open.
+std::string progress_text(double done, double total, double elapsed, ProgressUnit unit = {});
 
 /// A bar on the last line of the terminal that stderr is; nothing elsewhere.
 class ProgressBar {
 public:
-    /// `wanted` false: draws nothing on a terminal either. `total`: simulated s at the end.
-    ProgressBar(bool wanted, double total);
+    /// `wanted` false: draws nothing on a terminal either. `total`: where the end is, in units.
+    ProgressBar(bool wanted, double total, ProgressUnit unit = {});
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
@@ -24,6 +30,7 @@ public:
 private:
     bool active_, drawn_ = false;
     double total_;
+    ProgressUnit unit_;
     std::chrono::steady_clock::time_point start_, last_;
 };
 

@@ -47,12 +47,6 @@ std::string folder_of(const std::string& file) {
     return folder.empty() ? "." : folder;
 }
 
-std::string default_folder(const std::string& scene) {
-    const std::string stem = std::filesystem::path(scene).stem().string();
-    if (stem.empty()) throw SceneError(scene + ": no folder can be named after this; name one with -o");
-    return stem;
-}
-
 void print_start(const RunOptions& options, const BuiltScene& built) {
     std::printf("%s: %s into %s", options.scene.c_str(), steps_text(built.scene).c_str(), options.folder.c_str());
     if (!options.resume.empty()) std::printf(", resumed at %.6g s", built.simulation.time());

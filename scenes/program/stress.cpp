@@ -3,14 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "compare.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/common_options.h"
 #include "program/exit_codes.h"
+#include "program/progress_bar.h"
 #include "program/stop_signals.h"
 #include "scene_text.h"
 #include "stress_report.h"
@@ -28,27 +29,44 @@ constexpr int matrix_steps = 16;
 struct StressOptions {
     CommonOptions common;
     std::string scene, folder;
-    std::vector<std::string> schemes;
-    std::vector<std::string> time_steps = {"1e-4", "1e-3", "1e-2", "1e-1", "1"}, factors = {"1e-2", "1", "1e2", "1e4"};
+    std::vector<std::string> schemes, time_steps, factors;
     int steps = matrix_steps, cell = -1;
 };
 
+/// What only scenes take, and what only the matrix takes.
+void check_kind(const StressOptions& options) {
+    const auto only_scenes = [](const char* option, bool given) {
+        if (given) throw SceneError(std::string(option) + ": only with a scene; the default matrix has its own");
+    };
+    if (!options.scene.empty()) {
+        if (options.cell >= 0) throw SceneError("--cell: only cells of the default matrix have numbers");
+        return;
+    }
+    only_scenes("--steps", !options.time_steps.empty());
+    only_scenes("--factors", !options.factors.empty());
+    if (!options.common.set.empty()) throw SceneError("--set: without a scene there is nothing to set");
+    if (options.common.no_skip) throw SceneError("--no-skip: without a scene there is nothing to set");
+    if (options.cell >= 0 && !options.schemes.empty())
+        throw SceneError("--cell: the cell has its own scheme; leave out --schemes");
+}
+
 void check(const StressOptions& options) {
+    check_kind(options);
     if (options.steps < 1 || options.steps > 1000000)
         throw SceneError("--most-steps " + std::to_string(options.steps) + " is outside the allowed range 1 ... 1000000");
     for (const double factor : read_numbers("--factors", options.factors))
         if (!(factor >= 1e-9 && factor <= 1e9))
             throw SceneError("--factors " + number_text(factor) + " is outside the allowed range 1e-9 ... 1e9");
-    if (options.scene.empty() && !options.common.set.empty()) throw SceneError("--set: without a scene there is nothing to set");
-    if (!options.scene.empty() && options.cell >= 0) throw SceneError("--cell: only cells of the default matrix have numbers");
+    check_once("--schemes", options.schemes);
+    check_once("--steps", read_numbers("--steps", options.time_steps));
+    check_once("--factors", read_numbers("--factors", options.factors));
 }
 
-SceneSource source_of(const StressOptions& options) {
-    return [file = options.scene, given = scene_overrides(options.common)](std::span<const Override> more) {
-        std::vector<Override> overrides = given;
-        overrides.insert(overrides.end(), more.begin(), more.end());
-        return load_scene(file, overrides);
-    };
+SceneStress settings_of(const StressOptions& options) {
+    SceneStress settings{.schemes = options.schemes, .steps = options.steps};
+    if (!options.time_steps.empty()) settings.time_steps = read_numbers("--steps", options.time_steps);
+    if (!options.factors.empty()) settings.factors = read_numbers("--factors", options.factors);
+    return settings;
 }
 
 /// Has every word and number judged as the key of the scene file that it stands for.
@@ -81,52 +99,48 @@ StressRun made_run(const StressOptions& options, const SceneSource& source) {
     const StopSignals signals;
     StressHooks hooks;
     hooks.stop_asked = [&] { return signals.asked(); };
-    if (options.scene.empty()) return stress_cells(wanted_cells(options), options.steps, hooks);
-    return stress_scene(source,
-                        {.schemes = options.schemes,
-                         .time_steps = read_numbers("--steps", options.time_steps),
-                         .factors = read_numbers("--factors", options.factors),
-                         .steps = options.steps},
-                        hooks);
+    std::optional<ProgressBar> bar;
+    hooks.progress = [&](int made, int all) {
+        if (!bar) bar.emplace(!options.common.quiet, all, ProgressUnit{.name = "cells", .decimals = 0});
+        bar->show(made);
+    };
+    return options.scene.empty() ? stress_cells(wanted_cells(options), options.steps, hooks)
+                                 : stress_scene(source, settings_of(options), hooks);
 }
 
-std::string folder_of(const StressOptions& options) {
+std::string folder_name(const StressOptions& options) {
     if (!options.folder.empty()) return options.folder;
-    return options.scene.empty() ? "stress" : std::filesystem::path(options.scene).stem().string();
+    return options.scene.empty() ? "stress" : default_folder(options.scene);
 }
 
-void print(const StressOptions& options, const StressRun& run) {
+void print(const StressOptions& options, const StressRun& run, const std::string& folder) {
     std::printf("%zu cells of at most %d steps", run.rows.size(), run.steps);
     std::printf(run.of_scene ? "\n" : ", of explicit schemes %d\n", explicit_factor * run.steps);
     std::fputs(stress_summary(run).c_str(), stdout);
     std::fputs(stress_failures(run, told_failures).c_str(), stdout);
     if (run.failures() > 0 && options.scene.empty())
         std::printf("%d failures; `percale stress --cell N` repeats cell N\n", run.failures());
-    std::printf("%s/stress.csv, %s/stress.svg\n", folder_of(options).c_str(), folder_of(options).c_str());
+    std::printf("%s/stress.csv, %s/stress.svg\n", folder.c_str(), folder.c_str());
 }
 
 int stress(const StressOptions& options) {
     check(options);
-    const SceneSource source = source_of(options);
+    const SceneSource source = scene_source(options.scene, options.common);
     if (options.scene.empty()) {
         wanted_cells(options);
     } else {
         check_keys(options, source);
         build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
     }
-    const std::string folder = made_folder(folder_of(options));
-    WholeFile table(folder + "/stress.csv"), map(folder + "/stress.svg");
+    const std::string name = folder_name(options);
+    const OutputFolder folder(name);
+    WholeFile table(name + "/stress.csv"), map(name + "/stress.svg");
     try {
         const StressRun run = made_run(options, source);
         table.out() << stress_csv(run);
         map.out() << map_svg(stress_map(run));
-        for (WholeFile* file : {&table, &map}) {
-            file->out().flush();
-            file->check();
-        }
-        table.commit();
-        map.commit();
-        if (!options.common.quiet) print(options, run);
+        commit_together({&table, &map});
+        if (!options.common.quiet) print(options, run, name);
         return run.failures() > 0 ? not_as_expected : all_well;
     } catch (const ComparisonStopped&) {
         std::fprintf(stderr, "percale: stress: stopped; nothing is written\n");

@@ -2,27 +2,14 @@
 
 #include "collision/candidate_lists.h"
 #include "percale/error.h"
-#include "percale/saved_state.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision_scenes.h"
+#include "tests/support/saved_bytes.h"
 
 using namespace percale;
 using namespace percale::test;
 
 namespace {
-
-using Saved = std::vector<std::byte>;
-
-Saved saved_by(const ContactDetector& detector) {
-    StateWriter writer;
-    detector.save(writer);
-    return writer.take();
-}
-
-void restore(ContactDetector& detector, const Saved& saved) {
-    StateReader reader(saved);
-    detector.restore(reader);
-}
 
 /// What a detector answers in a step that starts at `from` and would lead to `to`; in the end the cloth is where that led.
 struct Answers {

@@ -5,24 +5,12 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision_cloths.h"
 #include "tests/support/collision_steps.h"
+#include "tests/support/saved_bytes.h"
 
 using namespace percale;
 using namespace percale::test;
 
 namespace {
-
-using Saved = std::vector<std::byte>;
-
-Saved saved_by(const SelfContactDetection& detection) {
-    StateWriter writer;
-    detection.save(writer);
-    return writer.take();
-}
-
-void restore(SelfContactDetection& detection, const Saved& saved) {
-    StateReader reader(saved);
-    detection.restore(reader);
-}
 
 SelfContactDetection detection_of(const Cloths& cloths) {
     return {cloths.mesh.triangles, cloths.thickness, cloths.self_contact()};

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "scenes/stress.h"
 #include "tests/support/catch.h"
@@ -22,6 +23,15 @@ TEST_CASE("The default matrix has 2000 cells or more and covers every range that
     spans([](const StressCell& cell) { return cell.mass_ratio; }, 1.0, 1e6);
     spans([](const StressCell& cell) { return cell.damping_ratio; }, 0.0, 10.0);
     spans([](const StressCell& cell) { return cell.aspect; }, 1.0, 1e6);
+}
+
+TEST_CASE("No cell of the default matrix is made twice") {
+    std::set<std::tuple<Scheme, double, double, double, double, StressMesh, double, StressStart, StressContact>> made;
+    const std::vector<StressCell> cells = stress_matrix();
+    for (const StressCell& cell : cells)
+        made.emplace(cell.scheme, cell.time_step, cell.stiffness, cell.mass_ratio, cell.damping_ratio, cell.mesh, cell.aspect,
+                     cell.start, cell.contact);
+    CHECK(made.size() == cells.size());
 }
 
 TEST_CASE("All nine schemes have the same sweeps, and contact those that take it") {

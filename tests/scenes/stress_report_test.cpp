@@ -49,6 +49,9 @@ TEST_CASE("The table has a line a cell, with as many fields as headings") {
     };
     CHECK(fields(0) == fields(line));
     CHECK(text.find("\n1,base,rk4,0.1,100,1,0.1,1,grid,thrown,none,silent,yes,yes,") != std::string::npos);
+    StressRun of_scene = small_run();
+    of_scene.of_scene = true;
+    CHECK(stress_csv(of_scene).find("\n1,base,rk4,0.1,100,,,,,,,silent,yes,yes,") != std::string::npos);
 }
 
 TEST_CASE("The map has a panel a scheme, and the theoretical limit where a scheme has one") {

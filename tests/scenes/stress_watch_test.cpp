@@ -73,6 +73,9 @@ TEST_CASE("Verdicts go by what happened and by whether it was said") {
     StressFigures failed = good;
     failed.status = "not_finite";
     CHECK(verdict_of(failed) == StressVerdict::not_finite);
+    failed.gain = 1e9;
+    CHECK(verdict_of(failed) == StressVerdict::not_finite);
+    failed.gain = 0.5;
     failed.status = "pin_blocked";
     CHECK(verdict_of(failed) == StressVerdict::refused);
     StressFigures lost = good;

@@ -68,6 +68,38 @@ TEST_CASE("a full disk is an error, not a short file") {
     CHECK_FALSE(folder.holds("a.txt"));
 }
 
+TEST_CASE("of files committed together none appears where one could not be written") {
+    const TestFolder folder;
+    {
+        WholeFile one(folder.path() + "/one"), other(folder.path() + "/other");
+        one.out() << "text";
+        other.out().setstate(std::ios::badbit);
+        CHECK_THROWS_AS(commit_together({&one, &other}), SceneError);
+    }
+    CHECK(folder.file_count() == 0);
+    WholeFile one(folder.path() + "/one"), other(folder.path() + "/other");
+    one.out() << "text";
+    commit_together({&one, &other});
+    CHECK(folder.read("one") == "text");
+    CHECK(folder.holds("other"));
+}
+
+TEST_CASE("a new output folder with nothing in it goes again, others stay") {
+    const TestFolder folder;
+    { const OutputFolder output(folder.path() + "/a/b/"); }
+    CHECK_FALSE(folder.holds("a"));
+    {
+        const OutputFolder output(folder.path() + "/a/b");
+        write_whole_file(folder.path() + "/a/file", "text");
+    }
+    CHECK(folder.holds("a"));
+    CHECK_FALSE(folder.holds("a/b"));
+    { const OutputFolder output(folder.path() + "/a"); }
+    CHECK(folder.read("a/file") == "text");
+    CHECK_THROWS_AS(OutputFolder(folder.path() + "/a/file"), SceneError);
+    CHECK(folder.read("a/file") == "text");
+}
+
 TEST_CASE("a file that is left unfinished goes on from as many bytes as are wanted") {
     const TestFolder folder;
     const std::string name = folder.path("a.txt");

@@ -58,6 +58,21 @@ TEST_CASE("The table has one entry a scheme, in the order of the enum, named as 
     }
 }
 
+TEST_CASE("The stages of a step make one step, and in schemes of second order forces act in its middle on average") {
+    for (const Scheme scheme : all_schemes) {
+        double share = 0.0, place = 0.0;
+        for (const StageWeight& stage : stage_weights(scheme)) {
+            share += stage.share;
+            place += stage.share * stage.place;
+        }
+        CAPTURE(facts_of(scheme).word);
+        CHECK(share == Approx(1.0).epsilon(1e-15));
+        // BDF2 takes forces at its end alone and makes up for it by the step before.
+        const bool at_end = scheme == Scheme::backward_euler || scheme == Scheme::bdf2;
+        CHECK(place == Approx(at_end ? 1.0 : 0.5).epsilon(1e-15));
+    }
+}
+
 TEST_CASE("Symplectic Euler keeps the amplitude and turns by 2 asin(a/2) a step", "[law]") {
     for (const double a : {0.1, 0.5, 1.0, 1.9}) {
         const std::complex<double> r = amplification(Scheme::symplectic_euler, a);

@@ -1,3 +1,5 @@
+#include "scenes/program/progress_bar.h"
+
 #include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -57,6 +59,11 @@ TEST_CASE("on a terminal a bar shows the part that is done and the time that is 
     REQUIRE(wiped != std::string::npos);
     CHECK(run->text.find("finished", wiped) != std::string::npos);
     CHECK(run->text.find("ETA", wiped) == std::string::npos);
+}
+
+TEST_CASE("a bar counts whole things, too") {
+    CHECK(percale::program::progress_text(500.0, 2000.0, 10.0, {.name = "cells", .decimals = 0}) ==
+          "[#######.......................]  25 %  500 of 2000 cells  ETA 0:30");
 }
 
 TEST_CASE("a quiet run draws no bar on a terminal") {

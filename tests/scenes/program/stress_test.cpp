@@ -56,6 +56,12 @@ TEST_CASE("stress refuses words and numbers that mean nothing and leaves nothing
     CHECK(refused(stress(folder, {"--cell", "1"}), "--cell"));
     CHECK(refused(run_program({"stress", "--cell", "99999"}, folder.path()), "0 ... "));
     CHECK(refused(run_program({"stress", "--schemes", "rk5"}, folder.path()), "no such scheme"));
+    CHECK(refused(stress(folder, {"--factors", "1,2,1.0"}), "--factors 1: given twice"));
+    CHECK(refused(stress(folder, {"--schemes", "rk4,rk4"}), "--schemes rk4: given twice"));
     CHECK(refused(run_program({"stress", "--set", "duration=1"}, folder.path()), "--set"));
+    CHECK(refused(run_program({"stress", "--no-skip"}, folder.path()), "--no-skip"));
+    CHECK(refused(run_program({"stress", "--steps", "1e-3"}, folder.path()), "--steps: only with a scene"));
+    CHECK(refused(run_program({"stress", "--factors", "10"}, folder.path()), "--factors: only with a scene"));
+    CHECK(refused(run_program({"stress", "--cell", "7", "--schemes", "rk4"}, folder.path()), "--cell"));
     CHECK(folder.file_count() == 1);
 }
