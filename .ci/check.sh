@@ -87,7 +87,7 @@ stage_fuzz() {
     configure_and_build build/ci-fuzz -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo \
         -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only"
     rm -rf "$found"
-    for name in scene obj off; do   # not ply: assimp's reader spoils its own heap now and then (tests/README.md)
+    for name in scene obj off checkpoint; do   # not ply: assimp's reader spoils its own heap now and then (tests/README.md)
         mkdir -p "$found/$name"
         echo "fuzz $name:"
         build/ci-fuzz/percale_fuzz_$name -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=8192 \
