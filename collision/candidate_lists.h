@@ -76,6 +76,9 @@ int total_version(const Obstacles& obstacles);
 std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vector<double>& vertex_thickness,
                          const Obstacles& obstacles);
 
+/// Poses of the obstacles at the start and the end of a step, as they were saved. Throws SceneError for those of another size.
+std::vector<std::array<Pose, 2>> restored_poses(const Obstacles& obstacles, StateReader& state);
+
 /// Verlet lists: candidates of all cloth, rebuilt only where the cloth left its boxes or an obstacle moves.
 class CandidateLists {
 public:

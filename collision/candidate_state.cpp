@@ -55,16 +55,24 @@ bool is_permutation_of(std::span<const int> order, std::size_t count) {
     return order.size() == count;
 }
 
-bool is_good(const ListedFeature& feature, std::size_t packs, std::size_t vertices, const Obstacles& obstacles) {
+bool is_good(const ListedFeature& feature, std::size_t vertices, const Obstacles& obstacles) {
     const ContactPair& pair = feature.pair;
     const auto cloth = pair.vertices();
     const bool known = std::all_of(cloth.begin(), cloth.end(),
                                    [&](int vertex) { return vertex >= 0 && static_cast<std::size_t>(vertex) < vertices; });
     const bool rest_unused =
         std::all_of(pair.cloth.begin() + pair.cloth_count(), pair.cloth.end(), [](int v) { return v == -1; });
-    return known && rest_unused && pair.obstacle >= 0 && static_cast<std::size_t>(pair.obstacle) < obstacles.size() &&
-           feature.first >= 0 && feature.count > 0 &&
-           static_cast<std::size_t>(feature.first) + static_cast<std::size_t>(feature.count) <= packs;
+    return known && rest_unused && pair.obstacle >= 0 && static_cast<std::size_t>(pair.obstacle) < obstacles.size();
+}
+
+/// Whether the packs are those of the features, one after the other: none is looked at twice.
+bool are_in_order(const ClusterList& list) {
+    std::size_t next = 0;
+    for (const ListedFeature& feature : list.features) {
+        if (feature.count <= 0 || feature.first < 0 || static_cast<std::size_t>(feature.first) != next) return false;
+        next += static_cast<std::size_t>(feature.count);
+    }
+    return next == list.packs.size();
 }
 
 /// Whether the packs of a feature are of its kind and the marks are of packs that there are.
@@ -88,6 +96,16 @@ std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vect
         for (const Vec3& x : obstacle->local_vertices()) writer(x);
     }
     return checksum(writer.take());
+}
+
+std::vector<std::array<Pose, 2>> restored_poses(const Obstacles& obstacles, StateReader& state) {
+    std::vector<std::array<Pose, 2>> poses;
+    for (const auto& obstacle : obstacles) {
+        state(poses.emplace_back());
+        const double scale = obstacle->start_pose().scale;
+        state.demand(poses.back()[0].scale == scale && poses.back()[1].scale == scale, "an obstacle of another size");
+    }
+    return poses;
 }
 
 void CandidateLists::save(const Obstacles& obstacles, StateWriter& state) const {
@@ -127,15 +145,16 @@ void CandidateLists::settle(const Obstacles& obstacles) {
 
 void CandidateLists::check(const Obstacles& obstacles, const StateReader& state) const {
     state.demand(anchor_.empty() || anchor_.size() == seen_.size(), "a wrong number of vertices");
-    state.demand(!anchor_.empty() || room_version_ != settled_later || !empty_, "room about nothing");
+    state.demand(!anchor_.empty() || room_version_ != settled_later, "room about nothing");
     for (std::size_t cluster = 0; cluster < lists_.size(); ++cluster) {
         const ClusterList& list = lists_[cluster];
         state.demand(list.boxes.empty() ? list.features.empty() && list.version != settled_later
                                         : list.boxes.size() == vertices_of(cluster).size(),
                      "a wrong number of boxes");
         state.demand(list.bounds.size() == list.features.size(), "a wrong number of bounds");
+        state.demand(are_in_order(list), "packs of no feature");
         for (const ListedFeature& feature : list.features) {
-            state.demand(is_good(feature, list.packs.size(), seen_.size(), obstacles), "a feature that there is not");
+            state.demand(is_good(feature, seen_.size(), obstacles), "a feature that there is not");
             state.demand(has_good_packs(feature, list, obstacles), "a pack that there is not");
         }
     }

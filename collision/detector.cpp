@@ -118,8 +118,7 @@ public:
         state(hash);
         if (hash != scene_hash(triangles_, thickness_, obstacles_))
             throw SceneError("saved state: it is of other cloth or other obstacles than the detector has");
-        std::vector<std::array<Pose, 2>> poses(obstacles_.size());
-        for (auto& ends : poses) state(ends);
+        const std::vector<std::array<Pose, 2>> poses = restored_poses(obstacles_, state);
         std::vector<Vec3> kept_at;
         double smallest_distance = 0.0;
         bool listed = false;

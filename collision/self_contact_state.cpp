@@ -19,11 +19,25 @@ namespace {
 
 bool below(int number, std::size_t count) { return number >= 0 && static_cast<std::size_t>(number) < count; }
 
-bool is_good(const SelfPair& pair, const ClothSurface& surface, std::size_t vertices) {
-    const bool edges = pair.shape == PairShape::edge_edge;
-    const bool known = std::all_of(pair.vertex.begin(), pair.vertex.end(), [&](int v) { return below(v, vertices); });
-    return known && below(pair.feature[0], edges ? surface.edges.size() : vertices) &&
-           below(pair.feature[1], edges ? surface.edges.size() : surface.triangles.size());
+/// The vertices of two features, the first -1 where there are no such features.
+std::array<int, 4> vertices_of(const SelfPair& pair, const ClothSurface& surface) {
+    const auto [first, second] = pair.feature;
+    if (pair.shape == PairShape::edge_edge) {
+        if (!below(first, surface.edges.size()) || !below(second, surface.edges.size())) return {-1};
+        const auto &a = surface.edges[first].vertex, &b = surface.edges[second].vertex;
+        return {a[0], a[1], b[0], b[1]};
+    }
+    if (!below(first, surface.vertex_owner.size()) || !below(second, surface.triangles.size())) return {-1};
+    const Triangle& face = surface.triangles[second];
+    return {first, face[0], face[1], face[2]};
+}
+
+/// Whether a pair is of two features that share no vertex.
+bool is_good(const SelfPair& pair, const ClothSurface& surface) {
+    if (pair.vertex[0] < 0 || pair.vertex != vertices_of(pair, surface)) return false;
+    std::array<int, 4> sorted = pair.vertex;
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
 }  // namespace
@@ -39,11 +53,14 @@ void SelfContactLists::check(const StateReader& state) const {
     for (const auto* positions : {&start_, &way_, &seen_}) {
         state.demand(positions->size() == rest_.size(), "a wrong number of vertices");
     }
+    std::size_t next = 0;
     for (const SelfList& list : lists_) {
         state.demand(below(list.first, clusters_.size()) && below(list.second, clusters_.size()), "a cluster that there is not");
-        state.demand(list.begin <= list.end && list.end <= pairs_.size(), "pairs that there are not");
+        state.demand(list.begin == next && list.begin < list.end && list.end <= pairs_.size(), "pairs that there are not");
+        next = list.end;
     }
-    for (const SelfPair& pair : pairs_) state.demand(is_good(pair, surface_, rest_.size()), "a pair that there is not");
+    state.demand(next == pairs_.size(), "pairs of no list");
+    for (const SelfPair& pair : pairs_) state.demand(is_good(pair, surface_), "a pair that there is not");
 }
 
 }  // namespace percale

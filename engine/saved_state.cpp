@@ -1,6 +1,7 @@
 #include "percale/saved_state.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "percale/error.h"
 #include "support/hash.h"
@@ -34,6 +35,12 @@ std::array<char, name_length> letters(std::string_view name) {
 }
 
 }  // namespace
+
+bool is_proper(const Pose& pose) {
+    const Rotation& q = pose.rotation;
+    const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+    return pose.translation.allFinite() && std::abs(square - 1.0) <= 1e-6 && pose.scale > 0.0 && std::isfinite(pose.scale);
+}
 
 std::uint64_t checksum(std::span<const std::byte> content) {
     Hash hash;

@@ -420,6 +420,7 @@ std::uint64_t Simulation::state_hash() const {
 std::vector<std::byte> Simulation::save() const { return saved_world(implementation_->world, implementation_->start_moves); }
 
 void Simulation::restore(std::span<const std::byte> saved) {
+    implementation_->check_scheme();
     implementation_->start_moves = restore_world(saved, implementation_->world);
     implementation_->update_views();
 }

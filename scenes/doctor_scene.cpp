@@ -229,40 +229,13 @@ std::string duration_text(double seconds) {
     return seconds < 2.0 * 86400.0 ? short_number(seconds / 3600.0) + " hours" : short_number(seconds / 86400.0) + " days";
 }
 
-/// What a run takes beyond an hour, 8 GB of memory or 10 GB of frames.
-void find_cost(const BuiltScene& built, const ScenePlan& plan, std::vector<Finding>& found) {
-    constexpr double seconds_a_spring = 5e-9, much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
-    constexpr double bytes_a_vertex = 60.0, bytes_a_triangle = 20.0;
-    const Scene& scene = built.scene;
-    const auto warn = [&](const std::string& kind, const std::string& what, const std::string& fix) {
-        found.push_back({.severity = Severity::warning, .kind = kind, .place = scene.file, .what = what, .fix = fix});
-    };
-    const double steps = static_cast<double>(count_steps(scene.duration, scene.step.time_step).steps);
-    const double springs = plan.springs.total() + plan.springs.triangle;
-    const double seconds = steps * plan.evaluations_a_step * springs * seconds_a_spring;
-    if (seconds > much_time)
-        warn("long_run", short_number(steps) + " steps will take about " + duration_text(seconds) + ", without contact",
-             "shorten duration, take a larger step.time_step, or fewer vertices");
-    if (plan.memory_bytes > much_memory)
-        warn("much_memory", "it will take about " + short_number(1e-9 * plan.memory_bytes) + " GB of memory",
-             "take fewer vertices (grid.vertices) or simpler obstacle meshes");
-    double frame = 0.0;
-    for (const TriangleMesh& mesh : built.cloth_meshes)
-        frame += bytes_a_vertex * static_cast<double>(mesh.vertices.size()) +
-                 bytes_a_triangle * static_cast<double>(mesh.triangles.size());
-    const double disk = scene.output.frames == FrameFormat::none ? 0.0 : frame * scene.duration * scene.output.fps;
-    if (disk > much_disk)
-        warn("much_output", "its frames will take about " + short_number(1e-9 * disk) + " GB on disk",
-             "lower output.fps, or set output.frames = \"none\"");
-}
-
 void examine_built(const Scene& scene, std::vector<Finding>& found) {
     const BuiltScene built = build_scene(scene);
     read_reference(built);
     const ScenePlan plan = plan_of(built);
     for (const std::string& warning : plan.warnings) found.push_back(plan_warning(scene, plan, warning));
     find_start_moves(built, found);
-    find_cost(built, plan, found);
+    append(examine_cost(built, plan), found);
 }
 
 void try_to_build(const Scene& scene, std::vector<Finding>& found) {
@@ -300,14 +273,41 @@ std::vector<Finding> examine_scene(const Scene& scene) {
 
 }  // namespace
 
+std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan) {
+    std::vector<Finding> found;
+    constexpr double seconds_a_spring = 5e-9, much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
+    constexpr double bytes_a_vertex = 60.0, bytes_a_triangle = 20.0;
+    const Scene& scene = built.scene;
+    const auto warn = [&](const std::string& kind, const std::string& what, const std::string& fix) {
+        found.push_back({.severity = Severity::warning, .kind = kind, .place = scene.file, .what = what, .fix = fix});
+    };
+    const double steps = static_cast<double>(count_steps(scene.duration, scene.step.time_step).steps);
+    const double springs = plan.springs.total() + plan.springs.triangle;
+    const double seconds = steps * plan.evaluations_a_step * springs * seconds_a_spring;
+    if (seconds > much_time)
+        warn("long_run", short_number(steps) + " steps will take about " + duration_text(seconds) + ", without contact",
+             "shorten duration, take a larger step.time_step, or fewer vertices");
+    if (plan.memory_bytes > much_memory)
+        warn("much_memory", "it will take about " + short_number(1e-9 * plan.memory_bytes) + " GB of memory",
+             "take fewer vertices (grid.vertices) or simpler obstacle meshes");
+    double frame = 0.0;
+    for (const TriangleMesh& mesh : built.cloth_meshes)
+        frame += bytes_a_vertex * static_cast<double>(mesh.vertices.size()) +
+                 bytes_a_triangle * static_cast<double>(mesh.triangles.size());
+    const double disk = scene.output.frames == FrameFormat::none ? 0.0 : frame * scene.duration * scene.output.fps;
+    if (disk > much_disk)
+        warn("much_output", "its frames will take about " + short_number(1e-9 * disk) + " GB on disk",
+             "lower output.fps, or set output.frames = \"none\"");
+    return found;
+}
+
 std::vector<Finding> examine_scene_file(const std::string& file, std::span<const Override> overrides) {
-    try {
-        return examine_scene(load_scene(file, overrides));
-    } catch (const SceneError& error) {
-        const std::string message = error.what();
-        if (message.starts_with("--")) throw;  // an override, which is not the file's fault
-        return {refusal("refused", message, file, see_keys)};
+    std::vector<Finding> found;
+    for (const std::string& message : scene_faults(file, overrides)) {
+        if (message.starts_with("--")) throw SceneError(message);  // an override, which is not the file's fault
+        found.push_back(refusal("refused", message, file, see_keys));
     }
+    return found.empty() ? examine_scene(load_scene(file, overrides)) : found;
 }
 
 }  // namespace percale::scenes

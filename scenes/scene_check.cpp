@@ -66,11 +66,11 @@ void check_box(const TomlNode& node, const SceneKey& key, const std::string& sho
     }
 }
 
-void check_table(const TomlNode& table, const Spot& spot);
+void check_table(const TomlNode& table, const Spot& spot, FaultList& faults);
 
-void check_vertices(const TomlNode& node, const SceneKey& key, const Spot& spot) {
+void check_vertices(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
     if (node.kind == TomlKind::text && node.text == "boundary") return;
-    if (node.kind == TomlKind::table && !node.entries.empty()) return check_table(node, spot);
+    if (node.kind == TomlKind::table && !node.entries.empty()) return check_table(node, spot, faults);
     if (node.kind != TomlKind::list) fail_kind(node, key, spot.shown);
     SceneKey index = key;
     index.kind = KeyKind::integer;
@@ -126,24 +126,29 @@ void check_limit(const TomlNode& node, const SceneKey& key, const Spot& spot) {
                 spot.shown + " must have exactly one of below, above, between, not " + std::to_string(node.entries.size()));
 }
 
-void check_table_list(const TomlNode& node, const SceneKey& key, const Spot& spot) {
+void check_table_list(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
     if (node.kind != TomlKind::list) fail_kind(node, key, spot.shown);
     for (std::size_t i = 0; i < node.items.size(); ++i) {
         const TomlNode& item = node.items[i];
-        if (item.kind != TomlKind::table) fail_kind(item, key, spot.shown + "." + std::to_string(i));
-        const TomlNode* name = item.find("name");
-        const bool named = name != nullptr && name->kind == TomlKind::text;
-        check_table(item, {spot.path, spot.shown + "." + (named ? name->text : std::to_string(i))});
+        faults.attempt([&] {
+            if (item.kind != TomlKind::table) fail_kind(item, key, spot.shown + "." + std::to_string(i));
+            const TomlNode* name = item.find("name");
+            const bool named = name != nullptr && name->kind == TomlKind::text;
+            check_table(item, {spot.path, spot.shown + "." + (named ? name->text : std::to_string(i))}, faults);
+        });
     }
 }
 
-void check_named_tables(const TomlNode& node, const SceneKey& key, const Spot& spot) {
+void check_named_tables(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
     if (node.kind != TomlKind::table) fail_kind(node, key, spot.shown);
     for (const TomlNode& table : node.entries) {
-        const std::string& name = table.key;
-        if (table.kind != TomlKind::table)
-            fail_at(table.place, spot.shown + "." + name + " must be a table [" + spot.shown + ".NAME], not " + described(table));
-        check_table(table, {spot.path, spot.shown + "." + name});
+        faults.attempt([&] {
+            const std::string& name = table.key;
+            if (table.kind != TomlKind::table)
+                fail_at(table.place,
+                        spot.shown + "." + name + " must be a table [" + spot.shown + ".NAME], not " + described(table));
+            check_table(table, {spot.path, spot.shown + "." + name}, faults);
+        });
     }
 }
 
@@ -152,7 +157,7 @@ void check_named_tables(const TomlNode& node, const SceneKey& key, const Spot& s
     fail_at(node.place, "this build lacks the choice '" + node.text + "' of " + shown + "; it takes " + kind_text(key) + range);
 }
 
-void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot) {
+void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
     if (node.kind == TomlKind::text && lacks_choice(key.path, node.text)) fail_lacking_choice(node, key, spot.shown);
     switch (key.kind) {
         case KeyKind::text:
@@ -175,7 +180,7 @@ void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot) {
         case KeyKind::box:
             return check_box(node, key, spot.shown);
         case KeyKind::vertices:
-            return check_vertices(node, key, spot);
+            return check_vertices(node, key, spot, faults);
         case KeyKind::names:
             return check_names(node, key, spot.shown);
         case KeyKind::pairs:
@@ -184,36 +189,38 @@ void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot) {
             return check_limit(node, key, spot);
         case KeyKind::table:
             if (node.kind != TomlKind::table) fail_kind(node, key, spot.shown);
-            return check_table(node, spot);
+            return check_table(node, spot, faults);
         case KeyKind::table_list:
-            return check_table_list(node, key, spot);
+            return check_table_list(node, key, spot, faults);
         case KeyKind::named_tables:
-            return check_named_tables(node, key, spot);
+            return check_named_tables(node, key, spot, faults);
     }
 }
 
 std::string table_text(const Spot& spot) { return spot.shown.empty() ? "the scene" : "[" + spot.shown + "]"; }
 
-void check_table(const TomlNode& table, const Spot& spot) {
+void check_entry(const TomlNode& node, const Spot& table, const std::vector<std::string>& valid, FaultList& faults) {
+    const std::string& name = node.key;
+    const Spot entry = table.inside(name);
+    const SceneKey* key = name.find('.') == std::string::npos ? find_scene_key(entry.path) : nullptr;
+    if (lacks_key(entry.path))
+        fail_at(node.key_place, "this build lacks the key '" + name + "' of " + table_text(table) + "; valid: " + joined(valid));
+    if (key == nullptr) fail_at(node.key_place, "unknown key '" + name + "' in " + table_text(table) + suggestion(name, valid));
+    check_value(node, *key, entry, faults);
+}
+
+void check_table(const TomlNode& table, const Spot& spot, FaultList& faults) {
     const std::vector<std::string> valid = keys_inside(spot.path);
-    for (const TomlNode& node : table.entries) {
-        const std::string& name = node.key;
-        const Spot entry = spot.inside(name);
-        const SceneKey* key = name.find('.') == std::string::npos ? find_scene_key(entry.path) : nullptr;
-        if (lacks_key(entry.path))
-            fail_at(node.key_place,
-                    "this build lacks the key '" + name + "' of " + table_text(spot) + "; valid: " + joined(valid));
-        if (key == nullptr)
-            fail_at(node.key_place, "unknown key '" + name + "' in " + table_text(spot) + suggestion(name, valid));
-        check_value(node, *key, entry);
+    for (const TomlNode& node : table.entries) faults.attempt([&] { check_entry(node, spot, valid, faults); });
+    for (const std::string& name : valid) {
+        const SceneKey& key = *find_scene_key(spot.inside(name).path);
+        if (!key.required || table.find(name) != nullptr) continue;
+        faults.attempt([&] { fail_at(table.place, table_text(spot) + " lacks '" + name + "': " + key.sentence); });
     }
-    for (const std::string& name : valid)
-        if (find_scene_key(spot.inside(name).path)->required && table.find(name) == nullptr)
-            fail_at(table.place, table_text(spot) + " lacks '" + name + "': " + find_scene_key(spot.inside(name).path)->sentence);
 }
 
 }  // namespace
 
-void check_document(const TomlNode& document) { check_table(document, {}); }
+void check_document(const TomlNode& document, FaultList& faults) { check_table(document, {}, faults); }
 
 }  // namespace percale::scenes

@@ -89,21 +89,22 @@ Fabric read_fabric(const TomlNode& table) {
     return fabric;
 }
 
-void read_fabrics(const TomlNode& document, Scene& scene) {
+void read_fabrics(const TomlNode& document, Scene& scene, FaultList& faults) {
     const TomlNode* fabrics = document.find("fabric");
     if (fabrics == nullptr) return;
     for (const TomlNode& table : fabrics->entries) {
-        scene.fabrics[table.key] = read_fabric(table);
+        faults.attempt([&] { scene.fabrics[table.key] = read_fabric(table); });
         const bool own = table.find("stretch_stiffness") != nullptr || table.find("shear_stiffness") != nullptr;
         if (table.find("preset") != nullptr && !own) scene.preset_moduli.insert(table.key);
     }
 }
 
 template <class Part>
-void read_list(const TomlNode& document, std::string_view key, Part (*read)(const TomlNode&), std::vector<Part>& parts) {
+void read_list(const TomlNode& document, std::string_view key, Part (*read)(const TomlNode&), std::vector<Part>& parts,
+               FaultList& faults) {
     const TomlNode* list = document.find(key);
     if (list == nullptr) return;
-    for (const TomlNode& item : list->items) parts.push_back(read(item));
+    for (const TomlNode& item : list->items) faults.attempt([&] { parts.push_back(read(item)); });
 }
 
 void read_output(const TomlNode& document, OutputSpec& output) {
@@ -113,14 +114,14 @@ void read_output(const TomlNode& document, OutputSpec& output) {
 }
 
 template <class Part>
-std::vector<std::string> checked_names(const std::vector<Part>& parts, const std::string& what) {
+std::vector<std::string> checked_names(const std::vector<Part>& parts, const std::string& what, FaultList& faults) {
     std::vector<std::string> names;
     for (const Part& part : parts) {
-        for (const Part& earlier : parts) {
-            if (&earlier == &part) break;
-            if (earlier.name == part.name)
-                fail_at(part.place, "a second " + what + " '" + part.name + "'; the first is at " + place_text(earlier.place));
-        }
+        const auto first = std::find_if(parts.begin(), parts.end(), [&](const Part& one) { return one.name == part.name; });
+        faults.attempt([&] {
+            if (&*first != &part)
+                fail_at(part.place, "a second " + what + " '" + part.name + "'; the first is at " + place_text(first->place));
+        });
         names.push_back(part.name);
     }
     return names;
@@ -135,40 +136,42 @@ std::string cloth_of(const EventSpec& event) {
         event.what);
 }
 
-void check_references(const Scene& scene) {
-    const std::vector<std::string> cloths = checked_names(scene.cloths, "cloth");
-    checked_names(scene.obstacles, "obstacle");
+void check_references(const Scene& scene, FaultList& faults) {
+    const std::vector<std::string> cloths = checked_names(scene.cloths, "cloth", faults);
+    checked_names(scene.obstacles, "obstacle", faults);
     std::vector<std::string> fabrics;
     for (const auto& [name, fabric] : scene.fabrics) fabrics.push_back(name);
-    for (const ClothSpec& cloth : scene.cloths)
-        if (!scene.fabrics.contains(cloth.fabric))
-            fail_at(cloth.place,
-                    "cloth '" + cloth.name + "': no fabric '" + cloth.fabric + "'" + suggestion(cloth.fabric, fabrics));
-    const auto check_cloth = [&](const std::string& name, const SourcePlace& place, const std::string& what) {
-        if (std::find(cloths.begin(), cloths.end(), name) == cloths.end())
-            fail_at(place, what + ": no cloth '" + name + "'" + suggestion(name, cloths));
+    const auto check_name = [&](const std::vector<std::string>& names, const std::string& name, const SourcePlace& place,
+                                const std::string& what) {
+        faults.attempt([&] {
+            if (std::find(names.begin(), names.end(), name) == names.end())
+                fail_at(place, what + " '" + name + "'" + suggestion(name, names));
+        });
     };
+    for (const ClothSpec& cloth : scene.cloths)
+        check_name(fabrics, cloth.fabric, cloth.place, "cloth '" + cloth.name + "': no fabric");
     for (const SeamSpec& seam : scene.seams)
-        for (const std::string& name : seam.cloths) check_cloth(name, seam.place, "seam");
+        for (const std::string& name : seam.cloths) check_name(cloths, name, seam.place, "seam: no cloth");
     for (const EventSpec& event : scene.events) {
         const std::string name = cloth_of(event);
-        if (!name.empty()) check_cloth(name, event.place, "event");
+        if (!name.empty()) check_name(cloths, name, event.place, "event: no cloth");
     }
 }
 
-Scene scene_of(const TomlNode& document, const std::string& name) {
+Scene scene_of(const TomlNode& document, const std::string& name, FaultList& faults) {
     Scene scene;
     scene.file = name;
     scene.scheme_place = {.file = name};
     read_value(document, "title", scene.title);
     read_value(document, "duration", scene.duration);
-    read_step(document, scene);
-    read_fabrics(document, scene);
-    read_list(document, "cloth", read_cloth, scene.cloths);
-    read_list(document, "obstacle", read_obstacle, scene.obstacles);
-    read_list(document, "seam", read_seam, scene.seams);
-    read_list(document, "event", read_event, scene.events);
-    if (const TomlNode* expect = document.find("expect")) scene.expectations = read_expectations(*expect);
+    faults.attempt([&] { read_step(document, scene); });
+    read_fabrics(document, scene, faults);
+    read_list(document, "cloth", read_cloth, scene.cloths, faults);
+    read_list(document, "obstacle", read_obstacle, scene.obstacles, faults);
+    read_list(document, "seam", read_seam, scene.seams, faults);
+    read_list(document, "event", read_event, scene.events, faults);
+    if (const TomlNode* expect = document.find("expect"))
+        faults.attempt([&] { scene.expectations = read_expectations(*expect); });
     read_output(document, scene.output);
     return scene;
 }
@@ -188,6 +191,22 @@ std::string file_text(const std::string& file) {
     return text.str();
 }
 
+/// The scene of a text; with kept faults, what could be read of it until there were some.
+Scene parsed(const std::string& text, const std::string& name, std::span<const Override> overrides, FaultList& faults) {
+    TomlNode document = parse_toml(text, name);
+    document.place = {.file = name};
+    if (document.entries.empty()) fail_at(document.place, "is empty; a scene needs at least one [fabric.NAME] and one [[cloth]]");
+    for (const Override& override : overrides) apply_override(document, override);
+    check_document(document, faults);
+    if (!faults.messages.empty()) return {};
+    Scene scene = scene_of(document, name, faults);
+    if (!faults.messages.empty()) return scene;
+    if (scene.cloths.empty()) fail_at(document.place, "has no cloth; a scene needs at least one [[cloth]]");
+    check_references(scene, faults);
+    sort_events(scene.events);
+    return scene;
+}
+
 }  // namespace
 
 Scene load_scene(const std::string& file, std::span<const Override> overrides) {
@@ -195,16 +214,14 @@ Scene load_scene(const std::string& file, std::span<const Override> overrides) {
 }
 
 Scene parse_scene(const std::string& text, const std::string& name, std::span<const Override> overrides) {
-    TomlNode document = parse_toml(text, name);
-    document.place = {.file = name};
-    if (document.entries.empty()) fail_at(document.place, "is empty; a scene needs at least one [fabric.NAME] and one [[cloth]]");
-    for (const Override& override : overrides) apply_override(document, override);
-    check_document(document);
-    Scene scene = scene_of(document, name);
-    if (scene.cloths.empty()) fail_at(document.place, "has no cloth; a scene needs at least one [[cloth]]");
-    check_references(scene);
-    sort_events(scene.events);
-    return scene;
+    FaultList faults(false);
+    return parsed(text, name, overrides, faults);
+}
+
+std::vector<std::string> scene_faults(const std::string& file, std::span<const Override> overrides) {
+    FaultList faults(true);
+    faults.attempt([&] { parsed(file_text(file), file, overrides, faults); });
+    return faults.messages;
 }
 
 }  // namespace percale::scenes

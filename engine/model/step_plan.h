@@ -32,6 +32,8 @@ struct StepPlan {
     bool ledger = false;          // what becomes of energy
     bool rest = true;             // cloth at rest falls asleep
     bool everything = false;      // nothing is skipped that could be done
+
+    bool operator==(const StepPlan&) const = default;
 };
 
 /// What is known of one cloth.

@@ -50,9 +50,8 @@ void update_clamps(World& world) {
     world.report.energy.work += hinge_energy(world.model.hinges, world.state.positions) - before;
 }
 
-}  // namespace
-
-SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come) {
+/// All facts but what `automatic` chooses.
+SceneFacts counted_facts(const World& world, const ScriptedChanges& to_come) {
     const ClothModel& model = world.model;
     SceneFacts facts;
     facts.cloth_vertices = model.vertex_count();
@@ -69,6 +68,13 @@ SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come) {
     facts.changes.pins = to_come.pins || pins_move(world);
     facts.springs.hinge = static_cast<int>(model.hinges.all.size());
     for (const ClothRange& cloth : model.cloths) facts.cloths.push_back({cloth.name, cloth.grid, cloth.fabric});
+    return facts;
+}
+
+}  // namespace
+
+SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come) {
+    SceneFacts facts = counted_facts(world, to_come);
     if (world.settings.scheme == Scheme::automatic) {
         const SchemeChoice choice = choose_scheme(world, facts);
         facts.chosen = choice.scheme;
@@ -88,6 +94,16 @@ void update_plan(World& world) {
     now.pins = world.plan.pins && pins_move(world);
     set_motion(world.plan, now);
     world.plan.seams_close = seams_close(world);
+}
+
+StepPlan plan_again(const World& world, const StepPlan& known) {
+    SceneFacts facts = counted_facts(world, {});
+    facts.chosen = known.scheme;
+    facts.parts = known.parts;
+    StepPlan plan = make_step_plan(world.settings, facts);
+    set_motion(plan, {.obstacles = known.obstacles_move, .pins = known.pins_move});
+    plan.seams_close = known.seams_close;
+    return plan;
 }
 
 void scene_changed(World& world) {

@@ -10,6 +10,10 @@ SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come = {});
 /// Makes the plan anew if the scene has changed since; then enters what moves in the coming step.
 void update_plan(World& world);
 
+/// The plan of a scene that has not changed since it was made; of the known one only what `automatic` chose and what moves in
+/// its step is taken over.
+StepPlan plan_again(const World& world, const StepPlan& known);
+
 /// The scene has changed: the plan is made anew by the next step, and cloth at rest wakes up.
 void scene_changed(World& world);
 

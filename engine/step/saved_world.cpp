@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/schemes.h"
 #include "percale/error.h"
 #include "percale/options.h"
 #include "percale/saved_report.h"
+#include "planning.h"
+#include "scheme_choice.h"
 #include "support/hash.h"
 
 namespace percale {
@@ -66,13 +67,11 @@ void exchange(Archive& archive, Value& seam) {
     archive(seam.first_spring, seam.length, seam.from, seam.over);
 }
 
+/// What plan_again takes over.
 template <class Archive, OfType<StepPlan> Value>
 void exchange(Archive& archive, Value& plan) {
     archive.choice(plan.scheme, static_cast<int>(Scheme::automatic));
-    archive.choice(plan.damping, 2);
-    archive(plan.parts, plan.implicit, plan.free_vertices, plan.solve, plan.contacts, plan.obstacles_move, plan.pins_move,
-            plan.hinges, plan.wind, plan.seams_close, plan.pins, plan.pin_work, plan.still_obstacles, plan.gravity_energy,
-            plan.keep_work_space, plan.measures, plan.ledger, plan.rest, plan.everything);
+    archive(plan.parts, plan.obstacles_move, plan.pins_move, plan.seams_close);
 }
 
 /// What a simulation asleep repeats.
@@ -271,7 +270,9 @@ private:
         settings.gravity = saved_.settings.gravity;
         settings.wind = saved_.settings.wind;
         check_options(settings, "saved state");
-        reader_.demand(std::isfinite(saved_.time) && std::isfinite(saved_.time_error), "a time that is not finite");
+        for (const double number : {saved_.time, saved_.time_error, saved_.contact_energy, saved_.contact_dt}) {
+            reader_.demand(std::isfinite(number), "a time or energy that is not finite");
+        }
     }
 
     bool fits(const Vectors& vectors) const {
@@ -290,10 +291,14 @@ private:
                                "a position or velocity that is not finite");
             }
         }
-        const int vertices = world_.model.vertex_count(), obstacles = static_cast<int>(world_.script.obstacles.size());
+        const auto there = [](int index, std::size_t count) { return index >= 0 && static_cast<std::size_t>(index) < count; };
+        const std::size_t obstacles = world_.script.obstacles.size();
         for (const Grip& grip : saved_.state.grips) {
-            reader_.demand(grip.vertex >= 0 && grip.vertex < vertices && grip.obstacle >= 0 && grip.obstacle < obstacles,
-                           "a grip on nothing");
+            const bool known = there(grip.vertex, world_.model.mass.size()) && there(grip.obstacle, obstacles);
+            reader_.demand(known && grip.stretch.allFinite(), "a grip on nothing");
+        }
+        for (const StartMove& move : saved_.start_moves) {
+            reader_.demand(there(move.cloth, world_.model.cloths.size()) && there(move.obstacle, obstacles), "a move of nothing");
         }
     }
 
@@ -304,7 +309,10 @@ private:
             const bool padding = i >= static_cast<std::size_t>(world_.model.vertex_count());
             reader_.demand(free[i] == 0.0 || (free[i] == 1.0 && !padding), "a vertex neither pinned nor free");
         }
-        reader_.demand(saved_.obstacles.size() == world_.script.obstacles.size(), "a wrong number of obstacles");
+        const auto same_size = [](const SavedObstacle& a, const ObstacleState& b) {
+            return a.start.scale == b.start.scale && a.end.scale == b.start.scale;
+        };
+        reader_.demand(std::ranges::equal(saved_.obstacles, world_.script.obstacles, same_size), "obstacles of other sizes");
         reader_.demand(saved_.clamps.size() == world_.model.hinges.all.size(), "a wrong number of hinges");
         std::size_t sewn = 0;
         bool same = saved_.seams.size() == world_.script.seams.size();
@@ -318,11 +326,10 @@ private:
 
     void check_plan() const {
         const StepPlan& plan = saved_.plan;
-        reader_.demand(plan.parts >= 1, "a step of no parts");
-        reader_.demand(plan.implicit == facts_of(plan.scheme).implicit, "a scheme of another kind");
-        reader_.demand(!plan.contacts || world_.detector, "contacts without a detector");
-        reader_.demand(!plan.wind || saved_.settings.wind, "a wind of no speed");
-        reader_.demand(saved_.detector.empty() || world_.detector, "a detector that there is not");
+        reader_.demand(saved_.plan_outdated || can_be_chosen(world_, plan.scheme, plan.parts), "a scheme of another kind");
+        const auto& [first, in_use] = saved_.solver;
+        reader_.demand(first != LinearSolver::automatic && in_use != LinearSolver::automatic, "a linear solver that is none");
+        reader_.demand(saved_.projection.share >= 0.0 && saved_.projection.share <= 1.0, "a distance out of range");
     }
 
     void check_rest() const {
@@ -340,7 +347,9 @@ private:
             reader_.demand(known ? fits(*vectors) : fits_or_empty(*vectors), "a wrong number of vertices");
         }
         reader_.demand(fits_or_empty(stages.unbalanced), "a wrong number of vertices");
-        reader_.demand(stages.control.length == 0.0 || stages.control.length >= shortest_step, "a time step too short");
+        const StepControl& control = stages.control;
+        reader_.demand(control.length == 0.0 || control.length >= shortest_step, "a time step too short");
+        reader_.demand(control.left >= 0.0 && control.share_before >= 0.0, "an error below 0");
     }
 
     const SavedWorld& saved_;
@@ -395,7 +404,6 @@ void put_state(SavedWorld& saved, World& world) {
     saved.state.points = std::move(world.state.points);
     world.state = std::move(saved.state);
     update_points(world.state);
-    world.plan = saved.plan;
     world.rest = std::move(saved.rest);
     world.stages = std::move(saved.stages);
 }
@@ -431,6 +439,7 @@ std::vector<StartMove> restore_world(std::span<const std::byte> bytes, World& wo
     put_model(saved, world);
     put_state(saved, world);
     put_solver(saved, world);
+    world.plan = saved.plan_outdated ? StepPlan{} : plan_again(world, saved.plan);
     return std::move(saved.start_moves);
 }
 

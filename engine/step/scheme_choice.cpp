@@ -17,6 +17,7 @@ constexpr double safety = 0.8;                // of the estimated stable step
 constexpr double usual_implicit = 1.0 / 240;  // s, of adaptive TR-BDF2
 constexpr double most_stiff = 3.0;            // w dt of the trapezoid
 constexpr int fine_sheet = 4000;              // vertices
+constexpr int most_parts = 1000;              // of a step, far more than are cheaper than an implicit one
 
 std::string number_text(double value) {
     char text[32];
@@ -100,6 +101,13 @@ bool has_contact(const World& world) {
                                                           [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
 }
 
+Scheme implicit_choice(const World& world) {
+    const bool projects = world.settings.contact_response == ContactResponse::projection && has_contact(world);
+    return world.settings.adaptive && !projects ? Scheme::tr_bdf2 : Scheme::backward_euler;
+}
+
+Scheme explicit_choice(const World& world) { return world.settings.adaptive ? Scheme::rk4 : Scheme::symplectic_euler; }
+
 }  // namespace
 
 double stable_step(const World& world, Scheme scheme) {
@@ -114,10 +122,8 @@ double stable_step(const World& world, Scheme scheme) {
 
 SchemeChoice choose_scheme(const World& world, const SceneFacts& facts) {
     const bool adaptive = world.settings.adaptive;
-    const bool projects = world.settings.contact_response == ContactResponse::projection && has_contact(world);
-    const Scheme implicit = adaptive && !projects ? Scheme::tr_bdf2 : Scheme::backward_euler;
+    const Scheme implicit = implicit_choice(world), short_steps = explicit_choice(world);
     if (has_contact(world)) return {implicit, 1, "explicit schemes take no contact"};
-    const Scheme short_steps = adaptive ? Scheme::rk4 : Scheme::symplectic_euler;
     const double stable = safety * stable_step(world, short_steps), dt = world.settings.time_step;
     const double parts = adaptive ? 1.0 : std::max(1.0, std::ceil(dt / stable));
     const double tries = adaptive ? 3.0 : 1.0;  // a whole step and two halves
@@ -129,6 +135,14 @@ SchemeChoice choose_scheme(const World& world, const SceneFacts& facts) {
                          number_text(explicit_cost) + " evaluations of all springs, one of " + word(implicit) + " " +
                          number_text(other_cost);
     return {cheaper ? short_steps : implicit, cheaper ? static_cast<int>(parts) : 1, std::move(reason)};
+}
+
+bool can_be_chosen(const World& world, Scheme scheme, int parts) {
+    const Scheme wish = world.settings.scheme;
+    if (wish != Scheme::automatic) return scheme == wish && parts == 1;
+    if (scheme == explicit_choice(world) && !has_contact(world))
+        return parts >= 1 && parts <= (world.settings.adaptive ? 1 : most_parts);
+    return scheme == implicit_choice(world) && parts == 1;
 }
 
 std::vector<std::string> step_warnings(const World& world, const StepPlan& plan) {

@@ -24,6 +24,10 @@ struct SchemeChoice {
 /// contact tr_bdf2 for adaptive steps, backward_euler otherwise and where contact is projected.
 SchemeChoice choose_scheme(const World& world, const SceneFacts& facts);
 
+/// Whether a step of this world can be made by a scheme in that many parts: as the settings say, or as choose_scheme might have
+/// chosen.
+bool can_be_chosen(const World& world, Scheme scheme, int parts);
+
 /// What the settings will make go wrong or inexact, one sentence each.
 std::vector<std::string> step_warnings(const World& world, const StepPlan& plan);
 

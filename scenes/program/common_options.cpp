@@ -10,7 +10,6 @@
 #include "lacking.h"
 #include "nearest_name.h"
 #include "percale/error.h"
-#include "scene_text.h"
 
 namespace percale::program {
 
@@ -86,12 +85,6 @@ void check_once(const char* option, const std::vector<std::string>& values) {
             throw SceneError(std::string(option) + " " + *value + ": given twice");
 }
 
-void check_once(const char* option, const std::vector<double>& values) {
-    std::vector<std::string> texts;
-    for (const double value : values) texts.push_back(scenes::number_text(value));
-    check_once(option, texts);
-}
-
 namespace {
 
 std::optional<double> read_number(std::string_view text) {
@@ -117,6 +110,8 @@ std::vector<double> read_numbers(const char* option, const std::vector<std::stri
     for (const std::string& text : texts) {
         const std::optional<double> value = read_quotient(text);
         if (!value) throw SceneError(std::string(option) + " " + text + ": must be numbers such as 0.004 or 1/240");
+        if (std::find(values.begin(), values.end(), *value) != values.end())
+            throw SceneError(std::string(option) + " " + text + ": given twice");
         values.push_back(*value);
     }
     return values;

@@ -45,9 +45,9 @@ std::string default_folder(const std::string& scene);
 
 /// Throws SceneError naming the option if a value is there twice.
 void check_once(const char* option, const std::vector<std::string>& values);
-void check_once(const char* option, const std::vector<double>& values);
 
-/// The values of a list of numbers such as 0.004 or 1/240. Throws SceneError naming the option and the first that is none.
+/// The values of a list of numbers such as 0.004 or 1/240. Throws SceneError naming the option and the first that is none or that
+/// is there twice.
 std::vector<double> read_numbers(const char* option, const std::vector<std::string>& texts);
 
 }  // namespace percale::program

@@ -47,8 +47,6 @@ void check_settings(const CompareSettings& settings, const SceneSource& source) 
         source(std::vector<Override>{{key, value, option}});
     };
     check_once("--schemes", settings.schemes);
-    check_once("--steps", settings.steps);
-    check_once("--tolerances", settings.tolerances);
     for (const std::string& scheme : settings.schemes) check("step.scheme", scheme, "--schemes");
     for (const double step : settings.steps) check("step.time_step", number_text(step), "--steps");
     for (const double tolerance : settings.tolerances) check("step.tolerance", number_text(tolerance), "--tolerances");

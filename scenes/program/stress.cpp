@@ -58,8 +58,6 @@ void check(const StressOptions& options) {
         if (!(factor >= 1e-9 && factor <= 1e9))
             throw SceneError("--factors " + number_text(factor) + " is outside the allowed range 1e-9 ... 1e9");
     check_once("--schemes", options.schemes);
-    check_once("--steps", read_numbers("--steps", options.time_steps));
-    check_once("--factors", read_numbers("--factors", options.factors));
 }
 
 SceneStress settings_of(const StressOptions& options) {

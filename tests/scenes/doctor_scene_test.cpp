@@ -5,6 +5,8 @@
 
 #include "obj_file.h"
 #include "run_scene.h"
+#include "scene_file.h"
+#include "scene_plan.h"
 #include "tests/scenes/faulty_meshes.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/scenes/test_folder.h"
@@ -65,6 +67,22 @@ TEST_CASE("what a scene is refused for is an error at its place, with a fix") {
     CHECK(refused[0].fix.find("percale explain") != std::string::npos);
     CHECK(severity(examined("title = \n"), "refused") == "error");
     CHECK(severity(examined(quiet_scene(), {{"step.scheme", "rk4"}}), "refused") == "error");
+}
+
+TEST_CASE("every fault of a scene file is told, not only the first") {
+    const auto keys = examined(quiet_scene() + "frames = \"obi\"\n[expect]\nlargest_strain = true\n[setp]\n");
+    REQUIRE(keys.size() == 3);
+    CHECK(keys[0].what.find("obj") != std::string::npos);
+    CHECK(keys[1].what.find("expect.largest_strain must be") != std::string::npos);
+    CHECK(keys[2].what.find("did you mean 'step'") != std::string::npos);
+    const std::string cloth = "[[cloth]]\nname = \"sheet\"\nfabric = \"sheat\"\ngrid = { size = [1, 1], vertices = [3, 3] }\n";
+    const auto names = examined(falling_sheet() + cloth);
+    REQUIRE(names.size() == 2);
+    CHECK(names[0].what.find("a second cloth 'sheet'") != std::string::npos);
+    CHECK(names[1].what.find("no fabric 'sheat'; did you mean 'sheet'") != std::string::npos);
+    const auto tables = examined("[fabric.one]\n[fabric.two]\n" + cloth);
+    REQUIRE(tables.size() == 2);
+    CHECK(tables[1].what.find("[fabric.two] lacks 'springs'") != std::string::npos);
 }
 
 TEST_CASE("all meshes of a scene are looked at, not only the first that is refused") {
@@ -230,7 +248,11 @@ TEST_CASE("runs that take hours, much memory or much disk are warned of") {
     const Overrides many = {{"duration", "1e5"}, {"output.fps", "1e5"}};
     CHECK(severity(examined(falling_sheet(), many), "much_output") == "warning");
     CHECK(severity(examined(falling_sheet(), {{"output.fps", "1e5"}}), "much_output") == "none");
-    CHECK(severity(examined(falling_sheet()), "much_memory") == "none");
+    const BuiltScene built = build_scene(parse_scene(falling_sheet(), "sheet.toml"));
+    ScenePlan plan = plan_of(built);
+    CHECK(severity(examine_cost(built, plan), "much_memory") == "none");
+    plan.memory_bytes = 12e9;
+    CHECK(find(examine_cost(built, plan), "much_memory")->what.find("12 GB of memory") != std::string::npos);
 }
 
 TEST_CASE("every shipped scene passes, and nothing in it will go wrong by its plan") {

@@ -12,7 +12,8 @@ using namespace percale::scenes;
 namespace {
 
 std::string fault(const std::string& text) {
-    return error_of([&] { check_document(parse_toml(text, "t")); });
+    FaultList first(false);
+    return error_of([&] { check_document(parse_toml(text, "t"), first); });
 }
 
 // The fault of one more table behind a correct scene of 7 lines; it begins in line 8.
@@ -23,6 +24,18 @@ const std::string no_fault = "nothing was thrown";
 }  // namespace
 
 TEST_CASE("a correct document has no fault") { CHECK(fault(small_scene()) == no_fault); }
+
+TEST_CASE("all faults of a document are kept where that is asked for, in its order, and the first of them is the one thrown") {
+    const std::string text =
+        "duraton = 3\n[step]\ntime_step = 5.0\nscheme = 3\n[fabric]\none = 1\n[fabric.two]\nspring = 2\n"
+        "[[cloth]]\nname = \"flag\"\npose = { translaton = [0, 0, 0], rotation = 1 }\n";
+    FaultList all(true);
+    check_document(parse_toml(text, "t"), all);
+    std::vector<std::string> places;
+    for (const std::string& message : all.messages) places.push_back(message.substr(0, message.find(": ")));
+    CHECK(places == std::vector<std::string>{"t:1:1", "t:3:13", "t:4:10", "t:6:7", "t:8:1", "t:11:10", "t:11:45", "t:9:1"});
+    CHECK(all.messages[0] == fault(text));
+}
 
 TEST_CASE("an unknown key is refused with its place, its table and the nearest valid key") {
     CHECK(fault("[fabric.sheet]\nsprngs = 3\n") ==

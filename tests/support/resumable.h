@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "percale/simulation.h"
+#include "tests/support/saved_bytes.h"
 
 // Runs that are saved on their way and resumed in a simulation made anew.
 namespace percale::test {
@@ -50,7 +51,6 @@ struct StepTrace {
     bool operator==(const StepTrace&) const = default;
 };
 
-using Saved = std::vector<std::byte>;
 
 /// The steps from `first` on. `saved`: filled with the states after the steps of these numbers.
 inline std::vector<StepTrace> trace(const Resumable& run, Simulation& simulation, int first, std::vector<int> at = {},

@@ -175,9 +175,14 @@ template <class Archive, OfType<Rotation> Value>
 void exchange(Archive& archive, Value& rotation) {
     archive(rotation.w, rotation.x, rotation.y, rotation.z);
 }
+/// Whether a pose is finite, its rotation of length 1 and its scale above 0.
+bool is_proper(const Pose& pose);
+
+/// What is no proper pose is refused.
 template <class Archive, OfType<Pose> Value>
 void exchange(Archive& archive, Value& pose) {
     archive(pose.translation, pose.rotation, pose.scale);
+    if constexpr (Archive::reads) archive.demand(is_proper(pose), "a pose that is none");
 }
 
 /// A hash of bytes.

@@ -149,4 +149,32 @@ TEST_CASE("Where every vertex is pinned and nothing moves a step solves nothing"
     CHECK(world.state.positions.at(3) == before[3] + Vec3(0, 0.01, 0));
 }
 
+TEST_CASE("A plan made again from what a saved state keeps of it is the same in all it says") {
+    const auto check = [](World& world, const auto& script) {
+        for (int n = 0; n < 4; ++n) {
+            script(n);
+            step(world);
+            REQUIRE_FALSE(world.plan_outdated);
+            CHECK(plan_again(world, world.plan) == world.plan);
+        }
+    };
+    const auto nothing = [](int) {};
+    for (const Scheme scheme : {Scheme::backward_euler, Scheme::rk4, Scheme::tr_bdf2, Scheme::automatic}) {
+        for (const bool skip : {true, false}) {
+            World free = sheet_world(sheet_fabric(), {.time_step = 1e-3, .scheme = scheme, .skip = skip, .wind = Vec3(1, 0, 0)});
+            check(free, nothing);
+        }
+    }
+    Fabric bending = sheet_fabric();
+    bending.springs.bend = 0.0;
+    bending.bend_stiffness = 1e-3;
+    World held = sheet_world(bending, {.measure = StepMeasures::ledger});
+    held.script.free[0] = 0.0;
+    held.script.pin_targets = held.state.positions;
+    check(held, [&](int n) { held.script.pin_targets.set(0, held.state.positions.at(0) + Vec3(0, n % 2 == 0 ? 1e-3 : 0.0, 0)); });
+    World plane = sheet_world();
+    add_plane(plane);
+    check(plane, [&](int n) { plane.script.obstacles[0].end.translation = Vec3(0, 0, n < 2 ? 1e-3 * n : 1e-3); });
+}
+
 }  // namespace percale::test

@@ -1,8 +1,11 @@
 #include "engine/step/saved_world.h"
 
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "engine/model/schemes.h"
+#include "engine/step/step.h"
 
 #include "tests/support/bench_meshes.h"
 #include "tests/support/catch.h"
@@ -242,6 +245,62 @@ TEST_CASE("No content of a well sealed state does harm") {
         if (taken % 20 == 0) other.step();
     }
     CHECK(taken > 100);
+}
+
+TEST_CASE("A state that no step could come to is refused with the reason, and nothing has changed") {
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    const auto make = [](Scheme scheme) {
+        const TriangleMesh grid = make_grid(0.2, 0.2, 3, 3);
+        World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.scheme = scheme});
+        world.detector = std::make_unique<PlaneDetector>();
+        world.detector->set_cloth(world.model.triangles, world.model.thickness);
+        world.detector->add_obstacle(make_plane(1.0), {.translation = {0, -0.1, 0}}, 0.3);
+        world.script.obstacles.push_back({"plane", {.translation = {0, -0.1, 0}}, {.translation = {0, -0.1, 0}}, 2});
+        step(world);
+        return world;
+    };
+    struct Fault {
+        const char* words;
+        std::function<void(World&)> make;
+        Scheme scheme = Scheme::backward_euler;
+        std::vector<StartMove> moves = {};
+    };
+    const StartMove move{.cloth = 1, .obstacle = 0};
+    const std::vector<Fault> faults = {
+        {"time_step", [=](World& w) { w.settings.time_step = -1.0; }},
+        {"not finite", [=](World& w) { w.time = nan; }},
+        {"not finite", [=](World& w) { w.contact_energy = infinity; }},
+        {"not finite", [=](World& w) { w.contact_dt = nan; }},
+        {"not finite", [=](World& w) { w.state.velocities.set(3, Vec3(0, infinity, 0)); }},
+        {"wrong number of vertices", [=](World& w) { w.state.positions.resize(20); }},
+        {"grip", [=](World& w) { w.state.grips.push_back({.vertex = 9, .obstacle = 0, .stretch = Vec3::Zero()}); }},
+        {"grip", [=](World& w) { w.state.grips.push_back({.vertex = 0, .obstacle = 1, .stretch = Vec3::Zero()}); }},
+        {"grip", [=](World& w) { w.state.grips.push_back({.vertex = 0, .obstacle = 0, .stretch = Vec3(nan, 0, 0)}); }},
+        {"move of nothing", [](World&) {}, Scheme::backward_euler, {move}},
+        {"neither pinned nor free", [=](World& w) { w.script.free[2] = 0.5; }},
+        {"neither pinned nor free", [=](World& w) { w.script.free.back() = 1.0; }},
+        {"other sizes", [=](World& w) { w.script.obstacles[0].end.scale = 2.0; }},
+        {"a pose that is none", [=](World& w) { w.script.obstacles[0].end.rotation.w = 2.0; }},
+        {"a pose that is none", [=](World& w) { w.script.obstacles[0].end.translation.x() = nan; }},
+        {"scheme of another kind", [=](World& w) { w.plan.scheme = Scheme::rk4; }},
+        {"scheme of another kind", [=](World& w) { w.plan.parts = 2; }},
+        {"wrong number of cloths", [=](World& w) { w.rest.cloths.resize(2); }},
+        {"negative time step", [=](World& w) { w.stages.earlier_length = -0.1; }},
+        {"wrong number of vertices", [=](World& w) { w.stages.earlier_length = 0.1; }},
+        {"wrong number of vertices", [=](World& w) { w.stages.unbalanced.resize(20); }, Scheme::tr_bdf2},
+        {"too short", [=](World& w) { w.stages.control.length = 1e-300; }},
+        {"below 0", [=](World& w) { w.stages.control.left = -1.0; }},
+        {"below 0", [=](World& w) { w.stages.control.share_before = nan; }},
+    };
+    for (const Fault& fault : faults) {
+        World bad = make(fault.scheme), world = make(fault.scheme);
+        CHECK_NOTHROW(restore_world(saved_world(bad, {}), world));
+        const Saved before = saved_world(world, {});
+        fault.make(bad);
+        CAPTURE(fault.words);
+        CHECK(mentions(scene_error([&] { restore_world(saved_world(bad, fault.moves), world); }), {"saved state", fault.words}));
+        CHECK(saved_world(world, {}) == before);
+    }
 }
 
 TEST_CASE("A detector that keeps no state refuses to be saved") {

@@ -48,7 +48,7 @@ TEST_CASE("compare refuses words and numbers that mean nothing, names the neares
     CHECK(refused(compare(folder, {"--steps", "2.0"}), "1e-7 ... 1"));
     CHECK(refused(compare(folder, {"--steps", "1/0"}), "--steps"));
     CHECK(refused(compare(folder, {"--schemes", "rk4,rk4"}), "--schemes rk4: given twice"));
-    CHECK(refused(compare(folder, {"--steps", "1/60,0.01,1/60"}), "--steps 0.0166667: given twice"));
+    CHECK(refused(compare(folder, {"--steps", "1/60,0.01,1/60"}), "--steps 1/60: given twice"));
     CHECK(refused(compare(folder, {"--repeats", "0"}), "1 ... 1000"));
     CHECK(refused(compare(folder, {"--reference-error", "0"}), "1e-14 ... 1 m"));
     CHECK(refused(compare(folder, {"--set", "duratoin=1"}), "duration"));

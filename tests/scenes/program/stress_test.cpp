@@ -56,7 +56,7 @@ TEST_CASE("stress refuses words and numbers that mean nothing and leaves nothing
     CHECK(refused(stress(folder, {"--cell", "1"}), "--cell"));
     CHECK(refused(run_program({"stress", "--cell", "99999"}, folder.path()), "0 ... "));
     CHECK(refused(run_program({"stress", "--schemes", "rk5"}, folder.path()), "no such scheme"));
-    CHECK(refused(stress(folder, {"--factors", "1,2,1.0"}), "--factors 1: given twice"));
+    CHECK(refused(stress(folder, {"--factors", "1,2,1.0"}), "--factors 1.0: given twice"));
     CHECK(refused(stress(folder, {"--schemes", "rk4,rk4"}), "--schemes rk4: given twice"));
     CHECK(refused(run_program({"stress", "--set", "duration=1"}, folder.path()), "--set"));
     CHECK(refused(run_program({"stress", "--no-skip"}, folder.path()), "--no-skip"));

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "percale/error.h"
+
+namespace percale::scenes {
+
+/// What checks do with faults: the first one is thrown, or all are kept.
+class FaultList {
+public:
+    /// `keep`: false to throw.
+    explicit FaultList(bool keep) : keep_(keep) {}
+
+    /// Runs one check, which throws SceneError for a fault.
+    template <class Check>
+    void attempt(Check check) {
+        if (!keep_) return check();
+        try {
+            check();
+        } catch (const SceneError& error) {
+            messages.emplace_back(error.what());
+        }
+    }
+
+    std::vector<std::string> messages;  // in the order in which they were found
+
+private:
+    bool keep_;
+};
+
+}  // namespace percale::scenes
