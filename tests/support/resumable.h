@@ -51,7 +51,6 @@ struct StepTrace {
     bool operator==(const StepTrace&) const = default;
 };
 
-
 /// The steps from `first` on. `saved`: filled with the states after the steps of these numbers.
 inline std::vector<StepTrace> trace(const Resumable& run, Simulation& simulation, int first, std::vector<int> at = {},
                                     std::vector<Saved>* saved = nullptr) {
