@@ -110,4 +110,16 @@ void set_model_clamps(std::span<const double> free, ClothModel& model) {
 
 void update_points(ClothState& state) { copy_out(state.positions, state.points); }
 
+double largest_aspect(const ClothModel& model, const ClothRange& cloth) {
+    if (cloth.grid || !cloth.fabric.has_moduli()) return 0.0;
+    double largest = 0.0;
+    for (const Triangle& t : model.triangles) {
+        if (t[0] < cloth.first || t[0] >= cloth.first + cloth.count) continue;
+        const Vec3 a = model.rest[t[1]] - model.rest[t[0]], b = model.rest[t[2]] - model.rest[t[0]];
+        const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
+        largest = std::max(largest, longest / a.cross(b).norm());
+    }
+    return largest;
+}
+
 }  // namespace percale

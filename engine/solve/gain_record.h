@@ -9,7 +9,7 @@ namespace percale {
 struct SolveTarget {
     double relative_residual = 0.0;  // |r| <= this |r at the start|, over free vertices
     /// Energy norm of the error, estimated by the gains alpha_k (r.z)_k of the last iterations (Hestenes and Stiefel's error
-    /// formula), scaled up after many iterations: <= relative_gain^2 (sum of all gains), or <= absolute_gain (J s^2).
+    /// formula) and by how fast they fall: <= relative_gain^2 (sum of all gains), or <= absolute_gain (J s^2).
     double relative_gain = 0.0;
     double absolute_gain = 0.0;
     int most_iterations = 2000;
@@ -20,26 +20,45 @@ struct SolveReport {
     bool converged = false;
 };
 
-/// The sum of all gains and of those of the last `window` iterations, at most 10.
+/// The gains of a solve: all, and those of the last four windows of some iterations (at most 10) each.
 class GainRecord {
 public:
-    explicit GainRecord(int window) : window_size_(window) {}
+    explicit GainRecord(int window) : window_(window) {}
     void add(double gain) {
-        window_[count_++ % window_size_] = gain;
+        recent_[count_++ % recent_.size()] = gain;
         total_ += gain;
     }
     bool small_enough(const SolveTarget& target) const {
-        if ((target.relative_gain <= 0.0 && target.absolute_gain <= 0.0) || count_ < window_size_) return false;
-        double recent = 0.0;
-        for (int k = 0; k < window_size_; ++k) recent += window_[k];
-        // The longer the way so far, the more is likely to come after the window.
-        const double ahead = recent * std::max(1.0, count_ / (4.0 * window_size_));
-        return ahead <= std::max(target.relative_gain * target.relative_gain * total_, target.absolute_gain);
+        if ((target.relative_gain <= 0.0 && target.absolute_gain <= 0.0) || count_ < window_) return false;
+        return ahead() <= std::max(target.relative_gain * target.relative_gain * total_, target.absolute_gain);
     }
 
 private:
-    std::array<double, 10> window_{};
-    int window_size_;
+    double in_window(int number) const {
+        double sum = 0.0;
+        for (int k = count_ - (number + 1) * window_; k < count_ - number * window_; ++k) sum += recent_[k % recent_.size()];
+        return sum;
+    }
+    /// What is likely to come. Where gains fall fast it is less than those of the last window, but the more the longer the way
+    /// has been. Else the matrix is badly conditioned and they come in bursts: then as from windows like the last four, of which
+    /// each has as large a share of the one before as the slowest of these.
+    double ahead() const {
+        const int windows = std::min(4, count_ / window_);
+        const double last = in_window(0);
+        double ratio = 0.0, all = last;
+        for (int k = 1; k < windows; ++k) {
+            const double before = in_window(k);
+            ratio = std::max(ratio, in_window(k - 1) / before);
+            all += before;
+        }
+        if (ratio < slow) return last * std::max(1.0, count_ / (4.0 * window_));
+        const double bounded = std::min(ratio, 0.99);
+        return all * bounded / (1.0 - bounded);
+    }
+
+    static constexpr double slow = 0.8;
+    std::array<double, 40> recent_{};
+    int window_;
     double total_ = 0.0;
     int count_ = 0;
 };

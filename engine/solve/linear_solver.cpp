@@ -9,12 +9,19 @@ namespace {
 constexpr int dear_jacobi = 25;  // iterations from which multigrid is cheaper
 constexpr int most_jacobi = 40;  // after which a solve is left to multigrid
 
+bool has_slivers(const ClothModel& model) {
+    return std::any_of(model.cloths.begin(), model.cloths.end(),
+                       [&](const ClothRange& cloth) { return largest_aspect(model, cloth) > sliver_aspect; });
+}
+
 }  // namespace
 
 void StepSolver::set_model(const Compute& compute, const ClothModel& model, LinearSolver wish) {
     set_pattern(compute, model.adjacency, model.mass, matrix);
     model_ = &model;
     wish_ = wish;
+    if (wish == LinearSolver::automatic && model.vertex_count() <= most_factorised && has_slivers(model))
+        first_ = LinearSolver::direct;
     in_use_ = wish == LinearSolver::automatic ? first_ : wish;
     multigrid_.reset();
     direct_.reset();

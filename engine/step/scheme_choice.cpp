@@ -145,6 +145,24 @@ bool can_be_chosen(const World& world, Scheme scheme, int parts) {
     return scheme == implicit_choice(world) && parts == 1;
 }
 
+namespace {
+
+void warn_of_slivers(const World& world, std::vector<std::string>& warnings) {
+    const LinearSolver solver = world.settings.linear_solver;
+    const bool factorised = solver == LinearSolver::automatic && world.model.vertex_count() <= most_factorised;
+    if (factorised || solver == LinearSolver::direct) return;
+    for (const ClothRange& cloth : world.model.cloths) {
+        const double aspect = largest_aspect(world.model, cloth);
+        if (aspect > sliver_aspect)
+            warnings.push_back(
+                "cloth '" + cloth.name + "' has moduli and triangles " + std::to_string(std::llround(std::min(aspect, 1e15))) +
+                " times as long as high: what iterative solvers leave can be more than the error of the time step; "
+                "remesh it, or set linear_solver = \"direct\"");
+    }
+}
+
+}  // namespace
+
 std::vector<std::string> step_warnings(const World& world, const StepPlan& plan) {
     std::vector<std::string> warnings;
     const double dt = world.settings.time_step / plan.parts;
@@ -172,6 +190,7 @@ std::vector<std::string> step_warnings(const World& world, const StepPlan& plan)
         warnings.push_back("newton_iterations = 1 with " + std::to_string(world.model.vertex_count()) +
                            " vertices: one linear solve leaves fine cloth far from the end of its step; allow more");
     }
+    if (plan.implicit) warn_of_slivers(world, warnings);
     return warnings;
 }
 

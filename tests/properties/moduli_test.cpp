@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/support/catch.h"
+#include "tests/support/laws.h"
 #include "tests/support/membrane_cases.h"
 
 namespace percale::test {
@@ -57,6 +58,40 @@ Moduli sheet_moduli(const Fabric& fabric) {
 
 double young(const Moduli& m) { return m.c11 - m.c12 * m.c12 / m.c11; }
 
+/// Half a second of a sheet of moduli that hangs from two corners; one row of its triangles is `aspect` times as long as high.
+std::vector<Vec3> hung_with_slivers(double aspect, const StepSettings& settings) {
+    constexpr int side = 17, thin_row = 9;
+    constexpr double cell = 0.4 / (side - 1);
+    const TriangleMesh grid = make_grid(0.4, 0.4, side, side);
+    std::vector<Vec3> places = grid.vertices;
+    for (int c = 0; c < side; ++c)
+        places[thin_row * side + c] = places[(thin_row - 1) * side + c] + Vec3(0.0, 0.0, cell / aspect);
+    TriangleMesh mesh{.vertices = std::move(places), .triangles = {}};
+    for (int r = 0; r + 1 < side; ++r) {
+        for (int c = 0; c + 1 < side; ++c) {
+            const int a = r * side + c;
+            mesh.triangles.push_back({a, a + side, a + 1});
+            mesh.triangles.push_back({a + 1, a + side, a + side + 1});
+        }
+    }
+    Fabric fabric = sheet_fabric();
+    fabric.springs = {.structural = 0.0};
+    fabric.stretch_stiffness = std::array{100.0, 100.0};
+    fabric.poisson_ratio = 0.3;
+    fabric.bend_stiffness = 1e-5;
+    Simulation simulation(settings);
+    const ClothId cloth = simulation.add_cloth(mesh, fabric);
+    for (const int corner : {0, side - 1}) simulation.pin(cloth, corner);
+    while (simulation.time() < 0.5 - 1e-9) simulation.step();
+    return copy(simulation.positions(cloth));
+}
+
+double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
+    return largest;
+}
+
 }  // namespace
 
 TEST_CASE("Square grid of springs: C11 = ks + kd + 4 kb, C12 = C66 = kd; isotropic where kd = (ks + 4 kb)/2") {
@@ -85,6 +120,19 @@ TEST_CASE("Van Gelder's springs on a grid of alternating diagonals are 1.20 time
     const Moduli m = sheet_moduli(fabric);
     CHECK(young(m) == Approx(1.2 * 80.0).epsilon(1e-4));
     CHECK(m.c12 / m.c11 == Approx(0.2).epsilon(1e-4));
+}
+
+TEST_CASE("Where triangles are slivers default steps stay within a third of the error of the time step", "[law]") {
+    const StepSettings exact{.linear_solver = LinearSolver::direct},
+        half{.time_step = 1.0 / 120.0, .linear_solver = LinearSolver::direct};
+    for (const double aspect : {3.0, 10.0, 30.0}) {
+        const std::vector<Vec3> places = hung_with_slivers(aspect, exact);
+        const double time_error = largest_distance(places, hung_with_slivers(aspect, half));
+        const double distance = largest_distance(places, hung_with_slivers(aspect, {}));
+        check_law("slivers " + std::to_string(static_cast<int>(aspect)) +
+                      " : 1, moduli: default steps from exact ones, share of the time error",
+                  distance / time_error, 0.33);
+    }
 }
 
 }  // namespace percale::test

@@ -90,6 +90,21 @@ TEST_CASE("The automatic choice changes to multigrid in the midst of a dear solv
     CHECK(prepared.solver.in_use() == LinearSolver::multigrid);
 }
 
+TEST_CASE("The automatic choice factorises small cloth of moduli with slivers, and no other") {
+    const auto begins_with = [](double height, const Fabric& fabric) {
+        const TriangleMesh mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, height}, {0.5, 0, -0.5}},
+                                .triangles = {{0, 2, 1}, {0, 1, 3}}};
+        const ClothModel model = cloth_model(mesh, fabric);
+        StepSolver solver;
+        solver.set_model(compute, model, LinearSolver::automatic);
+        return solver.in_use();
+    };
+    const Fabric moduli{.springs = {.structural = 0.0}, .stretch_stiffness = std::array{100.0, 100.0}};
+    CHECK(begins_with(0.005, moduli) == LinearSolver::direct);
+    CHECK(begins_with(0.02, moduli) == LinearSolver::cg);
+    CHECK(begins_with(0.005, free_fabric()) == LinearSolver::cg);
+}
+
 TEST_CASE("Another model starts anew") {
     const SheetSystem sheet(5, 33, 0.3), other(6, 9, 0.3);
     Prepared prepared(sheet, LinearSolver::automatic), fresh(other, LinearSolver::automatic);

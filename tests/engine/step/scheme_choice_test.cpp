@@ -137,4 +137,24 @@ TEST_CASE("Warnings name what will go wrong, and there are none where nothing wi
     CHECK(mentions(warnings({.newton_iterations = 1}, 65), {"newton_iterations = 1", "4225"}));
 }
 
+TEST_CASE("Slivers of cloth of moduli are warned of where the solver is iterative") {
+    const auto warned = [](double height, const Fabric& fabric, LinearSolver solver) {
+        TriangleMesh mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, height}, {0.5, 0, -0.5}},
+                          .triangles = {{0, 2, 1}, {0, 1, 3}}};
+        const World world = make_world(cloth_model(mesh, fabric), mesh.vertices, {.linear_solver = solver});
+        std::string text;
+        for (const std::string& warning : step_warnings(world, world.plan)) text += warning;
+        return text;
+    };
+    const Fabric moduli = fabric_preset("silk");
+    Fabric isotropic = moduli;
+    isotropic.stretch_stiffness = std::array{100.0, 100.0};
+    isotropic.shear_stiffness.reset();
+    CHECK(mentions(warned(0.005, isotropic, LinearSolver::multigrid), {"cloth 'cloth'", "200 times as long as high", "direct"}));
+    CHECK(warned(0.005, isotropic, LinearSolver::direct).empty());
+    CHECK(warned(0.005, isotropic, LinearSolver::automatic).empty());  // so few vertices are solved directly
+    CHECK(warned(0.02, isotropic, LinearSolver::multigrid).empty());
+    CHECK(warned(0.005, free_fabric(), LinearSolver::multigrid).empty());
+}
+
 }  // namespace percale::test
