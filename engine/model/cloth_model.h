@@ -64,8 +64,8 @@ void finish_model(ClothModel& model);
 /// Makes hinges beside clamps stiffer. `free`: 1, or 0 at pinned vertices.
 void set_model_clamps(std::span<const double> free, ClothModel& model);
 
-/// Longest edge of a triangle over its height there at rest, largest of a cloth of moduli on a free mesh: its stiffness across is by
-/// as much larger than along. 0 for other cloth.
+/// Longest edge of a triangle over its height there at rest, largest of a cloth of moduli on a free mesh: its stiffness across is
+/// by as much larger than along. 0 for other cloth.
 double largest_aspect(const ClothModel& model, const ClothRange& cloth);
 /// From there on iterative solvers stop too early.
 constexpr double sliver_aspect = 100.0;
