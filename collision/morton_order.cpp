@@ -20,10 +20,12 @@ std::vector<std::uint64_t> morton_codes(std::span<const Triangle> triangles, std
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
     }
+    constexpr double most = 1048575.0;
     const double extent = std::max((high - low).maxCoeff(), 1e-300);
     std::vector<std::uint64_t> codes;
     for (const auto& [a, b, c] : triangles) {
-        const Vec3 centre = ((positions[a] + positions[b] + positions[c]) / 3.0 - low) / extent * 1048575.0;
+        const Vec3 place = ((positions[a] + positions[b] + positions[c]) / 3.0 - low) / extent * most;
+        const Vec3 centre = place.cwiseMax(0.0).cwiseMin(most);  // by rounding it may lie outside, far if all are in one point
         codes.push_back(spread(static_cast<std::uint64_t>(centre.x())) | spread(static_cast<std::uint64_t>(centre.y())) << 1 |
                         spread(static_cast<std::uint64_t>(centre.z())) << 2);
     }

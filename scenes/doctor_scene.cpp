@@ -251,6 +251,14 @@ void try_to_build(const Scene& scene, std::vector<Finding>& found) {
     }
 }
 
+Finding not_looked_at(const std::string& file, const std::string& parts) {
+    return {.severity = Severity::note,
+            .kind = "not_built",
+            .place = file,
+            .what = parts + " were not looked at, because of the errors",
+            .fix = "mend these and run `percale doctor` once more"};
+}
+
 std::vector<Finding> examine_scene(const Scene& scene) {
     std::vector<Finding> found;
     const Meshes meshes = read_meshes(scene, found);
@@ -262,11 +270,7 @@ std::vector<Finding> examine_scene(const Scene& scene) {
     if (!has_errors(found)) {
         try_to_build(scene, found);
     } else {
-        found.push_back({.severity = Severity::note,
-                         .kind = "not_built",
-                         .place = scene.file,
-                         .what = "start, scheme and cost were not looked at, because of the errors",
-                         .fix = "mend these and run `percale doctor` once more"});
+        found.push_back(not_looked_at(scene.file, "pinned vertices, events, start, scheme and cost"));
     }
     return found;
 }
@@ -307,7 +311,9 @@ std::vector<Finding> examine_scene_file(const std::string& file, std::span<const
         if (message.starts_with("--")) throw SceneError(message);  // an override, which is not the file's fault
         found.push_back(refusal("refused", message, file, see_keys));
     }
-    return found.empty() ? examine_scene(load_scene(file, overrides)) : found;
+    if (found.empty()) return examine_scene(load_scene(file, overrides));
+    found.push_back(not_looked_at(file, "what tables say together, names, meshes, start, scheme and cost"));
+    return found;
 }
 
 }  // namespace percale::scenes

@@ -23,8 +23,8 @@ Scene load_scene(const std::string& file, std::span<const Override> overrides = 
 /// The same from text; `name` stands for the file in messages and relative paths are relative to its folder.
 Scene parse_scene(const std::string& text, const std::string& name, std::span<const Override> overrides = {});
 
-/// What load_scene has against a file, all of it: faults of keys and values; where there are none, those of whole tables; where
-/// there are none, those of names by which tables call each other.
+/// What load_scene has against a file, one kind at a time: all faults of keys and values; where there are none, those of whole
+/// tables; where there are none, those of names by which tables call each other.
 std::vector<std::string> scene_faults(const std::string& file, std::span<const Override> overrides = {});
 
 }  // namespace percale::scenes

@@ -36,6 +36,9 @@ struct StressHooks {
 /// around some of its points. Always the same cells in the same order.
 std::vector<StressCell> stress_matrix();
 
+/// Of a cell, if not said otherwise.
+constexpr int usual_steps = 16;
+
 /// Just beyond their limit explicit schemes grow slowly, and their steps are cheap: they make so many times more of them.
 constexpr int explicit_factor = 8;
 
@@ -50,7 +53,7 @@ struct SceneStress {
     std::vector<std::string> schemes = {};                           // empty: all
     std::vector<double> time_steps = {1e-4, 1e-3, 1e-2, 1e-1, 1.0};  // s
     std::vector<double> factors = {1e-2, 1.0, 1e2, 1e4};             // on all constants of springs and moduli
-    int steps = 20;                                                  // of each run, at most
+    int steps = usual_steps;                                         // of each run, at most
 };
 
 /// The same with a scene: each run ends with the scene's duration or after so many steps. Throws SceneError where the scene is

@@ -108,16 +108,19 @@ void commit_together(std::initializer_list<WholeFile*> files) {
 
 OutputFolder::OutputFolder(const std::string& folder) {
     namespace fs = std::filesystem;
-    std::error_code error;
-    for (fs::path path = fs::path(folder).lexically_normal(); !path.empty() && !fs::exists(path, error);
-         path = path.parent_path())
+    std::error_code error, ignored;
+    const fs::path whole = fs::path(folder).lexically_normal();
+    for (fs::path path = whole; !path.empty() && !fs::exists(path, ignored); path = path.parent_path())
         made_.push_back(path.string());
-    fs::create_directories(folder, error);
-    if (error || !fs::is_directory(folder))
-        throw SceneError(folder + ": cannot be made: " + (error ? error.message() : "it is a file"));
+    fs::create_directories(whole, error);
+    if (!error && fs::is_directory(whole)) return;
+    remove_empty();
+    throw SceneError(folder + ": cannot be made: " + (error ? error.message() : "it is a file"));
 }
 
-OutputFolder::~OutputFolder() {
+OutputFolder::~OutputFolder() { remove_empty(); }
+
+void OutputFolder::remove_empty() {
     std::error_code error;  // a folder with something in it stays
     for (const std::string& folder : made_) std::filesystem::remove(folder, error);
 }

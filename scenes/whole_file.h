@@ -54,6 +54,8 @@ public:
     OutputFolder& operator=(const OutputFolder&) = delete;
 
 private:
+    void remove_empty();
+
     std::vector<std::string> made_;  // the innermost first
 };
 

@@ -20,9 +20,9 @@ void StepSolver::set_model(const Compute& compute, const ClothModel& model, Line
     set_pattern(compute, model.adjacency, model.mass, matrix);
     model_ = &model;
     wish_ = wish;
-    if (wish == LinearSolver::automatic && model.vertex_count() <= most_factorised && has_slivers(model))
-        first_ = LinearSolver::direct;
-    in_use_ = wish == LinearSolver::automatic ? first_ : wish;
+    const bool factorises = model.vertex_count() <= most_factorised && has_slivers(model);
+    const LinearSolver iterative = first_ == LinearSolver::direct ? LinearSolver::cg : first_;
+    in_use_ = wish != LinearSolver::automatic ? wish : factorises ? LinearSolver::direct : iterative;
     multigrid_.reset();
     direct_.reset();
     stale_ = true;

@@ -130,7 +130,7 @@ SchemeChoice choose_scheme(const World& world, const SceneFacts& facts) {
     const double length = adaptive ? stable : dt / parts;
     const double explicit_cost = tries * facts_of(short_steps).force_evaluations / length;
     const double other_cost = implicit_cost(world, facts, implicit, adaptive ? std::min(dt, usual_implicit) : dt);
-    const bool cheaper = explicit_cost < other_cost;
+    const bool cheaper = explicit_cost < other_cost && parts <= most_parts;
     std::string reason = "a second of " + word(short_steps) + " in steps of " + number_text(length) + " s costs " +
                          number_text(explicit_cost) + " evaluations of all springs, one of " + word(implicit) + " " +
                          number_text(other_cost);

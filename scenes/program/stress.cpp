@@ -24,13 +24,12 @@ namespace {
 using namespace percale::scenes;
 
 constexpr int told_failures = 10;
-constexpr int matrix_steps = 16;
 
 struct StressOptions {
     CommonOptions common;
     std::string scene, folder;
     std::vector<std::string> schemes, time_steps, factors;
-    int steps = matrix_steps, cell = -1;
+    int steps = usual_steps, cell = -1;
 };
 
 /// What only scenes take, and what only the matrix takes.
@@ -112,12 +111,12 @@ std::string folder_name(const StressOptions& options) {
 }
 
 void print(const StressOptions& options, const StressRun& run, const std::string& folder) {
-    std::printf("%zu cells of at most %d steps", run.rows.size(), run.steps);
+    std::printf("%zu cell%s of at most %d steps", run.rows.size(), run.rows.size() == 1 ? "" : "s", run.steps);
     std::printf(run.of_scene ? "\n" : ", of explicit schemes %d\n", explicit_factor * run.steps);
     std::fputs(stress_summary(run).c_str(), stdout);
     std::fputs(stress_failures(run, told_failures).c_str(), stdout);
     if (run.failures() > 0 && options.scene.empty())
-        std::printf("%d failures; `percale stress --cell N` repeats cell N\n", run.failures());
+        std::printf("failures: %d; `percale stress --cell N` repeats cell N\n", run.failures());
     std::printf("%s/stress.csv, %s/stress.svg\n", folder.c_str(), folder.c_str());
 }
 

@@ -33,3 +33,11 @@ TEST_CASE("triangles at one place keep their order") {
     const std::vector<Triangle> same(5, Triangle{0, 1, 2});
     CHECK(morton_order(same, x) == std::vector<int>{0, 1, 2, 3, 4});
 }
+
+TEST_CASE("all vertices in one point, whose mean may differ by rounding, have an order") {
+    const std::vector<Vec3> x(4, Vec3(0.1, 0.7, 0.3));
+    const std::vector<Triangle> triangles{{0, 1, 2}, {1, 2, 3}, {2, 3, 0}};
+    std::vector<int> order = morton_order(triangles, x);
+    std::sort(order.begin(), order.end());
+    CHECK(order == std::vector<int>{0, 1, 2});
+}

@@ -58,7 +58,8 @@ TEST_CASE("what a scene is refused for is an error at its place, with a fix") {
     const auto found = examined(quiet_scene(), {});
     const std::string typo = quiet_scene() + "frames = \"obi\"\n";
     const auto refused = examined(typo);
-    REQUIRE(refused.size() == 1);
+    REQUIRE(refused.size() == 2);
+    CHECK(severity(refused, "not_built") == "note");
     CHECK(refused[0].kind == "refused");
     CHECK(refused[0].severity == Severity::error);
     CHECK(refused[0].place.find("scene.toml:") != std::string::npos);
@@ -71,17 +72,17 @@ TEST_CASE("what a scene is refused for is an error at its place, with a fix") {
 
 TEST_CASE("every fault of a scene file is told, not only the first") {
     const auto keys = examined(quiet_scene() + "frames = \"obi\"\n[expect]\nlargest_strain = true\n[setp]\n");
-    REQUIRE(keys.size() == 3);
+    REQUIRE(keys.size() == 4);
     CHECK(keys[0].what.find("obj") != std::string::npos);
     CHECK(keys[1].what.find("expect.largest_strain must be") != std::string::npos);
     CHECK(keys[2].what.find("did you mean 'step'") != std::string::npos);
     const std::string cloth = "[[cloth]]\nname = \"sheet\"\nfabric = \"sheat\"\ngrid = { size = [1, 1], vertices = [3, 3] }\n";
     const auto names = examined(falling_sheet() + cloth);
-    REQUIRE(names.size() == 2);
+    REQUIRE(names.size() == 3);
     CHECK(names[0].what.find("a second cloth 'sheet'") != std::string::npos);
     CHECK(names[1].what.find("no fabric 'sheat'; did you mean 'sheet'") != std::string::npos);
     const auto tables = examined("[fabric.one]\n[fabric.two]\n" + cloth);
-    REQUIRE(tables.size() == 2);
+    REQUIRE(tables.size() == 3);
     CHECK(tables[1].what.find("[fabric.two] lacks 'springs'") != std::string::npos);
 }
 

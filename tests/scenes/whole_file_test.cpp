@@ -88,6 +88,10 @@ TEST_CASE("a new output folder with nothing in it goes again, others stay") {
     const TestFolder folder;
     { const OutputFolder output(folder.path() + "/a/b/"); }
     CHECK_FALSE(folder.holds("a"));
+    { const OutputFolder output(folder.path() + "/a/../c/b"); }
+    CHECK_THROWS_AS(OutputFolder(folder.path() + "/a/b/" + std::string(300, 'x')), SceneError);
+    CHECK_FALSE(folder.holds("a"));
+    CHECK_FALSE(folder.holds("c"));
     {
         const OutputFolder output(folder.path() + "/a/b");
         write_whole_file(folder.path() + "/a/file", "text");

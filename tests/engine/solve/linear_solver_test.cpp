@@ -91,18 +91,23 @@ TEST_CASE("The automatic choice changes to multigrid in the midst of a dear solv
 }
 
 TEST_CASE("The automatic choice factorises small cloth of moduli with slivers, and no other") {
-    const auto begins_with = [](double height, const Fabric& fabric) {
-        const TriangleMesh mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, height}, {0.5, 0, -0.5}},
-                                .triangles = {{0, 2, 1}, {0, 1, 3}}};
-        const ClothModel model = cloth_model(mesh, fabric);
-        StepSolver solver;
+    const auto strip = [](double height, const Fabric& fabric) {
+        return cloth_model(
+            {.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, height}, {0.5, 0, -0.5}}, .triangles = {{0, 2, 1}, {0, 1, 3}}}, fabric);
+    };
+    const Fabric moduli{.springs = {.structural = 0.0}, .stretch_stiffness = std::array{100.0, 100.0}};
+    const ClothModel sliver = strip(0.005, moduli), even = strip(0.02, moduli), springs = strip(0.005, free_fabric());
+    StepSolver solver;
+    const auto begins_with = [&](const ClothModel& model) {
         solver.set_model(compute, model, LinearSolver::automatic);
         return solver.in_use();
     };
-    const Fabric moduli{.springs = {.structural = 0.0}, .stretch_stiffness = std::array{100.0, 100.0}};
-    CHECK(begins_with(0.005, moduli) == LinearSolver::direct);
-    CHECK(begins_with(0.02, moduli) == LinearSolver::cg);
-    CHECK(begins_with(0.005, free_fabric()) == LinearSolver::cg);
+    CHECK(begins_with(springs) == LinearSolver::cg);
+    CHECK(begins_with(sliver) == LinearSolver::direct);
+    CHECK(begins_with(even) == LinearSolver::cg);
+    solver.begin_with(LinearSolver::direct);  // what was in use for the model before
+    CHECK(begins_with(even) == LinearSolver::cg);
+    CHECK(begins_with(sliver) == LinearSolver::direct);
 }
 
 TEST_CASE("Another model starts anew") {

@@ -32,7 +32,7 @@ TEST_CASE("stress repeats one cell of the default matrix") {
     const TestFolder folder;
     const ProgramRun run = run_program({"stress", "--cell", "700", "-o", "out"}, folder.path());
     CHECK(run.exit_code == 0);
-    CHECK(run.out.find("1 cells") == 0);
+    CHECK(run.out.find("1 cell of at most 16 steps") == 0);
     CHECK(line_count(folder.read("out/stress.csv")) == 2);
 }
 
