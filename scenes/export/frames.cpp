@@ -37,12 +37,6 @@ std::string numbered(const std::string& folder, const std::string& name, int ind
     return folder + "/" + name + number;
 }
 
-void make_folder(const std::string& path) {
-    std::error_code error;
-    std::filesystem::create_directories(path, error);
-    if (error) throw SceneError(path + ": cannot be made: " + error.message());
-}
-
 }  // namespace
 
 bool obstacle_moves(const ObstacleSpec& obstacle) {
@@ -57,8 +51,8 @@ FrameWriter::FrameWriter(const std::string& folder, const Scene& scene)
 
 FrameRecord FrameWriter::write(const Frame& frame) {
     FrameRecord record{frame.index, frame.time, {}, {}, frame.check, {}};
-    make_folder(folder_ + "/frames");
-    if (!frame.obstacles.empty()) make_folder(folder_ + "/obstacles");
+    need_folder("frames");
+    if (!frame.obstacles.empty()) need_folder("obstacles");
     for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
         record.cloths.push_back(numbered("frames", cloth_names_[i], frame.index));
         if (cloth_meets_[i]) record.meeting.push_back(record.cloths.back());
@@ -70,6 +64,8 @@ FrameRecord FrameWriter::write(const Frame& frame) {
     }
     return record;
 }
+
+void FrameWriter::need_folder(const std::string& name) { folders_.try_emplace(name, folder_ + "/" + name); }
 
 void FrameWriter::write_mesh(const std::string& name, const TriangleMesh& mesh) {
     const std::string file = folder_ + "/" + name;
@@ -104,7 +100,7 @@ void remove_numbered(const std::string& folder, const std::vector<std::string>& 
 void FrameWriter::copy(const std::string& folder, const std::string& name) {
     namespace fs = std::filesystem;
     const std::string from = folder + "/" + name, to = folder_ + "/" + name, part = to + part_suffix;
-    make_folder(fs::path(to).parent_path().string());
+    need_folder(fs::path(name).parent_path().string());
     std::error_code error;
     fs::copy_file(from, part, fs::copy_options::overwrite_existing, error);
     if (!error) fs::rename(part, to, error);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "run_scene.h"
+#include "whole_file.h"
 
 namespace percale::scenes {
 
@@ -35,12 +37,14 @@ public:
     void remove_from(int frame) const;
 
 private:
+    void need_folder(const std::string& name);
     void write_mesh(const std::string& name, const TriangleMesh& mesh);
 
     std::string folder_;
     std::vector<std::string> cloth_names_, obstacle_names_;
     std::vector<bool> obstacle_moves_, cloth_meets_;
     std::vector<std::string> written_;
+    std::map<std::string, OutputFolder> folders_;
 };
 
 /// Whether an obstacle has more than one pose during a run.

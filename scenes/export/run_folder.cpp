@@ -83,13 +83,6 @@ std::vector<std::string> files_of(const std::vector<FrameRecord>& frames, const 
     return all;
 }
 
-void make_run_folder(const std::string& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error || !fs::is_directory(folder))
-        throw SceneError(folder + ": cannot be made: " + (error ? error.message() : "it is a file"));
-}
-
 }  // namespace
 
 RunFolder::RunFolder(const std::string& folder, const Scene& scene, bool with_state_hash)
@@ -106,7 +99,7 @@ RunFolder::~RunFolder() {
 }
 
 void RunFolder::begin() {
-    make_run_folder(folder_);
+    made_.emplace(folder_);
     remove_earlier_run(folder_);
     remove_killed_run(folder_, writer_);
     remove_file(fs::path(folder_) / checkpoint_name);
@@ -115,7 +108,7 @@ void RunFolder::begin() {
 
 void RunFolder::begin_from(const FolderState& state, const std::string& other) {
     const std::vector<std::string> files = files_of(state.frames, other);
-    make_run_folder(folder_);
+    made_.emplace(folder_);
     std::error_code error;
     const bool here = fs::equivalent(folder_, other, error);
     steps_.emplace(folder_ + "/steps.csv", step_file(other), state.step_bytes);

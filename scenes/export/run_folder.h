@@ -8,6 +8,7 @@
 #include "export/frames.h"
 #include "export/run_report.h"
 #include "export/step_table.h"
+#include "whole_file.h"
 
 namespace percale::scenes {
 
@@ -21,7 +22,7 @@ struct FolderState {
 constexpr const char* checkpoint_name = "checkpoint.percale";
 
 /// What a run leaves in its folder: frames, steps.csv, report.json. Without `finish` (a file could not be written) none of these
-/// files stays, but for what a checkpoint needs (`keep`).
+/// files stays, but for what a checkpoint needs (`keep`), nor a new folder with nothing in it.
 class RunFolder {
 public:
     /// Creates nothing yet. Throws SceneError where a name of the scene cannot be part of a file name.
@@ -48,6 +49,7 @@ public:
 private:
     std::string folder_;
     bool with_frames_, with_state_hash_;
+    std::optional<OutputFolder> made_;
     FrameWriter writer_;
     std::optional<StepTable> steps_;
     std::vector<FrameRecord> frames_;

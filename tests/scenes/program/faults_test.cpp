@@ -39,6 +39,7 @@ TEST_CASE("a file that may not grow is an error with its name and the reason, an
     const ProgramRun run = run_limited(folder, 40, "run sheet.toml -o out " + many_steps);
     CHECK(refused(run, "out/steps.csv: cannot be written: File too large"));
     CHECK(folder.file_count() == 1);
+    CHECK_FALSE(folder.holds("out"));
     std::string expectations = "[expect]\n";
     for (const char* measure : {"intersections", "deepest_penetration", "largest_strain", "speed_at_end", "energy_gain"})
         expectations += std::string(measure) + " = { below = 1e6 }\n";
