@@ -16,13 +16,17 @@ bool has_slivers(const ClothModel& model) {
 
 }  // namespace
 
+bool factorises(const ClothModel& model, LinearSolver wish) {
+    if (wish != LinearSolver::automatic) return wish == LinearSolver::direct;
+    return model.vertex_count() <= most_factorised && has_slivers(model);
+}
+
 void StepSolver::set_model(const Compute& compute, const ClothModel& model, LinearSolver wish) {
     set_pattern(compute, model.adjacency, model.mass, matrix);
     model_ = &model;
     wish_ = wish;
-    const bool factorises = model.vertex_count() <= most_factorised && has_slivers(model);
     const LinearSolver iterative = first_ == LinearSolver::direct ? LinearSolver::cg : first_;
-    in_use_ = wish != LinearSolver::automatic ? wish : factorises ? LinearSolver::direct : iterative;
+    in_use_ = factorises(model, wish) ? LinearSolver::direct : wish == LinearSolver::automatic ? iterative : wish;
     multigrid_.reset();
     direct_.reset();
     stale_ = true;

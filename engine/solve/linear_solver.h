@@ -13,6 +13,10 @@ namespace percale {
 /// Up to so many vertices `automatic` factorises where iterative solvers are not exact enough.
 constexpr int most_factorised = 2000;
 
+/// Whether steps of a model begin with a factorisation: where that is asked for, and where `automatic` finds slivers in small
+/// cloth of moduli.
+bool factorises(const ClothModel& model, LinearSolver wish);
+
 /// The step matrix with the solver that the settings or the counts so far choose.
 ///
 /// `automatic` begins with block Jacobi and changes to multigrid, for good and in the midst of a solve, when that has turned out

@@ -148,9 +148,7 @@ bool can_be_chosen(const World& world, Scheme scheme, int parts) {
 namespace {
 
 void warn_of_slivers(const World& world, std::vector<std::string>& warnings) {
-    const LinearSolver solver = world.settings.linear_solver;
-    const bool factorised = solver == LinearSolver::automatic && world.model.vertex_count() <= most_factorised;
-    if (factorised || solver == LinearSolver::direct) return;
+    if (factorises(world.model, world.settings.linear_solver)) return;
     for (const ClothRange& cloth : world.model.cloths) {
         const double aspect = largest_aspect(world.model, cloth);
         if (aspect > sliver_aspect)

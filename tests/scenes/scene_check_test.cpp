@@ -25,7 +25,9 @@ const std::string no_fault = "nothing was thrown";
 
 TEST_CASE("a correct document has no fault") { CHECK(fault(small_scene()) == no_fault); }
 
-TEST_CASE("all faults of a document are kept where that is asked for, in its order, and the first of them is the one thrown") {
+TEST_CASE(
+    "all faults of a document are kept where that is asked for, what a table lacks behind its own, and the first is the one "
+    "thrown") {
     const std::string text =
         "duraton = 3\n[step]\ntime_step = 5.0\nscheme = 3\n[fabric]\none = 1\n[fabric.two]\nspring = 2\n"
         "[[cloth]]\nname = \"flag\"\npose = { translaton = [0, 0, 0], rotation = 1 }\n";

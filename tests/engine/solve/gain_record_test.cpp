@@ -1,6 +1,5 @@
 #include "engine/solve/gain_record.h"
 
-#include <initializer_list>
 #include <vector>
 
 #include "tests/support/catch.h"
