@@ -7,6 +7,8 @@ namespace percale {
 namespace {
 
 constexpr double strong_share = 0.25;
+constexpr double lower_share = 0.08;  // where that keeps too many vertices
+constexpr double most_kept = 0.4;     // of all
 constexpr int most_weights = 3;
 constexpr int most_candidates = most_weights + 2;
 constexpr double smallest_share = 0.03;  // weights below this share of the largest are dropped
@@ -16,7 +18,8 @@ struct Neighbours {
     std::vector<int> start, vertex;
     std::vector<int> strongest;  // -1 for a vertex without pairs
 
-    explicit Neighbours(const SpringGraph& graph) : start(graph.positions.size() + 1, 0), strongest(graph.positions.size(), -1) {
+    Neighbours(const SpringGraph& graph, double share)
+        : start(graph.positions.size() + 1, 0), strongest(graph.positions.size(), -1) {
         std::vector<double> largest(graph.positions.size(), 0.0);
         for (std::size_t e = 0; e < graph.pairs.size(); ++e) {
             for (int end = 0; end < 2; ++end) {
@@ -27,7 +30,7 @@ struct Neighbours {
             }
         }
         const auto strong = [&](std::size_t e) {
-            return graph.strength[e] >= strong_share * std::min(largest[graph.pairs[e][0]], largest[graph.pairs[e][1]]);
+            return graph.strength[e] >= share * std::min(largest[graph.pairs[e][0]], largest[graph.pairs[e][1]]);
         };
         for (std::size_t e = 0; e < graph.pairs.size(); ++e) {
             if (!strong(e)) continue;
@@ -146,8 +149,12 @@ InterpolationRow interpolation_row(const SpringGraph& graph, int i, int fallback
 }  // namespace
 
 Coarsening coarsen(const SpringGraph& graph) {
-    const Neighbours near(graph);
-    const std::vector<char> kept = independent_set(near);
+    Neighbours near(graph, strong_share);
+    std::vector<char> kept = independent_set(near);
+    if (static_cast<double>(std::count(kept.begin(), kept.end(), 1)) > most_kept * static_cast<double>(kept.size())) {
+        near = Neighbours(graph, lower_share);
+        kept = independent_set(near);
+    }
     const int count = static_cast<int>(graph.positions.size());
     Coarsening result;
     std::vector<int> number(count, -1);
