@@ -7,7 +7,7 @@ namespace percale {
 namespace {
 
 constexpr double strong_share = 0.25;
-constexpr double lower_share = 0.08;  // where that keeps too many vertices
+constexpr double lower_share = 0.03;  // where that keeps too many vertices
 constexpr double most_kept = 0.4;     // of all
 constexpr int most_weights = 3;
 constexpr int most_candidates = most_weights + 2;

@@ -36,10 +36,10 @@ std::size_t greedy_count(const SpringGraph& graph, const std::vector<bool>& stro
     return static_cast<std::size_t>(std::count(stays.begin(), stays.end(), true));
 }
 
-/// Pairs of a quarter of the strongest at one of their ends, or of 0.08 where that leaves more than two vertices in five.
+/// Pairs of a quarter of the strongest at one of their ends, or of 0.03 where that leaves more than two vertices in five.
 std::vector<bool> strong_pairs(const SpringGraph& graph) {
     const std::vector<bool> strong = pairs_above(graph, 0.25);
-    return 5 * greedy_count(graph, strong) > 2 * graph.positions.size() ? pairs_above(graph, 0.08) : strong;
+    return 5 * greedy_count(graph, strong) > 2 * graph.positions.size() ? pairs_above(graph, 0.03) : strong;
 }
 
 /// A square grid; diagonals are a share of the pairs along rows and columns.
@@ -97,7 +97,7 @@ TEST_CASE("Where strong pairs alone would keep half of the vertices, weaker ones
     const auto kept = [](double share) { return coarsen(grid_with_diagonals(17, share)).kept.size(); };
     CHECK(kept(0.5) == 81);    // every second of every second row
     CHECK(kept(0.1) == 81);    // although diagonals are no quarter of the strongest
-    CHECK(kept(0.05) == 145);  // every second: without diagonals there is no better choice
+    CHECK(kept(0.02) == 145);  // every second: without diagonals there is no better choice
 }
 
 TEST_CASE("Every vertex is a mean of at most three kept ones, a kept vertex itself") {
