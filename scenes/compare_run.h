@@ -13,9 +13,6 @@
 // One run of a comparison: a scene stepped in a given way to its end, and how far two ends lie apart.
 namespace percale::scenes {
 
-/// A scene with overrides applied to what it is read from; throws SceneError as load_scene does.
-using SceneSource = std::function<Scene(std::span<const Override>)>;
-
 /// How a scene is stepped.
 struct Variant {
     std::string scheme = {};  // as in a scene file

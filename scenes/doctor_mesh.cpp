@@ -24,6 +24,13 @@ std::string first_few(const std::vector<Element>& elements) {
     return text + (elements.size() > shown_elements ? ", ..." : "");
 }
 
+/// "1 vertex ..." or "12 vertices ..." of "vertex|vertices ...".
+std::string counted(long count, const std::string& what) {
+    const std::size_t bar = what.find('|'), end = what.find(' ', bar);
+    return std::to_string(count) + " " + (count == 1 ? what.substr(0, bar) : what.substr(bar + 1, end - bar - 1)) +
+           what.substr(end);
+}
+
 void append(int element, std::vector<int>& flat) { flat.push_back(element); }
 void append(const VertexPair& edge, std::vector<int>& flat) { flat.insert(flat.end(), edge.begin(), edge.end()); }
 
@@ -38,15 +45,13 @@ public:
             {.severity = severity, .kind = kind, .role = mesh_.role, .place = mesh_.place, .what = prefix + what, .fix = fix});
     }
 
-    /// Where there are such elements; the sentence is "12 WHAT: 3, 7, 8, 9, ...".
+    /// Where there are such elements; the sentence is "12 WHAT: 3, 7, 8, 9, ..." (see counted).
     template <class Element>
     void add_elements(Severity severity, const std::string& kind, const std::vector<Element>& elements, const std::string& what,
                       const std::string& fix) {
         if (elements.empty()) return;
         const auto count = static_cast<long>(elements.size());
-        const std::size_t bar = what.find('|'), end = what.find(' ', bar);
-        const std::string noun = count == 1 ? what.substr(0, bar) : what.substr(bar + 1, end - bar - 1);
-        add(severity, kind, std::to_string(count) + " " + noun + what.substr(end) + ": " + first_few(elements), fix);
+        add(severity, kind, counted(count, what) + ": " + first_few(elements), fix);
         found_.back().count = count;
         for (std::size_t i = 0; i < std::min(elements.size(), shown_elements); ++i) append(elements[i], found_.back().elements);
     }
@@ -177,17 +182,17 @@ void find_cloth_edges(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
 void find_cleaning(const ExaminedMesh& obstacle, Findings& found) {
     const CleaningReport report = cleaning_report(obstacle.mesh);
     const auto note = [&](const std::string& kind, long count, const std::string& what, const std::string& fix) {
-        if (count > 0) found.add(Severity::note, kind, std::to_string(count) + " " + what, fix);
+        if (count > 0) found.add(Severity::note, kind, counted(count, what), fix);
     };
-    note("repeated_places", report.merged_vertices, "of its vertices lie at the place of others and are merged",
+    note("repeated_places", report.merged_vertices, "vertex|vertices at the place of others, merged with them",
          "nothing has to be done; merging them in the mesh makes it smaller");
-    note("flat_triangles", report.degenerate_triangles, "of its triangles have no area and are left out",
+    note("flat_triangles", report.degenerate_triangles, "triangle|triangles without area, left out",
          "nothing has to be done; deleting them from the mesh makes it smaller");
-    note("repeated_triangles", report.duplicate_triangles, "of its triangles repeat another and are left out",
+    note("repeated_triangles", report.duplicate_triangles, "triangle|triangles with the corners of others, left out",
          "nothing has to be done; deleting them from the mesh makes it smaller");
-    note("unused_vertices", report.unreferenced_vertices, "of its vertices belong to no triangle and are left out",
+    note("unused_vertices", report.unreferenced_vertices, "vertex|vertices of no triangle, left out",
          "nothing has to be done; deleting them from the mesh makes it smaller");
-    note("internal_triangles", report.internal_triangles, "of its triangles lie inside it, where parts overlap, and are left out",
+    note("internal_triangles", report.internal_triangles, "triangle|triangles inside it, where parts overlap, left out",
          "nothing has to be done; uniting the parts in the mesh makes it smaller");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ Scene load_scene(const std::string& file, std::span<const Override> overrides = 
 
 /// The same from text; `name` stands for the file in messages and relative paths are relative to its folder.
 Scene parse_scene(const std::string& text, const std::string& name, std::span<const Override> overrides = {});
+
+/// A scene with overrides applied to what it is read from; throws SceneError as load_scene does.
+using SceneSource = std::function<Scene(std::span<const Override>)>;
 
 /// What load_scene has against a file, one kind at a time: all faults of keys and values; where there are none, those of whole
 /// tables; where there are none, those of names by which tables call each other.

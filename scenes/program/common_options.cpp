@@ -10,6 +10,7 @@
 #include "lacking.h"
 #include "nearest_name.h"
 #include "percale/error.h"
+#include "scene_text.h"
 
 namespace percale::program {
 
@@ -71,6 +72,17 @@ scenes::SceneSource scene_source(const std::string& file, const CommonOptions& o
         overrides.insert(overrides.end(), more.begin(), more.end());
         return scenes::load_scene(file, overrides);
     };
+}
+
+void check_as_key(const scenes::SceneSource& source, const char* key, const char* option,
+                  const std::vector<std::string>& values) {
+    for (const std::string& value : values) source(std::vector<scenes::Override>{{key, value, option}});
+}
+
+void check_as_key(const scenes::SceneSource& source, const char* key, const char* option, const std::vector<double>& values) {
+    std::vector<std::string> texts;
+    for (const double value : values) texts.push_back(scenes::number_text(value));
+    check_as_key(source, key, option, texts);
 }
 
 std::string default_folder(const std::string& scene) {

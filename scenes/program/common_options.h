@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "compare_run.h"
 #include "scene_file.h"
 
 namespace CLI {
@@ -39,6 +38,10 @@ std::vector<scenes::Override> scene_overrides(const CommonOptions& options);
 
 /// The scene of a file with what these options and then others override.
 scenes::SceneSource scene_source(const std::string& file, const CommonOptions& options);
+
+/// Has values judged as if each were given for a key of the scene file. Throws SceneError naming the option.
+void check_as_key(const scenes::SceneSource& source, const char* key, const char* option, const std::vector<std::string>& values);
+void check_as_key(const scenes::SceneSource& source, const char* key, const char* option, const std::vector<double>& values);
 
 /// The name of the scene file without its ending. Throws SceneError if that is empty.
 std::string default_folder(const std::string& scene);

@@ -43,13 +43,10 @@ CompareSettings settings_of(const CompareOptions& options) {
 
 /// Has every word and number judged as the key of the scene file that it stands for.
 void check_settings(const CompareSettings& settings, const SceneSource& source) {
-    const auto check = [&](const char* key, const std::string& value, const char* option) {
-        source(std::vector<Override>{{key, value, option}});
-    };
     check_once("--schemes", settings.schemes);
-    for (const std::string& scheme : settings.schemes) check("step.scheme", scheme, "--schemes");
-    for (const double step : settings.steps) check("step.time_step", number_text(step), "--steps");
-    for (const double tolerance : settings.tolerances) check("step.tolerance", number_text(tolerance), "--tolerances");
+    check_as_key(source, "step.scheme", "--schemes", settings.schemes);
+    check_as_key(source, "step.time_step", "--steps", settings.steps);
+    check_as_key(source, "step.tolerance", "--tolerances", settings.tolerances);
 }
 
 void print(const Comparison& comparison, const std::string& folder) {

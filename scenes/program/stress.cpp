@@ -66,13 +66,6 @@ SceneStress settings_of(const StressOptions& options) {
     return settings;
 }
 
-/// Has every word and number judged as the key of the scene file that it stands for.
-void check_keys(const StressOptions& options, const SceneSource& source) {
-    for (const std::string& scheme : options.schemes) source(std::vector<Override>{{"step.scheme", scheme, "--schemes"}});
-    for (const double step : read_numbers("--steps", options.time_steps))
-        source(std::vector<Override>{{"step.time_step", number_text(step), "--steps"}});
-}
-
 /// The cells of the default matrix that are asked for.
 std::vector<StressCell> wanted_cells(const StressOptions& options) {
     std::vector<StressCell> cells = stress_matrix();
@@ -107,7 +100,8 @@ StressRun made_run(const StressOptions& options, const SceneSource& source) {
 
 std::string folder_name(const StressOptions& options) {
     if (!options.folder.empty()) return options.folder;
-    return options.scene.empty() ? "stress" : default_folder(options.scene);
+    if (!options.scene.empty()) return default_folder(options.scene);
+    return options.cell >= 0 ? "stress_cell_" + std::to_string(options.cell) : "stress";
 }
 
 void print(const StressOptions& options, const StressRun& run, const std::string& folder) {
@@ -126,7 +120,8 @@ int stress(const StressOptions& options) {
     if (options.scene.empty()) {
         wanted_cells(options);
     } else {
-        check_keys(options, source);
+        check_as_key(source, "step.scheme", "--schemes", options.schemes);
+        check_as_key(source, "step.time_step", "--steps", read_numbers("--steps", options.time_steps));
         build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
     }
     const std::string name = folder_name(options);

@@ -30,10 +30,10 @@ TEST_CASE("stress runs a scene with steps, factors and schemes and writes table 
 
 TEST_CASE("stress repeats one cell of the default matrix") {
     const TestFolder folder;
-    const ProgramRun run = run_program({"stress", "--cell", "700", "-o", "out"}, folder.path());
+    const ProgramRun run = run_program({"stress", "--cell", "700"}, folder.path());
     CHECK(run.exit_code == 0);
     CHECK(run.out.find("1 cell of at most 16 steps") == 0);
-    CHECK(line_count(folder.read("out/stress.csv")) == 2);
+    CHECK(line_count(folder.read("stress_cell_700/stress.csv")) == 2);  // beside the map of a whole matrix
 }
 
 TEST_CASE("stress tells which schemes refuse a scene with an obstacle, and that is no failure") {
