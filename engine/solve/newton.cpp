@@ -15,6 +15,7 @@ constexpr double estimated_share = 0.1;       // likewise where the solver error
 constexpr int most_rounds = 6;                // of contact multipliers in one solve
 constexpr double round_share = 0.01;          // of the thickness at most: contact less exact takes another round
 constexpr int most_trials = 10;               // of one line search
+constexpr double slope_left = 0.6;            // of a full step, from where on going further pays for its evaluation
 
 /// The solve of one part: functions that share the part, its work space and what is reported.
 class NewtonSolve {
@@ -380,7 +381,7 @@ private:
     /// what the secant says is still missing along the same direction costs an evaluation only.
     void go_on(LineTrial line) {
         const double ratio = line.slope / line.start_slope;
-        if (!(ratio > 0.4) || !part_.options.line_search || part_.settings->newton_iterations == 1) return;
+        if (!(ratio > slope_left) || !part_.options.line_search || part_.settings->newton_iterations == 1) return;
         const double further = std::min(ratio / std::max(1.0 - ratio, 0.1), 3.0);
         line.start_objective = line.objective;
         line.start_slope = line.slope;
