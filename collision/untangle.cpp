@@ -13,6 +13,8 @@ constexpr int most_patches = 256;
 constexpr int most_rounds = 60;       // of one way
 constexpr double reach_growth = 1.5;  // where a way was not long enough
 constexpr int refinements = 4;        // halvings of the last such growth
+constexpr int most_failures = 64;     // in a row, of obstacles that cloth cannot be pushed out of at once
+constexpr long most_searches = 4000;  // of conflicts: what takes more is given up
 
 /// A state on the way to one that is clear.
 struct Tangle {
@@ -21,6 +23,12 @@ struct Tangle {
     std::vector<Vec3> positions;
     std::vector<int> behind;    // obstacle, -1
     std::vector<double> limit;  // m, farthest that a vertex may move
+    mutable long searches = 0;  // how often conflicts were looked for
+
+    std::vector<int> conflicts(std::span<const Vec3> places, const std::vector<bool>& moved) const {
+        ++searches;
+        return find_conflicts(cloth, obstacles, places, moved);
+    }
 };
 
 struct Patch {
@@ -51,7 +59,7 @@ struct Attempt {
 
 /// For each vertex the obstacle that it is in conflict with or behind, -1.
 std::vector<int> conflicts_of(const Tangle& tangle) {
-    std::vector<int> conflict = find_conflicts(tangle.cloth, tangle.obstacles, tangle.positions, {});
+    std::vector<int> conflict = tangle.conflicts(tangle.positions, {});
     for (std::size_t v = 0; v < conflict.size(); ++v) {
         if (tangle.behind[v] >= 0) conflict[v] = tangle.behind[v];
     }
@@ -179,7 +187,7 @@ struct Growth {
 };
 
 Growth grow_core(const Tangle& tangle, const Attempt& tried, std::vector<bool>& core) {
-    const std::vector<int> conflict = find_conflicts(tangle.cloth, tangle.obstacles, tried.positions, tried.moved);
+    const std::vector<int> conflict = tangle.conflicts(tried.positions, tried.moved);
     Growth growth;
     for (std::size_t v = 0; v < core.size(); ++v) {
         if (conflict[v] < 0 || !(tried.moved[v] || core[v])) continue;
@@ -213,7 +221,7 @@ std::optional<Attempt> follow(const Tangle& tangle, const Patch& patch, const Wa
     for (const int v : patch.vertices) core[v] = true;
     double reach = way.reach, too_short = way.reach;
     const double farthest = way.nearest ? 8.0 * patch.margin : most;
-    for (int round = 0; round < most_rounds && reach < farthest; ++round) {
+    for (int round = 0; round < most_rounds && reach < farthest && tangle.searches < most_searches; ++round) {
         Attempt found = attempt(tangle, {patch.obstacle, way, core}, reach);
         if (found.largest_move >= most) return std::nullopt;
         const Growth growth = grow_core(tangle, found, core);
@@ -254,18 +262,22 @@ void accept(Attempt found, int obstacle, Tangle& tangle, std::vector<int>& cause
     tangle.positions = std::move(found.positions);
 }
 
+enum class Shallow { nothing_to_do, pushed_out, no_way };
+
 /// All patches of a closed obstacle at once to the nearest places of its surface, if that tears nothing: garments overlap bodies
 /// a little in hundreds of places.
-void push_out_shallow(int obstacle, Tangle& tangle, std::vector<int>& cause) {
-    if (!tangle.obstacles[obstacle].watertight()) return;
-    const std::vector<int> conflict = conflicts_of(tangle);
+/// `conflict` is of the state as it is.
+Shallow push_out_shallow(int obstacle, const std::vector<int>& conflict, Tangle& tangle, std::vector<int>& cause) {
+    if (!tangle.obstacles[obstacle].watertight()) return Shallow::nothing_to_do;
     Patch all{.vertices = {}, .deep = {}, .obstacle = obstacle};
     for (std::size_t v = 0; v < conflict.size(); ++v) {
         if (conflict[v] == obstacle) add_vertex(tangle, static_cast<int>(v), obstacle, all);
     }
-    if (all.vertices.empty() || first_patch(tangle).vertices.size() == all.vertices.size()) return;
+    if (all.vertices.empty() || first_patch(tangle).vertices.size() == all.vertices.size()) return Shallow::nothing_to_do;
     std::optional<Attempt> found = follow(tangle, all, {.nearest = true, .reach = all.margin}, extent(tangle));
-    if (found && !found->tears()) accept(std::move(*found), obstacle, tangle, cause);
+    if (!found || found->tears()) return Shallow::no_way;
+    accept(std::move(*found), obstacle, tangle, cause);
+    return Shallow::pushed_out;
 }
 
 }  // namespace
@@ -278,7 +290,14 @@ std::optional<Untangled> untangle(const TangledCloth& cloth, std::span<const Sol
                   .behind = find_behind(cloth, obstacles, positions),
                   .limit = distance_from_fixed(cloth, positions)};
     std::vector<int> cause(positions.size(), -1);
-    for (int k = 0; k < static_cast<int>(obstacles.size()); ++k) push_out_shallow(k, tangle, cause);
+    std::vector<int> conflict = conflicts_of(tangle);
+    int failed = 0;
+    for (int k = 0; k < static_cast<int>(obstacles.size()) && failed < most_failures; ++k) {
+        const Shallow end = push_out_shallow(k, conflict, tangle, cause);
+        if (end == Shallow::nothing_to_do) continue;
+        failed = end == Shallow::no_way ? failed + 1 : 0;
+        if (end == Shallow::pushed_out) conflict = conflicts_of(tangle);
+    }
     for (int round = 0; round < most_patches; ++round) {
         const Patch patch = first_patch(tangle);
         if (patch.vertices.empty()) return Untangled{.positions = std::move(tangle.positions), .obstacle = std::move(cause)};

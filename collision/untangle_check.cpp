@@ -70,6 +70,15 @@ PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std:
     return {std::move(triangles), std::move(gaps), std::move(slabs), BoxTree(std::span<const Box>(boxes))};
 }
 
+/// The cloth triangles that lie about an obstacle's box: all that can meet it, come too near or have a corner inside.
+std::vector<int> triangles_around(const PlacedCloth& placed, const SolidObstacle& obstacle) {
+    const Box bounds = obstacle.tree().bounds();
+    std::vector<int> around;
+    placed.tree.walk([&](const Box& box) { return certificate::overlap(box, bounds); },
+                     [&](int item) { around.push_back(item); });
+    return around;
+}
+
 /// How each cloth triangle lies to an obstacle.
 struct Meetings {
     std::vector<bool> meets;     // shares a point with it
@@ -89,21 +98,25 @@ Meetings find_meetings(const PlacedCloth& placed, const SolidObstacle& obstacle)
     return found;
 }
 
-/// Vertices joined by triangles that do not meet the obstacle lie on one side of it.
+/// Vertices joined by triangles that do not meet the obstacle lie on one side of it: one of them tells of all.
 std::vector<bool> find_inside(const TangledCloth& cloth, const SolidObstacle& obstacle, std::span<const Vec3> x,
-                              const std::vector<bool>& meets) {
-    std::vector<bool> inside(x.size());
+                              std::span<const int> around, const std::vector<bool>& meets) {
+    std::vector<bool> inside(x.size()), asked(x.size());
     if (!obstacle.watertight()) return inside;
     Parts parts(cloth.vertex_count());
-    for (std::size_t i = 0; i < cloth.triangles.size(); ++i) {
+    for (const int i : around) {
         const Triangle& t = cloth.triangles[i];
         if (meets[i]) continue;
         parts.join(t[0], t[1]);
         parts.join(t[1], t[2]);
     }
-    for (int v = 0; v < cloth.vertex_count(); ++v) {
-        const int first = parts.of(v);
-        inside[v] = first < v ? inside[first] : obstacle.inside(x[v]);
+    for (const int i : around) {
+        for (const int v : cloth.triangles[i]) {
+            const int first = parts.of(v);
+            if (!asked[first]) inside[first] = obstacle.inside(x[first]);
+            asked[first] = true;
+            inside[v] = inside[first];
+        }
     }
     return inside;
 }
@@ -172,15 +185,16 @@ std::vector<int> find_conflicts(const TangledCloth& cloth, std::span<const Solid
     const PlacedCloth placed = place(cloth, positions, moved);
     std::vector<int> conflict(positions.size(), -1);
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        const std::vector<int> around = triangles_around(placed, obstacles[k]);
+        if (around.empty()) continue;
         const Meetings meetings = find_meetings(placed, obstacles[k]);
-        const std::vector<bool> inside = find_inside(cloth, obstacles[k], positions, meetings.meets);
-        for (int v = 0; v < cloth.vertex_count(); ++v) {
-            if (inside[v]) conflict[v] = static_cast<int>(k);
-        }
-        for (std::size_t i = 0; i < cloth.triangles.size(); ++i) {
+        const std::vector<bool> inside = find_inside(cloth, obstacles[k], positions, around, meetings.meets);
+        for (const int i : around) {
             const Triangle& t = cloth.triangles[i];
-            if (!meetings.too_near[i] || inside[t[0]] || inside[t[1]] || inside[t[2]]) continue;
-            for (const int v : t) conflict[v] = static_cast<int>(k);
+            const bool pierced = meetings.too_near[i] && !inside[t[0]] && !inside[t[1]] && !inside[t[2]];
+            for (const int v : t) {
+                if (pierced || inside[v]) conflict[v] = static_cast<int>(k);
+            }
         }
     }
     return conflict;
