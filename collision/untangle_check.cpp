@@ -189,12 +189,14 @@ std::vector<int> find_conflicts(const TangledCloth& cloth, std::span<const Solid
         if (around.empty()) continue;
         const Meetings meetings = find_meetings(placed, obstacles[k]);
         const std::vector<bool> inside = find_inside(cloth, obstacles[k], positions, around, meetings.meets);
-        for (const int i : around) {
-            const Triangle& t = cloth.triangles[i];
-            const bool pierced = meetings.too_near[i] && !inside[t[0]] && !inside[t[1]] && !inside[t[2]];
+        const auto mark = [&](const Triangle& t, bool pierced) {
             for (const int v : t) {
                 if (pierced || inside[v]) conflict[v] = static_cast<int>(k);
             }
+        };
+        for (const int i : around) {
+            const Triangle& t = cloth.triangles[i];
+            mark(t, meetings.too_near[i] && !inside[t[0]] && !inside[t[1]] && !inside[t[2]]);
         }
     }
     return conflict;
