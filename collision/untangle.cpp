@@ -74,8 +74,7 @@ void add_vertex(const Tangle& tangle, int vertex, int obstacle, Patch& patch) {
 }
 
 /// The connected vertices in conflict that hold the lowest such vertex; empty where there are none.
-Patch first_patch(const Tangle& tangle) {
-    std::vector<int> conflict = conflicts_of(tangle);
+Patch first_patch(const Tangle& tangle, std::vector<int> conflict) {
     Patch patch;
     const auto first = std::find_if(conflict.begin(), conflict.end(), [](int obstacle) { return obstacle >= 0; });
     if (first == conflict.end()) return patch;
@@ -273,7 +272,9 @@ Shallow push_out_shallow(int obstacle, const std::vector<int>& conflict, Tangle&
     for (std::size_t v = 0; v < conflict.size(); ++v) {
         if (conflict[v] == obstacle) add_vertex(tangle, static_cast<int>(v), obstacle, all);
     }
-    if (all.vertices.empty() || first_patch(tangle).vertices.size() == all.vertices.size()) return Shallow::nothing_to_do;
+    if (all.vertices.empty()) return Shallow::nothing_to_do;
+    const Patch first = first_patch(tangle, conflict);
+    if (first.obstacle == obstacle && first.vertices.size() == all.vertices.size()) return Shallow::nothing_to_do;
     std::optional<Attempt> found = follow(tangle, all, {.nearest = true, .reach = all.margin}, extent(tangle));
     if (!found || found->tears()) return Shallow::no_way;
     accept(std::move(*found), obstacle, tangle, cause);
@@ -299,7 +300,7 @@ std::optional<Untangled> untangle(const TangledCloth& cloth, std::span<const Sol
         if (end == Shallow::pushed_out) conflict = conflicts_of(tangle);
     }
     for (int round = 0; round < most_patches; ++round) {
-        const Patch patch = first_patch(tangle);
+        const Patch patch = first_patch(tangle, conflicts_of(tangle));
         if (patch.vertices.empty()) return Untangled{.positions = std::move(tangle.positions), .obstacle = std::move(cause)};
         if (holds_fixed(tangle, patch)) return std::nullopt;
         std::optional<Attempt> found = best_attempt(tangle, patch);

@@ -98,7 +98,8 @@ Meetings find_meetings(const PlacedCloth& placed, const SolidObstacle& obstacle)
     return found;
 }
 
-/// Vertices joined by triangles that do not meet the obstacle lie on one side of it: one of them tells of all.
+/// Vertices joined by triangles that do not meet the obstacle lie on one side of it: one of them tells of all. Every vertex of
+/// cloth belongs to a triangle.
 std::vector<bool> find_inside(const TangledCloth& cloth, const SolidObstacle& obstacle, std::span<const Vec3> x,
                               std::span<const int> around, const std::vector<bool>& meets) {
     std::vector<bool> inside(x.size()), asked(x.size());

@@ -28,9 +28,9 @@ struct Coarsening {
 
 /// A maximal independent set of the strong pairs (at least a quarter of the strongest pair at one of its ends) in the vertices'
 /// order; where that would keep more than two in five, as on the coarser levels of a grid, whose diagonals are weaker, pairs of a
-/// thirtieth count too. The others are interpolated by moving least squares from at most three kept vertices within two strong
-/// pairs, so that linear functions of the rest position are kept where the neighbours allow (Lancaster and Salkauskas 1981). The
-/// same for any thread.
+/// thirtieth of the strongest count too. The others are interpolated by moving least squares from at most three kept vertices
+/// within two strong pairs, so that linear functions of the rest position are kept where the neighbours allow (Lancaster and
+/// Salkauskas 1981). The same for any thread.
 Coarsening coarsen(const SpringGraph& graph);
 
 }  // namespace percale

@@ -164,7 +164,8 @@ void add_stress_command(CLI::App& program, Action& action) {
         ->type_name("N");
     command->add_option("--cell", options->cell, "Only this cell of the default matrix, as stress.csv numbers them")
         ->type_name("N");
-    command->add_option("-o", options->folder, "Output folder (default: the scene's name, or stress)")->type_name("DIR");
+    command->add_option("-o", options->folder, "Output folder (default: the scene's name; stress, or stress_cell_N)")
+        ->type_name("DIR");
     command->add_flag("--quiet", options->common.quiet, "Print nothing but errors");
     add_scene_options(*command, options->common);
     command->callback([options, &action] { action = [options] { return stress(*options); }; });

@@ -1,12 +1,9 @@
-#!/ usr / bin / env python3
-""
-    "A picture of OBJ meshes, headless and with the standard library only.
+#!/usr/bin/env python3
+"""A picture of OBJ meshes, headless and with the standard library only.
 
-    picture.py -
-    o OUT.png[--size 900x1200][--azimuth DEG][--elevation DEG][--distance M][--no - floor] MESH.obj[= RRGGBB]...
+picture.py -o OUT.png [--size 900x1200] [--azimuth DEG] [--elevation DEG] [--distance M] [--no-floor] MESH.obj[=RRGGBB] ...
 
-    The camera looks at the centre of everything;
-azimuth 0 looks at the side that faces +z, positive goes to the subject's left.
+The camera looks at the centre of everything; azimuth 0 looks at the side that faces +z, positive goes to the subject's left.
 """
 import argparse, array, math, struct, sys, zlib
 

@@ -157,7 +157,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("cloth that moves as a whole or apart is not cut; cloth that is not said to meet cloth passes through it") {
+TEST_CASE("cloth that moves as a whole or apart is not cut, cloth that is not said to meet cloth passes through it") {
     Random random(7);
     const Cloths cloths = sheet_stack(3, 6, 0.1, 0.02, random);
     const auto detector = detector_for(cloths, backends()[0]);

@@ -140,7 +140,7 @@ TEST_CASE("a repair keeps velocities, pins and what is planned for them") {
     CHECK(scene.simulation.positions(scene.cloth)[16] == scene.mesh.vertices[16]);
 }
 
-TEST_CASE("a start is refused where that is asked for, and where there is no way out; nothing has moved then") {
+TEST_CASE("a start is refused where that is asked for, and where there is no way out, nothing has moved then") {
     const TriangleMesh sheet = make_grid(1, 1, 9, 9);
     const StartRule rule = GENERATE(StartRule::refuse, StartRule::repair);
     SteppedScene scene(sheet, {.time_step = 1.0 / 60.0, .start = rule});

@@ -8,7 +8,7 @@
 using namespace percale;
 using namespace percale::test;
 
-TEST_CASE("inside is where a closed surface winds around a point; open ones hold nothing") {
+TEST_CASE("inside is where a closed surface winds around a point, open ones hold nothing") {
     const SolidObstacle box(make_box({2, 2, 2})), turned(inside_out(make_box({2, 2, 2}))), plane(make_plane(1));
     CHECK(box.watertight());
     CHECK(box.inside({0.9, 0, 0}));
@@ -32,7 +32,7 @@ TEST_CASE("the way out ends where the outside begins, not at inner walls") {
     CHECK_FALSE(plane.exit({3, -0.2, 0}, Vec3::UnitY()));
 }
 
-TEST_CASE("pushed out points lie at the clearance, by the shortest way; those farther off stay") {
+TEST_CASE("pushed out points lie at the clearance, by the shortest way, those farther off stay") {
     const Vec3 size(0.6, 0.8, 1.0);
     const SolidObstacle box(make_box(size));
     Random random(7);

@@ -231,7 +231,7 @@ TEST_CASE("Free cloth takes any time step after any other") {
     }
 }
 
-TEST_CASE("Without gravity cloth at rest keeps every bit; at a thousand times that of the earth it stays above a floor") {
+TEST_CASE("Without gravity cloth at rest keeps every bit, at a thousand times that of the earth it stays above a floor") {
     for (const Way& way : contact_ways) {
         CAPTURE(way.name);
         Sheet still(way, sheet_fabric(), make_brute_force_detector());

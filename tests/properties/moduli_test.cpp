@@ -94,7 +94,7 @@ double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) 
 
 }  // namespace
 
-TEST_CASE("Square grid of springs: C11 = ks + kd + 4 kb, C12 = C66 = kd; isotropic where kd = (ks + 4 kb)/2") {
+TEST_CASE("Square grid of springs: C11 = ks + kd + 4 kb, C12 = C66 = kd, isotropic where kd = (ks + 4 kb)/2") {
     for (const SpringConstants springs : {SpringConstants{1000.0, 500.0, 10.0}, {70.0, 30.0, 0.0}, {50.0, 35.0, 5.0}}) {
         const Moduli m = lattice_moduli({.springs = springs});
         CHECK(m.c11 == Approx(springs.structural + springs.shear + 4.0 * springs.bend).epsilon(1e-5));

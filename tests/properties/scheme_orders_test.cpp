@@ -101,7 +101,7 @@ TEST_CASE("In free fall Euler's schemes are off by g dt^2 n/2 either way, all of
     }
 }
 
-TEST_CASE("Every scheme keeps linear momentum; symplectic Euler and the implicit midpoint angular momentum too", "[law]") {
+TEST_CASE("Every scheme keeps linear momentum, symplectic Euler and the implicit midpoint angular momentum too", "[law]") {
     for (const SchemeFacts& facts : scheme_table()) {
         World world = thrown_masses(facts.scheme, facts.implicit ? 1e-2 : 1e-3);
         const Vec3 linear = momentum(world), angular = angular_momentum(world);

@@ -115,7 +115,7 @@ TEST_CASE("cloth is refused exactly where the facts name a fault that refuses it
     CHECK_NOTHROW(check_mesh(make_grid(1, 1, 4, 5), "grid", true));
 }
 
-TEST_CASE("shapes are watertight, in one part, right side out; grids have a boundary") {
+TEST_CASE("shapes are watertight, in one part, right side out, grids have a boundary") {
     for (const TriangleMesh& mesh : {make_sphere(1.0, 2), make_box({1, 2, 3}), make_cylinder(0.1, 1.0, 12)}) {
         const MeshFacts facts = mesh_facts(mesh);
         CHECK(facts.watertight());

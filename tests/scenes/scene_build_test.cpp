@@ -162,7 +162,7 @@ TEST_CASE("events are checked before anything runs") {
               .starts_with("t:8:1: event: "));
 }
 
-TEST_CASE("obstacles need a detector; a scene without obstacles needs none") {
+TEST_CASE("obstacles need a detector, a scene without obstacles needs none") {
     const std::string none = "[step]\ndetector = \"none\"\n";
     CHECK(fault(none + small_scene() + body("plane = {}")) ==
           "t:10:1: obstacle 'body' needs a detector, but step.detector is none; valid: fcl, bullet, brute_force");
@@ -284,7 +284,7 @@ TEST_CASE("every detector carries the same scene through the same states") {
     CHECK(hash_with("bullet") == expected);
 }
 
-TEST_CASE("a preset on a mesh is isotropic and says so; on a grid, or with moduli of its own, it is not touched") {
+TEST_CASE("a preset on a mesh is isotropic and says so, on a grid, or with moduli of its own, it is not touched") {
     const test::TestFolder folder;
     const BuiltScene on_mesh = build_scene(load_scene(mesh_scene(folder, square, "", "preset = \"denim_11oz\"")));
     REQUIRE(on_mesh.warnings.size() == 1);

@@ -107,7 +107,7 @@ TEST_CASE("every field of a fabric is read") {
     CHECK(scene.fabrics.size() == 2);
 }
 
-TEST_CASE("a fabric must say its springs; the rest is as in the struct") {
+TEST_CASE("a fabric must say its springs, the rest is as in the struct") {
     const Scene scene = scene_with("", "[fabric.plain]\nsprings = { structural = 70 }\n");
     const Fabric& plain = scene.fabrics.at("plain");
     CHECK(plain.springs.structural == 70.0);

@@ -40,7 +40,7 @@ TEST_CASE("a distance is told in metres, an infinite one in words") {
     CHECK(nearness_text(std::numeric_limits<double>::infinity()) == "never near");
 }
 
-TEST_CASE("a place with a line is file, line and column; without one the file") {
+TEST_CASE("a place with a line is file, line and column, without one the file") {
     CHECK(place_text({.file = "a.toml", .line = 3, .column = 7}) == "a.toml:3:7");
     CHECK(place_text({.file = "a.toml"}) == "a.toml");
     CHECK(place_text({}).empty());

@@ -83,7 +83,7 @@ TEST_CASE("an obstacle without motion stays in its pose") {
     }
 }
 
-TEST_CASE("keyframes replace translation and rotation, are linear in between and constant outside; the scale stays") {
+TEST_CASE("keyframes replace translation and rotation, are linear in between and constant outside, the scale stays") {
     const ObstacleSpec obstacle = moving({key(1.0, Vec3(0, 0, 0)), key(3.0, Vec3(4, -2, 0))});
     CHECK(obstacle_pose_at(obstacle, 0.0).translation == Vec3(0, 0, 0));
     CHECK(obstacle_pose_at(obstacle, 1.0).translation == Vec3(0, 0, 0));

@@ -109,7 +109,7 @@ TEST_CASE("A whole strip stores 1/2 B kappa^2 per area of its inner length along
     }
 }
 
-TEST_CASE("Equilateral triangles are exact in every direction; other triangles stay within the stated anisotropy") {
+TEST_CASE("Equilateral triangles are exact in every direction, other triangles stay within the stated anisotropy") {
     const TriangleMesh lattice = equilateral_sheet(0.02, 51, 58);
     for (const double angle : {0.0, 0.2, 0.25 * pi, 1.3}) CHECK(rolled_ratio(lattice, angle) == Approx(1.0).epsilon(2e-3));
     // A grid read as a free mesh: right triangles, exact along their legs, 1.5 times too stiff in between.

@@ -32,7 +32,7 @@ TEST_CASE("Energies are those of the state") {
     CHECK(energy.total() == energy.kinetic + energy.gravity + energy.elastic);
 }
 
-TEST_CASE("Strain and speed are the largest ones; without contact nothing is near") {
+TEST_CASE("Strain and speed are the largest ones, without contact nothing is near") {
     World world = moving_pair();
     world.report.energy.work = 7.0;
     measure(world);

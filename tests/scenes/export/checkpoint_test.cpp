@@ -81,7 +81,7 @@ TEST_CASE("a file that is no checkpoint, cut off or damaged is refused by name")
     }
 }
 
-TEST_CASE("a checkpoint of another run is refused with the settings that differ; threads may") {
+TEST_CASE("a checkpoint of another run is refused with the settings that differ, threads may") {
     const Checkpoint checkpoint = example();
     CHECK(refusal(checkpoint, {}).empty());
     CHECK(refusal(checkpoint, {{"step.threads", "2"}}).empty());

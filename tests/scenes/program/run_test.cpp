@@ -150,7 +150,7 @@ TEST_CASE("the tree that finds contacts changes no bit of a run") {
 }
 
 TEST_CASE(
-    "run moves cloth out of obstacles first and says so; refused starts leave a picture beside the folder and nothing else") {
+    "run moves cloth out of obstacles first and says so, refused starts leave a picture beside the folder and nothing else") {
     const TestFolder folder;
     std::string inside = sheet_on_box();
     inside.replace(inside.find("0.015"), 5, "-0.01");
