@@ -46,6 +46,7 @@ stage_format() {
 }
 
 stage_layers() {
+    project_files | { grep -z -E '\.py$' || true; } | xargs -0 python3 -c 'import ast, sys; [ast.parse(open(f).read(), f) for f in sys.argv[1:]]'
     python3 .ci/layers.py
     python3 .ci/layers_test.py
     python3 .ci/perf_gate_test.py
