@@ -300,13 +300,14 @@ std::optional<Untangled> untangle(const TangledCloth& cloth, std::span<const Sol
         if (end == Shallow::pushed_out) conflict = conflicts_of(tangle);
     }
     for (int round = 0; round < most_patches; ++round) {
-        const Patch patch = first_patch(tangle, conflicts_of(tangle));
+        const Patch patch = first_patch(tangle, std::move(conflict));
         if (patch.vertices.empty()) return Untangled{.positions = std::move(tangle.positions), .obstacle = std::move(cause)};
         if (holds_fixed(tangle, patch)) return std::nullopt;
         std::optional<Attempt> found = best_attempt(tangle, patch);
         if (!found) return std::nullopt;
         accept(std::move(*found), patch.obstacle, tangle, cause);
         for (const int v : patch.vertices) tangle.behind[v] = -1;
+        conflict = conflicts_of(tangle);
     }
     return std::nullopt;
 }
