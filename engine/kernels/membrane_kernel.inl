@@ -26,7 +26,7 @@ PERCALE_INLINE void add_edge_block(const MembranePass& pass, const EdgeState& ed
     const WidePack scale = all_wide(2.0 * pass.dt * pass.dt), none = all_wide(0.0);
     const WidePoint w{widen(load<FloatPack>(value + slice_lanes)), widen(load<FloatPack>(value + 2 * slice_lanes)),
                       widen(load<FloatPack>(value + 3 * slice_lanes))};
-    const WidePack inverse = inverse_root(larger(edge.square, all_wide(no_length_square)));
+    const WidePack inverse = all_wide(1.0) / root(larger(edge.square, all_wide(no_length_square)));
     const FloatPack along = root(narrow(all_wide(2.0) * scale * stiffness + dot(w, w) * inverse * inverse));
     store(value, load<FloatPack>(value) + narrow(larger(scale * edge.half_pull, none)));
     store(value + slice_lanes, along * narrow(edge.x.x));

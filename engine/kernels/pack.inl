@@ -38,6 +38,7 @@ PERCALE_INLINE WidePack all_wide(double value) { return {all_double(value), all_
 PERCALE_INLINE WidePack operator+(WidePack a, WidePack b) { return {a.low + b.low, a.high + b.high}; }
 PERCALE_INLINE WidePack operator-(WidePack a, WidePack b) { return {a.low - b.low, a.high - b.high}; }
 PERCALE_INLINE WidePack operator*(WidePack a, WidePack b) { return {a.low * b.low, a.high * b.high}; }
+PERCALE_INLINE WidePack operator/(WidePack a, WidePack b) { return {a.low / b.low, a.high / b.high}; }
 
 PERCALE_INLINE WidePack load_wide(const double* from) { return {load<DoublePack>(from), load<DoublePack>(from + double_lanes)}; }
 PERCALE_INLINE void store_wide(double* to, WidePack pack) {
@@ -55,6 +56,21 @@ PERCALE_INLINE WidePack smaller(WidePack a, WidePack b) {
 PERCALE_INLINE WidePack where_less(WidePack a, WidePack b, WidePack yes, WidePack no) {
     return {a.low < b.low ? yes.low : no.low, a.high < b.high ? yes.high : no.high};
 }
+
+PERCALE_INLINE DoublePack root(DoublePack a) {
+#if PERCALE_PACK_BYTES == 64
+    return reinterpret_cast<DoublePack>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(a)));
+#elif PERCALE_PACK_BYTES == 32
+    return reinterpret_cast<DoublePack>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(a)));
+#elif defined(__SSE2__)
+    return reinterpret_cast<DoublePack>(_mm_sqrt_pd(reinterpret_cast<__m128d>(a)));
+#else
+    DoublePack result;
+    for (int lane = 0; lane < double_lanes; ++lane) result[lane] = __builtin_sqrt(a[lane]);
+    return result;
+#endif
+}
+PERCALE_INLINE WidePack root(WidePack a) { return {root(a.low), root(a.high)}; }
 
 PERCALE_INLINE FloatPack root(FloatPack a) {
 #if PERCALE_PACK_BYTES == 64

@@ -5,24 +5,6 @@
 constexpr double no_length_square = 1e-36;
 constexpr double blown_up_square = 1e36;
 
-/// 1/sqrt(a), a > 0, to about 1e-15: half of the exponent, from the bits of a float, is right to 3.5 %; Newton's y (3 - a y^2)/2
-/// then squares the error, twice in single and twice in double precision (Blinn, IEEE Computer Graphics and Applications 17,
-/// 1997). Roots and divisions would cost more than the whole rest of a spring.
-PERCALE_INLINE WidePack inverse_root(WidePack a) {
-    const FloatPack rough = narrow(a), half_rough = all(0.5f) * rough;
-    IntPack bits;
-    __builtin_memcpy(&bits, &rough, sizeof bits);
-    bits = 0x5f3759df - (bits >> 1);
-    FloatPack first;
-    __builtin_memcpy(&first, &bits, sizeof first);
-    first = first * (all(1.5f) - half_rough * (first * first));
-    first = first * (all(1.5f) - half_rough * (first * first));
-    WidePack y = widen(first);
-    const WidePack half = all_wide(0.5) * a, three_halves = all_wide(1.5);
-    y = y * (three_halves - half * (y * y));
-    return y * (three_halves - half * (y * y));
-}
-
 /// One pack of springs.
 struct SpringState {
     WidePoint x{};  // x_i - x_j
@@ -45,8 +27,8 @@ struct SpringPull {
 template <SpringParts parts>
 PERCALE_INLINE SpringPull evaluate(const SpringState& state) {
     const WidePack square = dot(state.x, state.x), safe = larger(square, all_wide(no_length_square));
-    const WidePack inverse = inverse_root(safe);
-    const WidePack stretch = safe * inverse - state.rest;
+    const WidePack length = root(safe), inverse = all_wide(1.0) / length;
+    const WidePack stretch = length - state.rest;
     WidePack tension = state.stiffness * where_less(square, all_wide(blown_up_square), stretch, all_wide(__builtin_nan("")));
     WidePack twice_energy = tension * stretch;
     if constexpr (parts.bending) twice_energy = twice_energy + state.bending * square;
@@ -79,14 +61,13 @@ PERCALE_INLINE void store_block(float* values, std::size_t apart, double dt, con
 
 /// k = ks + kd/dt and l = (ks l0 + kd l_n/dt)/k at a place.
 PERCALE_INLINE void store_start(const StartPass& pass, std::size_t at, WidePoint x, WidePack rate_scale) {
-    const WidePack square = larger(dot(x, x), all_wide(no_length_square));
-    const WidePack length = square * inverse_root(square);
+    const WidePack length = root(larger(dot(x, x), all_wide(no_length_square)));
     const WidePack elastic = load_wide(pass.springs.stiffness + at), rate = rate_scale * load_wide(pass.springs.damping + at);
     const WidePack stiffness = elastic + rate;
     const WidePack divisor = where_less(all_wide(0.0), stiffness, stiffness, all_wide(1.0));
     const WidePack sum = elastic * load_wide(pass.springs.rest_length + at) + rate * length;
     store_wide(pass.stiffness + at, stiffness);
-    store_wide(pass.rest + at, {sum.low / divisor.low, sum.high / divisor.high});
+    store_wide(pass.rest + at, sum / divisor);
 }
 
 void start_slices(const StartPass& pass, Slices range) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "tests/bench/bench_report.h"
@@ -72,17 +73,31 @@ Figures report(const char* scene, int n, percale::Simulation simulation, double 
     return row;
 }
 
-Figures measure(const std::vector<int>& sizes, double seconds, const percale::StepSettings& settings) {
+struct Wanted {
+    std::vector<int> sizes{33, 65};
+    std::vector<std::string> scenes{"S1", "S2", "S3"};
+    double seconds = 2.0;
+    percale::StepSettings settings;
+
+    bool has(const char* scene) const { return std::find(scenes.begin(), scenes.end(), scene) != scenes.end(); }
+};
+
+Figures measure(const Wanted& wanted) {
     const percale::TriangleMesh ball = percale::make_sphere(0.25, 4), scan = percale::test::bunny_scan();
     std::printf("%-3s %4s %8s %7s  %7s %8s %6s %6s %7s %6s %8s  %6s %7s %7s\n", "", "N", "ms/step", "U", "refresh", "evaluate",
                 "force", "setup", "solve", "cut", "measure", "newton", "linear", "strain%");
     Figures rows = Figures::array();
-    for (const int n : sizes) {
-        rows.push_back(report("S1", n, make_sheet_scene(n, nullptr, 0.0, settings), seconds));
-        rows.push_back(report("S2", n, make_sheet_scene(n, &ball, 0.6, settings), seconds));
-        if (!scan.triangles.empty()) rows.push_back(report("S3", n, make_sheet_scene(n, &scan, 0.6, settings), seconds));
+    const bool scanned = !scan.triangles.empty();
+    for (const int n : wanted.sizes) {
+        const auto add = [&](const char* scene, const percale::TriangleMesh* obstacle, double height) {
+            if (!wanted.has(scene)) return;
+            rows.push_back(report(scene, n, make_sheet_scene(n, obstacle, height, wanted.settings), wanted.seconds));
+        };
+        add("S1", nullptr, 0.0);
+        add("S2", &ball, 0.6);
+        if (scanned) add("S3", &scan, 0.6);
     }
-    if (scan.triangles.empty()) std::puts("S3 left out: no bunny00.off (PERCALE_REAL_MESHES names its folder)");
+    if (!scanned && wanted.has("S3")) std::puts("S3 left out: no bunny00.off (PERCALE_REAL_MESHES names its folder)");
     return rows;
 }
 
@@ -90,13 +105,13 @@ Figures measure(const std::vector<int>& sizes, double seconds, const percale::St
 
 int main(int argc, char** argv) {
     CLI::App app("What a 1/60 s step costs on three scenes, by stage.", "percale_step_cost");
-    double seconds = 2.0;
-    app.add_option("seconds", seconds, "seconds simulated")->capture_default_str()->check(CLI::Range(1e-3, 1e4));
-    std::vector<int> sizes{33, 65};
-    app.add_option("--sizes", sizes, "vertices along a side")->capture_default_str()->check(CLI::Range(2, 2049));
-    percale::StepSettings settings;
+    Wanted wanted;
+    app.add_option("seconds", wanted.seconds, "seconds simulated")->capture_default_str()->check(CLI::Range(1e-3, 1e4));
+    app.add_option("--sizes", wanted.sizes, "vertices along a side")->capture_default_str()->check(CLI::Range(2, 2049));
+    app.add_option("--scenes", wanted.scenes, "which of them")->capture_default_str()->check(CLI::IsMember({"S1", "S2", "S3"}));
     const std::map<std::string, percale::ContactResponse> responses{{"penalty", percale::ContactResponse::penalty},
                                                                     {"projection", percale::ContactResponse::projection}};
-    app.add_option("--response", settings.contact_response, "contact response")->transform(CLI::CheckedTransformer(responses));
-    return percale::test::run_bench(app, argc, argv, [&] { return measure(sizes, seconds, settings); });
+    app.add_option("--response", wanted.settings.contact_response, "contact response")
+        ->transform(CLI::CheckedTransformer(responses));
+    return percale::test::run_bench(app, argc, argv, [&] { return measure(wanted); });
 }
