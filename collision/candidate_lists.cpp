@@ -17,13 +17,27 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 double skin(double thickness, double way) { return skin_share * thickness + skin_of_way * way; }
 
-/// How far two boxes are apart, m.
-double gap(const Box& a, const Box& b) { return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm(); }
-
 /// How far a point inside a box is from its sides; negative outside.
 double depth(const Box& box, const Vec3& x) { return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff()); }
 
 }  // namespace
+
+void ListedPacks::clear() {
+    reach.clear();
+    wake.clear();
+    at.clear();
+}
+
+void ListedPacks::add(int cloth_feature, int number, double apart, double thickness) {
+    reach.push_back(below(apart));
+    wake.push_back(below(apart - thickness));
+    at.push_back({.feature = cloth_feature, .number = static_cast<unsigned>(number)});
+}
+
+void ListedPacks::hold(std::size_t i, unsigned lane, double thickness) {
+    at[i].held |= 1U << lane & 0xffU;
+    wake[i] = below(static_cast<double>(reach[i]) - thickness);
+}
 
 int total_version(const Obstacles& obstacles) {
     int sum = static_cast<int>(obstacles.size());
@@ -95,37 +109,30 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
     }
     room.grow(list.thickness);
     const ObstaclePacks& packs = obstacle.packs();
-    ListedFeature feature{.pair = pair, .first = static_cast<int>(list.packs.size()), .count = 0};
-    FeatureBounds bounds{.reach = infinity, .quiet_until = infinity};
+    const int feature = static_cast<int>(list.features.size());
+    const std::size_t before = list.packs.size();
     for (const int patch : near_patches_) {
         if (!packs.box[patch].overlaps(room)) continue;
         const auto [first, last] = packs.packs_of(patch, pair.kind);
         for (int number = first; number < last; ++number) {
-            const Box& box = packs.packs[number].box;
-            if (!box.overlaps(room) || stays_above(packs.planes[number], vertices, list.thickness)) continue;
-            const double apart = std::max(gap(box, now), height_above(packs.planes[number], vertices, move.from));
-            const float reach = below(apart), row_reach = below(apart - list.thickness);
-            list.packs.push_back({.reach = reach, .row_reach = row_reach, .pack = static_cast<unsigned>(number), .held = 0});
-            bounds.reach = std::min(bounds.reach, reach);
-            bounds.quiet_until = std::min(bounds.quiet_until, row_reach);
+            const PackHull& hull = packs.hulls[number];
+            if (!hull.box().overlaps(room) || stays_above(hull, vertices, list.thickness)) continue;
+            const double apart = std::max(hull.box().gap(now), height_above(hull, vertices, move.from));
+            list.packs.add(feature, number, apart, list.thickness);
         }
     }
-    feature.count = static_cast<int>(list.packs.size()) - feature.first;
-    listed_ += feature.count;
-    if (feature.count == 0) return;
-    list.features.push_back(feature);
-    list.bounds.push_back(bounds);
-    list.least_reach = std::min(list.least_reach, static_cast<double>(bounds.reach));
-    list.quiet_until = std::min(list.quiet_until, static_cast<double>(bounds.quiet_until));
+    if (list.packs.size() == before) return;
+    list.features.push_back(pair);
+    listed_ += static_cast<long>(list.packs.size() - before);
 }
 
-/// Whether the plane keeps all below it out of the thickness of vertices that stay in their boxes.
-bool CandidateLists::stays_above(const PackPlane& plane, std::span<const int> vertices, double thickness) const {
-    const double enough = plane.offset + (1.0 + 1e-6) * thickness;
+/// Whether the plane keeps the pack out of the thickness of vertices that stay in their boxes.
+bool CandidateLists::stays_above(const PackHull& hull, std::span<const int> vertices, double thickness) const {
+    const double enough = hull.offset + (1.0 + 1e-6) * thickness;
     return std::all_of(vertices.begin(), vertices.end(), [&](int vertex) {
         const Box& box = vertex_boxes_[vertex];
         const Vec3 twice_centre = box.low + box.high, sides = box.high - box.low;
-        return 0.5 * (plane.normal.dot(twice_centre) - plane.normal.cwiseAbs().dot(sides)) > enough;
+        return 0.5 * (hull.normal.dot(twice_centre) - hull.normal.cwiseAbs().dot(sides)) > enough;
     });
 }
 
@@ -177,7 +184,7 @@ bool CandidateLists::is_out_of_reach(const ClothMove& move, const Obstacles& obs
     Box cloth;
     for (const Vec3& x : move.from) cloth.add(x);
     room_ = 1e300;
-    for (const auto& obstacle : obstacles) room_ = std::min(room_, gap(cloth, obstacle->whole_box()));
+    for (const auto& obstacle : obstacles) room_ = std::min(room_, cloth.gap(obstacle->whole_box()));
     room_ -= *std::max_element(thickness_.begin(), thickness_.end());
     room_version_ = version;
     anchor_.assign(move.from.begin(), move.from.end());
@@ -219,13 +226,18 @@ void CandidateLists::empty_dirty(const ClothMove& move) {
     for (const std::size_t i : dirty_) {
         ClusterList& list = lists_[i];
         list.features.clear();
-        list.bounds.clear();
         list.packs.clear();
         list.holds = false;
         list.travel = 0.0;
-        list.least_reach = list.quiet_until = infinity;
         asked_.push_back(set_boxes(i, move));
     }
+}
+
+void CandidateLists::set_least(ClusterList& list) {
+    const ListedPacks& packs = list.packs;
+    const auto count = static_cast<long>(packs.size());
+    list.least_reach = static_cast<double>(pack_kernels().least(packs.reach.data(), count));
+    list.quiet_until = static_cast<double>(pack_kernels().least(packs.wake.data(), count));
 }
 
 /// Builds the dirty lists anew; false (and lists of no use) if they would hold too many packs, unless `whatever_it_takes`.
@@ -242,18 +254,18 @@ bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, 
             if (listed_ > most) return false;
         }
     }
+    for (const std::size_t i : dirty_) set_least(lists_[i]);
     return true;
 }
 
 void CandidateLists::keep_held(std::size_t cluster, const Obstacles& obstacles) {
     const ClusterList& list = lists_[cluster];
     if (!list.holds) return;
-    for (const ListedFeature& feature : list.features) {
-        for (int i = feature.first; i < feature.first + feature.count; ++i) {
-            const FeaturePack& pack = obstacles[feature.pair.obstacle]->packs().packs[list.packs[i].pack];
-            for (unsigned held = list.packs[i].held; held != 0; held &= held - 1) {
-                held_.emplace_back(cluster, feature.with(pack, std::countr_zero(held)));
-            }
+    for (std::size_t i = 0; i < list.packs.size(); ++i) {
+        const ContactPair& feature = list.features[list.packs.at[i].feature];
+        const FeaturePack& pack = obstacles[feature.obstacle]->packs().packs[list.packs.at[i].number];
+        for (unsigned held = list.packs.at[i].held; held != 0; held &= held - 1) {
+            held_.emplace_back(cluster, feature.with(pack, std::countr_zero(held)));
         }
     }
 }
@@ -264,17 +276,23 @@ void CandidateLists::mark_held(const Obstacles& obstacles) {
         ClusterList& list = lists_[cluster];
         const int place = obstacles[held.obstacle]->packs().place_of[static_cast<int>(held.kind)][held.feature];
         for (std::size_t f = 0; f < list.features.size(); ++f) {
-            const ListedFeature& feature = list.features[f];
-            const ContactPair& pair = feature.pair;
-            if (pair.kind != held.kind || pair.cloth != held.cloth || pair.obstacle != held.obstacle) continue;
-            for (int i = feature.first; i < feature.first + feature.count; ++i) {
-                if (static_cast<int>(list.packs[i].pack) != place / pack_lanes) continue;
-                list.packs[i].held |= 1U << (place % pack_lanes) & 0xffU;
-                list.holds = true;
-                list.features[f].others.quiet_until = list.bounds[f].quiet_until = -infinity;
-                list.quiet_until = -infinity;
-            }
+            const ContactPair& pair = list.features[f];
+            if (pair.kind == held.kind && pair.cloth == held.cloth && pair.obstacle == held.obstacle) hold(list, f, place);
         }
+    }
+}
+
+/// Holds the lane at a place of ObstaclePacks::place_of, if the feature is listed with its pack.
+void CandidateLists::hold(ClusterList& list, std::size_t feature, int place) {
+    std::vector<ListedPack>& packs = list.packs.at;
+    const auto first = std::partition_point(
+        packs.begin(), packs.end(), [&](const ListedPack& pack) { return static_cast<std::size_t>(pack.feature) < feature; });
+    for (std::size_t i = first - packs.begin(); i < packs.size() && static_cast<std::size_t>(packs[i].feature) == feature; ++i) {
+        if (static_cast<int>(packs[i].number) != place / pack_lanes) continue;
+        packs[i].held |= 1U << (place % pack_lanes) & 0xffU;
+        list.packs.wake[i] = -infinity;
+        list.quiet_until = -infinity;
+        list.holds = true;
     }
 }
 

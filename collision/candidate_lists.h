@@ -19,54 +19,47 @@ using Obstacles = std::vector<std::unique_ptr<Obstacle>>;
 /// The next number below in single precision, or one near it.
 inline float below(double x) { return static_cast<float>(x - 1e-6 * std::abs(x)); }
 
-/// A pack of obstacle features that can come near a cloth feature, with lower bounds that the list's travel uses up.
+/// The next number above in single precision, or one near it.
+inline float above(double x) { return static_cast<float>(x + 1e-6 * std::abs(x)); }
+
+/// A pack of obstacle features that can come near a cloth feature.
 struct ListedPack {
-    float reach = 0.0F;      // least distance + travel when last measured: reach - travel bounds all distances from below
-    float row_reach = 0.0F;  // while travel is below this, nothing new of the pack can be a contact
-    unsigned pack : 24;      // number
-    unsigned held : 8;       // lanes that have been contacts since the last refresh: they stay contacts while they are near
-
-    /// Travel below which the pack need not be looked at for contacts.
-    float quiet_until(float thickness) const {
-        const float near = reach - thickness * (1.0F + 1e-6F);
-        const float new_row = std::max(near, row_reach);
-        return held != 0 ? near : new_row;
-    }
+    int feature = 0;           // of the cluster's list
+    unsigned number : 24 = 0;  // of the pack, among those of the feature's obstacle
+    unsigned held : 8 = 0;     // lanes that have been contacts since the last refresh: they stay so while they are near
 };
 
-/// The least bounds of a feature's packs, apart from it: they are all that is read as long as nothing comes near.
-struct FeatureBounds {
-    float reach = 0.0F;
-    float quiet_until = 0.0F;
-};
+/// The packs of a cluster, in the order of its features, with lower bounds that the list's travel uses up. Each bound has an
+/// array of its own, because it is all that is read of packs that stay away.
+struct ListedPacks {
+    std::vector<float> reach;  // m, least distance + travel when last measured: reach - travel is below all distances
+    std::vector<float> wake;   // m, while travel is below this, nothing new of the pack can be a contact
+    std::vector<ListedPack> at;
 
-/// A cloth feature with the packs near it.
-struct ListedFeature {
-    ContactPair pair;  // of the cloth feature and the obstacle, without an obstacle feature
-    int first = 0, count = 0;
-    unsigned long busy = 0;                                      // which of the first 64 packs are not quiet or will soon not be
-    FeatureBounds others{.reach = -1.0F, .quiet_until = -1.0F};  // bounds of the rest of them
-
-    ContactPair with(const FeaturePack& pack, int lane) const {
-        ContactPair full = pair;
-        full.feature = pack.feature[lane];
-        return full;
+    std::size_t size() const { return reach.size(); }
+    void clear();
+    void add(int cloth_feature, int number, double apart, double thickness);
+    /// Nothing of the pack is nearer than `least`, and travel must grow by `to_contact` before anything new can be a contact.
+    void raise(std::size_t i, double least, double to_contact, double thickness, double travel) {
+        reach[i] = std::max(reach[i], below(least + travel));
+        const float near = below(static_cast<double>(reach[i]) - thickness);
+        wake[i] = std::max(wake[i], at[i].held != 0 ? near : std::max(near, below(to_contact + travel)));
     }
+    void hold(std::size_t i, unsigned lane, double thickness);
 };
 
 /// All packs of obstacle features that can come closer to a cluster than the thickness while its vertices stay in their boxes.
 struct ClusterList {
-    std::vector<Box> boxes;               // one for each of the cluster's vertices (ClothCluster::all_vertices)
-    std::vector<ListedFeature> features;  // by obstacle, kind, cloth feature
-    std::vector<FeatureBounds> bounds;    // of the features
-    std::vector<ListedPack> packs;        // of the features, one after the other
-    double thickness = 0.0;               // m, largest of its vertices
-    double travel = 0.0;                  // m, bound of how much any distance has shrunk since the list was made
-    double least_reach = 0.0;             // least FeatureBounds::reach
-    double quiet_until = 0.0;             // least FeatureBounds::quiet_until
-    double inside_until = -1.0;           // m, travel up to which all vertices are surely in their boxes
-    bool holds = false;                   // some lane is held
-    int version = -1;                     // of the obstacles' motion it was built for
+    std::vector<Box> boxes;             // one for each of the cluster's vertices (ClothCluster::all_vertices)
+    std::vector<ContactPair> features;  // by obstacle, kind, cloth feature; without an obstacle feature
+    ListedPacks packs;
+    double thickness = 0.0;      // m, largest of its vertices
+    double travel = 0.0;         // m, bound of how much any distance has shrunk since the list was made
+    double least_reach = 0.0;    // least ListedPacks::reach
+    double quiet_until = 0.0;    // least ListedPacks::wake
+    double inside_until = -1.0;  // m, travel up to which all vertices are surely in their boxes
+    bool holds = false;          // some lane is held
+    int version = -1;            // of the obstacles' motion it was built for
 };
 
 /// Tells all poses that the obstacles have had so far from any others.
@@ -107,6 +100,8 @@ public:
     /// m, how far each vertex goes in the move that was covered last, and the farthest of a cluster.
     std::span<const double> ways() const { return way_; }
     double cluster_way(std::size_t cluster) const { return cluster_way_[cluster]; }
+    /// Sets the least bounds of a list whose packs' bounds have changed.
+    static void set_least(ClusterList& list);
 
 private:
     CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, std::span<const Vec3> positions,
@@ -119,11 +114,12 @@ private:
     Box set_boxes(std::size_t cluster, const ClothMove& move);
     void add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle);
     void add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list);
-    bool stays_above(const PackPlane& plane, std::span<const int> vertices, double thickness) const;
+    bool stays_above(const PackHull& hull, std::span<const int> vertices, double thickness) const;
     bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes);
     void empty_dirty(const ClothMove& move);
     void keep_held(std::size_t cluster, const Obstacles& obstacles);
     void mark_held(const Obstacles& obstacles);
+    static void hold(ClusterList& list, std::size_t feature, int place);
     bool is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version);
     void set_ways(const ClothMove& move);
 

@@ -9,35 +9,30 @@ void exchange(Archive& archive, Value& box) {
     archive(box.low, box.high);
 }
 
-template <class Archive, OfType<FeatureBounds> Value>
-void exchange(Archive& archive, Value& bounds) {
-    archive(bounds.reach, bounds.quiet_until);
-}
-
 template <class Archive, OfType<ContactPair> Value>
 void exchange(Archive& archive, Value& pair) {
     archive.choice(pair.kind, 3);
     archive(pair.cloth, pair.edge_bits, pair.obstacle);
 }
 
-template <class Archive, OfType<ListedFeature> Value>
-void exchange(Archive& archive, Value& feature) {
-    archive(feature.pair, feature.first, feature.count, feature.busy, feature.others);
+template <class Archive, OfType<ListedPack> Value>
+void exchange(Archive& archive, Value& pack) {
+    std::uint32_t number_and_held = pack.number | static_cast<std::uint32_t>(pack.held) << 24;
+    archive(pack.feature, number_and_held);
+    if constexpr (Archive::reads) {
+        pack.number = number_and_held & 0xffffffU;
+        pack.held = number_and_held >> 24;
+    }
 }
 
-template <class Archive, OfType<ListedPack> Value>
-void exchange(Archive& archive, Value& listed) {
-    std::uint32_t pack_and_held = listed.pack | static_cast<std::uint32_t>(listed.held) << 24;
-    archive(listed.reach, listed.row_reach, pack_and_held);
-    if constexpr (Archive::reads) {
-        listed.pack = pack_and_held & 0xffffffU;
-        listed.held = pack_and_held >> 24;
-    }
+template <class Archive, OfType<ListedPacks> Value>
+void exchange(Archive& archive, Value& packs) {
+    archive(packs.reach, packs.wake, packs.at);
 }
 
 template <class Archive, OfType<ClusterList> Value>
 void exchange(Archive& archive, Value& list) {
-    archive(list.boxes, list.features, list.bounds, list.packs, list.thickness, list.travel, list.least_reach, list.quiet_until,
+    archive(list.boxes, list.features, list.packs, list.thickness, list.travel, list.least_reach, list.quiet_until,
             list.inside_until, list.holds, list.version);
 }
 
@@ -55,8 +50,7 @@ bool is_permutation_of(std::span<const int> order, std::size_t count) {
     return order.size() == count;
 }
 
-bool is_good(const ListedFeature& feature, std::size_t vertices, const Obstacles& obstacles) {
-    const ContactPair& pair = feature.pair;
+bool is_good(const ContactPair& pair, std::size_t vertices, const Obstacles& obstacles) {
     const auto cloth = pair.vertices();
     const bool known = std::all_of(cloth.begin(), cloth.end(),
                                    [&](int vertex) { return vertex >= 0 && static_cast<std::size_t>(vertex) < vertices; });
@@ -65,24 +59,25 @@ bool is_good(const ListedFeature& feature, std::size_t vertices, const Obstacles
     return known && rest_unused && pair.obstacle >= 0 && static_cast<std::size_t>(pair.obstacle) < obstacles.size();
 }
 
-/// Whether the packs are those of the features, one after the other: none is looked at twice.
+/// Whether all arrays are of one length and the packs are those of the features, one after the other.
 bool are_in_order(const ClusterList& list) {
-    std::size_t next = 0;
-    for (const ListedFeature& feature : list.features) {
-        if (feature.count <= 0 || feature.first < 0 || static_cast<std::size_t>(feature.first) != next) return false;
-        next += static_cast<std::size_t>(feature.count);
-    }
-    return next == list.packs.size();
+    const ListedPacks& packs = list.packs;
+    if (packs.wake.size() != packs.size() || packs.at.size() != packs.size()) return false;
+    if (packs.size() == 0) return true;
+    const auto before = [](const ListedPack& a, const ListedPack& b) { return a.feature < b.feature; };
+    return packs.at.front().feature >= 0 && static_cast<std::size_t>(packs.at.back().feature) < list.features.size() &&
+           std::is_sorted(packs.at.begin(), packs.at.end(), before);
 }
 
-/// Whether the packs of a feature are of its kind and the marks are of packs that there are.
-bool has_good_packs(const ListedFeature& feature, const ClusterList& list, const Obstacles& obstacles) {
-    const std::vector<FeaturePack>& packs = obstacles[feature.pair.obstacle]->packs().packs;
-    for (int i = feature.first; i < feature.first + feature.count; ++i) {
-        const std::size_t number = list.packs[i].pack;
-        if (number >= packs.size() || packs[number].kind != feature.pair.kind) return false;
+/// Whether there is every pack and it is of its feature's kind.
+bool has_good_packs(const ClusterList& list, const Obstacles& obstacles) {
+    for (std::size_t i = 0; i < list.packs.size(); ++i) {
+        const ContactPair& feature = list.features[list.packs.at[i].feature];
+        const std::vector<FeaturePack>& packs = obstacles[feature.obstacle]->packs().packs;
+        const std::size_t number = list.packs.at[i].number;
+        if (number >= packs.size() || packs[number].kind != feature.kind) return false;
     }
-    return feature.count >= 64 || feature.busy >> feature.count == 0;
+    return true;
 }
 
 }  // namespace
@@ -151,12 +146,11 @@ void CandidateLists::check(const Obstacles& obstacles, const StateReader& state)
         state.demand(list.boxes.empty() ? list.features.empty() && list.version != settled_later
                                         : list.boxes.size() == vertices_of(cluster).size(),
                      "a wrong number of boxes");
-        state.demand(list.bounds.size() == list.features.size(), "a wrong number of bounds");
-        state.demand(are_in_order(list), "packs of no feature");
-        for (const ListedFeature& feature : list.features) {
+        for (const ContactPair& feature : list.features) {
             state.demand(is_good(feature, seen_.size(), obstacles), "a feature that there is not");
-            state.demand(has_good_packs(feature, list, obstacles), "a pack that there is not");
         }
+        state.demand(are_in_order(list), "packs of no feature");
+        state.demand(has_good_packs(list, obstacles), "a pack that there is not");
     }
 }
 

@@ -19,6 +19,12 @@ struct ContactPair {
 
     int cloth_count() const { return static_cast<int>(kind) + 1; }
     std::span<const int> vertices() const { return {cloth.data(), static_cast<std::size_t>(cloth_count())}; }
+    /// The same cloth feature with one of a pack's.
+    ContactPair with(const FeaturePack& pack, int lane) const {
+        ContactPair full = *this;
+        full.feature = pack.feature[lane];
+        return full;
+    }
 };
 
 /// The exact closest points of a pair.

@@ -16,7 +16,6 @@
 namespace percale {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double kept_way = 0.1;  // of the thickness: a vertex that has moved no farther keeps its contacts from step to step
 
 /// Pairs farther apart than this keep their floor if they come closer by no more than `way`.
@@ -24,8 +23,8 @@ double within(double way, double h) {
     return way > largest_floor * h ? way + largest_floor * h : std::max(2.0 * way, way + 1e-3 * h);
 }
 
-bool stays_above(const PackPlane& plane, const ContactPair& pair, const ClothMove& move, double height) {
-    return height_above(plane, pair.vertices(), move.from) > height && height_above(plane, pair.vertices(), move.to) > height;
+bool stays_above(const PackHull& hull, const ContactPair& pair, const ClothMove& move, double height) {
+    return height_above(hull, pair.vertices(), move.from) > height && height_above(hull, pair.vertices(), move.to) > height;
 }
 
 StartFault start_fault(int obstacle, const Certificate& certificate) {
@@ -141,91 +140,93 @@ private:
     /// Each pass asks memory for what the next places need: lists, packs and the obstacle's surface are too large for the
     /// nearest caches.
     void add_rows(std::span<const Vec3> positions, double fraction, ContactRows& rows) {
-        find_active();
-        find_candidates(positions);
+        find_near();
+        find_candidates();
         select_packs(positions);
         measure_selected({positions, positions, {fraction, fraction}});
         for (std::size_t i = 0; i < lanes_.size(); ++i) {
             fetch_ahead(i);
             add_lane(positions, fraction, lanes_[i], rows);
         }
-        for (const auto& [list, feature] : active_) list->bounds[feature] = least_bounds(list->features[feature], *list);
-        for (ClusterList* list : near_clusters_) set_least(*list);
+        for (ClusterList* list : near_clusters_) CandidateLists::set_least(*list);
     }
 
-    static void set_least(ClusterList& list) {
-        list.least_reach = list.quiet_until = infinity;
-        for (const FeatureBounds& bounds : list.bounds) {
-            list.least_reach = std::min(list.least_reach, static_cast<double>(bounds.reach));
-            list.quiet_until = std::min(list.quiet_until, static_cast<double>(bounds.quiet_until));
-        }
-    }
-
-    /// The features whose bounds are used up.
-    void find_active() {
+    void find_near() {
         near_clusters_.clear();
         for (ClusterList& list : lists_->lists()) {
             if (list.quiet_until <= list.travel) near_clusters_.push_back(&list);
         }
-        active_.clear();
-        for (std::size_t i = 0; i < near_clusters_.size(); ++i) {
-            if (i + 2 < near_clusters_.size()) fetch(*near_clusters_[i + 2]);
-            ClusterList& list = *near_clusters_[i];
-            for (std::size_t f = 0; f < list.bounds.size(); ++f) {
-                if (static_cast<double>(list.bounds[f].quiet_until) <= list.travel)
-                    active_.push_back({&list, static_cast<int>(f)});
-            }
-        }
     }
 
-    /// Their packs whose bounds are used up.
-    void find_candidates(std::span<const Vec3> positions) {
+    /// The packs whose bounds are used up.
+    void find_candidates() {
         candidates_.clear();
-        for (std::size_t i = 0; i < active_.size(); ++i) {
-            if (i + 6 < active_.size()) fetch_packs(active_[i + 6]);
-            ClusterList& list = *active_[i].list;
-            ListedFeature& feature = list.features[active_[i].feature];
-            const float thickness = float_thickness(feature);
-            if (static_cast<double>(feature.others.quiet_until) <= list.travel) find_busy(positions, feature, list);
-            for_busy(feature, [&](int pack) {
-                if (static_cast<double>(list.packs[pack].quiet_until(thickness)) > list.travel) return;
-                candidates_.push_back({&list, active_[i].feature, pack});
-            });
+        for (std::size_t i = 0; i < near_clusters_.size(); ++i) {
+            if (i + 2 < near_clusters_.size()) {
+                const std::vector<float>& wake = near_clusters_[i + 2]->packs.wake;
+                fetch(wake.data(), wake.size());
+            }
+            ClusterList& list = *near_clusters_[i];
+            for (const int pack : packs_up_to(list.packs.wake, list.travel)) candidates_.push_back({&list, pack});
         }
     }
 
-    /// Those of them that have to be measured.
+    /// Where one of a list's bounds is at most `limit`. Valid until the next call.
+    std::span<const int> packs_up_to(const std::vector<float>& bounds, double limit) {
+        if (found_.size() < bounds.size()) found_.resize(bounds.size());
+        const long count =
+            pack_kernels().find_up_to(bounds.data(), static_cast<long>(bounds.size()), above(limit), found_.data());
+        return std::span<const int>(found_).first(static_cast<std::size_t>(count));
+    }
+
+    /// Those of them that have to be measured: most are told to be far by their hulls.
     void select_packs(std::span<const Vec3> positions) {
         selected_.clear();
+        const ContactPair* last = nullptr;
+        Box box;  // of the last cloth feature
         for (std::size_t i = 0; i < candidates_.size(); ++i) {
-            if (i + 8 < candidates_.size()) {
-                const auto& [list, feature, pack] = candidates_[i + 8];
-                __builtin_prefetch(&packs_for(list->features[feature]).planes[list->packs[pack].pack]);
+            if (i + 16 < candidates_.size()) __builtin_prefetch(&candidates_[i + 16].list->packs.at[candidates_[i + 16].pack]);
+            if (i + 8 < candidates_.size()) __builtin_prefetch(&hull_of(candidates_[i + 8]));
+            const auto& [list, pack] = candidates_[i];
+            const ContactPair& feature = candidates_[i].feature();
+            const double thickness = thickness_[feature.cloth[0]];
+            const PackHull& hull = hull_of(candidates_[i]);
+            double apart = height_above(hull, feature.vertices(), positions);
+            if (apart < thickness) {
+                if (last != &feature) box = box_of(feature, positions);
+                last = &feature;
+                apart = std::max(apart, hull.box().gap(box));
             }
-            const auto& [list, feature, pack] = candidates_[i];
-            if (!raise_bounds(positions, list->features[feature], list->travel, list->packs[pack])) {
+            if (apart < thickness) {
                 selected_.push_back(candidates_[i]);
+            } else {
+                list->packs.raise(pack, apart, apart - thickness, thickness, list->travel);
             }
         }
     }
 
-    const ObstaclePacks& packs_for(const ListedFeature& feature) const { return obstacles_[feature.pair.obstacle]->packs(); }
+    static Box box_of(const ContactPair& feature, std::span<const Vec3> positions) {
+        Box box;
+        for (const int vertex : feature.vertices()) box.add(positions[vertex]);
+        return box;
+    }
+
+    const ObstaclePacks& packs_for(const ContactPair& feature) const { return obstacles_[feature.obstacle]->packs(); }
+    const PackHull& hull_of(const SelectedPack& at) const { return packs_for(at.feature()).hulls[at.number()]; }
 
     /// Finds the lanes that can be contacts.
     void measure_selected(const ClothMove& here) {
         lanes_.clear();
         for (std::size_t i = 0; i < selected_.size(); ++i) {
             if (i + 4 < selected_.size()) {
-                const auto& [list, feature, pack] = selected_[i + 4];
-                packs_for(list->features[feature]).placed[list->packs[pack].pack].prefetch(list->features[feature].pair.kind);
+                const SelectedPack& next = selected_[i + 4];
+                packs_for(next.feature()).placed[next.number()].prefetch(next.feature().kind);
             }
-            const auto& [list, number, pack] = selected_[i];
-            const ListedFeature& feature = list->features[number];
-            ListedPack& listed = list->packs[pack];
-            const PackAnswer answer = measure_pack(here, feature, thickness_[feature.pair.cloth[0]], *list, listed);
-            for (unsigned lanes = answer.row | (listed.held & answer.near); lanes != 0; lanes &= lanes - 1) {
-                lanes_.push_back({selected_[i], std::countr_zero(lanes)});
-                __builtin_prefetch(&packs_for(feature).packs[listed.pack].feature);
+            const SelectedPack& at = selected_[i];
+            const PackAnswer answer = measure_pack(here, at, thickness_[at.feature().cloth[0]]);
+            for (unsigned lanes = answer.row | (at.list->packs.at[at.pack].held & answer.near); lanes != 0; lanes &= lanes - 1) {
+                lanes_.push_back({at, std::countr_zero(lanes)});
+                __builtin_prefetch(&packs_for(at.feature()).packs[at.number()].feature);
             }
         }
     }
@@ -254,77 +255,29 @@ private:
         for (ClusterList& list : lists_->lists()) {
             if (!list.holds) continue;
             list.holds = false;
-            for (ListedFeature& feature : list.features) forget_contacts(feature, list);
-        }
-    }
-
-    /// Held packs are busy ones, or their list has not been looked at since it was made.
-    void forget_contacts(ListedFeature& feature, ClusterList& list) const {
-        bool moved = false;
-        for (int k = 0; k < feature.pair.cloth_count(); ++k) moved = moved || moved_[feature.pair.cloth[k]];
-        if (feature.others.quiet_until < 0.0F) feature.busy = ~0UL >> (most_marked - std::min(feature.count, most_marked));
-        for_busy(feature, [&](int i) {
-            if (moved) list.packs[i].held = 0;
-            list.holds = list.holds || list.packs[i].held != 0;
-        });
-    }
-
-    float float_thickness(const ListedFeature& feature) const { return static_cast<float>(thickness_[feature.pair.cloth[0]]); }
-
-    FeatureBounds least_bounds(const ListedFeature& feature, const ClusterList& list) const {
-        FeatureBounds least = feature.others;
-        const float thickness = float_thickness(feature);
-        for_busy(feature, [&](int i) {
-            least.reach = std::min(least.reach, list.packs[i].reach);
-            least.quiet_until = std::min(least.quiet_until, list.packs[i].quiet_until(thickness));
-        });
-        return least;
-    }
-
-    /// Most packs whose bounds are used up are told to be far by their planes.
-    bool raise_bounds(std::span<const Vec3> positions, const ListedFeature& feature, double travel, ListedPack& listed) const {
-        const double thickness = thickness_[feature.pair.cloth[0]];
-        const PackPlane& plane = obstacles_[feature.pair.obstacle]->packs().planes[listed.pack];
-        const double height = height_above(plane, feature.pair.vertices(), positions);
-        if (height < thickness) return false;
-        listed.reach = std::max(listed.reach, below(height + travel));
-        listed.row_reach = std::max(listed.row_reach, below(height - thickness + travel));
-        return true;
-    }
-
-    /// Marks the packs that a tenth of the thickness more of travel would wake, and those that are held.
-    void find_busy(std::span<const Vec3> positions, ListedFeature& feature, ClusterList& list) const {
-        const float thickness = float_thickness(feature);
-        const double soon = list.travel + 0.1 * static_cast<double>(thickness);
-        feature.busy = 0;
-        feature.others = {.reach = infinity, .quiet_until = infinity};
-        const PackPlane* planes = obstacles_[feature.pair.obstacle]->packs().planes.data();
-        for (int i = 0; i < feature.count; ++i) __builtin_prefetch(planes + list.packs[feature.first + i].pack);
-        for (int i = 0; i < std::min(feature.count, most_marked); ++i) {
-            ListedPack& listed = list.packs[feature.first + i];
-            if (static_cast<double>(listed.quiet_until(thickness)) < soon) raise_bounds(positions, feature, list.travel, listed);
-            if (listed.held != 0 || static_cast<double>(listed.quiet_until(thickness)) < soon) {
-                feature.busy |= 1UL << i;
-            } else {
-                feature.others.reach = std::min(feature.others.reach, listed.reach);
-                feature.others.quiet_until = std::min(feature.others.quiet_until, listed.quiet_until(thickness));
+            for (std::size_t i = 0; i < list.packs.size(); ++i) {
+                if (list.packs.at[i].held == 0) continue;
+                const std::span<const int> cloth = list.features[list.packs.at[i].feature].vertices();
+                if (std::any_of(cloth.begin(), cloth.end(), [&](int vertex) { return moved_[vertex]; }))
+                    list.packs.at[i].held = 0;
+                list.holds = list.holds || list.packs.at[i].held != 0;
             }
         }
     }
 
-    PackAnswer measure_pack(const ClothMove& move, const ListedFeature& feature, double near, const ClusterList& list,
-                            ListedPack& listed) {
-        const PlacedPack& placed = obstacles_[feature.pair.obstacle]->placed(static_cast<int>(listed.pack), move.part.from);
-        const PackAnswer answer =
-            measure(feature.pair, move.from, placed, {.near = near, .thickness = thickness_[feature.pair.cloth[0]]});
-        listed.reach = std::max(listed.reach, below(static_cast<double>(answer.least) + list.travel));
-        listed.row_reach = std::max(listed.row_reach, below(static_cast<double>(answer.least_row) + list.travel));
+    PackAnswer measure_pack(const ClothMove& move, const SelectedPack& at, double near) {
+        const ContactPair& feature = at.feature();
+        const double thickness = thickness_[feature.cloth[0]];
+        const PlacedPack& placed = obstacles_[feature.obstacle]->placed(at.number(), move.part.from);
+        const PackAnswer answer = measure(feature, move.from, placed, {.near = near, .thickness = thickness});
+        at.list->packs.raise(at.pack, static_cast<double>(answer.least), static_cast<double>(answer.least_row), thickness,
+                             at.list->travel);
         return answer;
     }
 
     ContactPair pair_of(const SelectedLane& at) const {
-        const auto& [list, feature, pack] = at.place;
-        return list->features[feature].with(packs_for(list->features[feature]).packs[list->packs[pack].pack], at.lane);
+        const ContactPair& feature = at.place.feature();
+        return feature.with(packs_for(feature).packs[at.place.number()], at.lane);
     }
 
     void fetch_ahead(std::size_t lane) const {
@@ -344,12 +297,12 @@ private:
         if (contact.distance >= thickness) return;
         // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
         // that the force is continuous where closest points pass from one feature to the next.
-        ListedPack& listed = at.place.list->packs[at.place.pack];
+        const auto& [list, pack] = at.place;
         if (contact.local_minimum) {
-            listed.held |= 1U << at.lane & 0xffU;
-            at.place.list->holds = true;
+            list->packs.hold(pack, at.lane, thickness);
+            list->holds = true;
         }
-        if ((listed.held >> at.lane & 1U) != 0) add_row(pair, contact, thickness, rows);
+        if ((list->packs.at[pack].held >> at.lane & 1U) != 0) add_row(pair, contact, thickness, rows);
     }
 
     void add_row(const ContactPair& pair, const PairContact& contact, double thickness, ContactRows& rows) const {
@@ -365,56 +318,52 @@ private:
         rows.feature.push_back(pair.feature);
     }
 
+    /// Where a cloth feature goes during a move.
+    struct FeatureMove {
+        int number = -1;  // in the list
+        double way = 0.0, thickness = 0.0;
+        Box room;
+    };
+    void set_move(const ClothMove& move, const ContactPair& feature, FeatureMove& own) const {
+        own.thickness = thickness_[feature.cloth[0]];
+        own.way = 0.0;
+        own.room = Box();
+        for (const int vertex : feature.vertices()) {
+            own.way = std::max(own.way, lists_->ways()[vertex]);
+            own.room.add(move.from[vertex]);
+            own.room.add(move.to[vertex]);
+        }
+        own.room.grow(largest_floor * own.thickness);
+    }
+
     /// Lowers `safe` where a pair of the cluster needs it. `obstacle_way`: how far obstacles go during the whole move.
     double cut_cluster(const ClothMove& move, double obstacle_way, std::size_t cluster, double safe) {
         ClusterList& list = lists_->lists()[cluster];
-        const auto farther = [&](double reach, double way, double thickness) {
-            return reach - list.travel >= within((way + obstacle_way) * safe, thickness);
-        };
-        if (farther(list.least_reach, lists_->cluster_way(cluster), list.thickness)) return safe;
-        list.least_reach = infinity;
-        for (std::size_t f = 0; f < list.features.size(); ++f) {
-            const ListedFeature& feature = list.features[f];
-            double way = 0.0;
-            for (int k = 0; k < feature.pair.cloth_count(); ++k) way = std::max(way, lists_->ways()[feature.pair.cloth[k]]);
-            if (!farther(static_cast<double>(list.bounds[f].reach), way, thickness_[feature.pair.cloth[0]])) {
-                safe = cut_feature(move, way + obstacle_way, f, list, safe);
+        const double limit = list.travel + within((lists_->cluster_way(cluster) + obstacle_way) * safe, list.thickness);
+        if (list.least_reach >= limit) return safe;
+        FeatureMove own;
+        for (const int pack : packs_up_to(list.packs.reach, limit)) {
+            const SelectedPack at{&list, pack};
+            const ContactPair& feature = at.feature();
+            if (own.number != list.packs.at[pack].feature) {
+                own.number = list.packs.at[pack].feature;
+                set_move(move, feature, own);
             }
-            list.least_reach = std::min(list.least_reach, static_cast<double>(list.bounds[f].reach));
+            const double near = within((own.way + obstacle_way) * safe, own.thickness);
+            if (static_cast<double>(list.packs.reach[pack]) - list.travel >= near) continue;
+            const bool may_cross =
+                !stays_above(hull_of(at), feature, move, largest_floor * own.thickness) && hull_of(at).box().overlaps(own.room);
+            if (may_cross) safe = cut_pack(move, near, at, safe);
         }
+        CandidateLists::set_least(list);
         return safe;
     }
 
-    double cut_feature(const ClothMove& move, double way, std::size_t f, ClusterList& list, double safe) {
-        const ListedFeature& feature = list.features[f];
-        const double thickness = thickness_[feature.pair.cloth[0]];
-        Box room;
-        for (int k = 0; k < feature.pair.cloth_count(); ++k) {
-            room.add(move.from[feature.pair.cloth[k]]);
-            room.add(move.to[feature.pair.cloth[k]]);
-        }
-        room.grow(largest_floor * thickness);
-        const ObstaclePacks& packs = obstacles_[feature.pair.obstacle]->packs();
-        float least = infinity;
-        for (int i = feature.first; i < feature.first + feature.count; ++i) {
-            ListedPack& listed = list.packs[i];
-            const double near = within(way * safe, thickness);
-            const bool may_cross = static_cast<double>(listed.reach) - list.travel < near &&
-                                   !stays_above(packs.planes[listed.pack], feature.pair, move, largest_floor * thickness) &&
-                                   packs.packs[listed.pack].box.overlaps(room);
-            if (may_cross) safe = cut_pack(move, feature, near, list, listed, safe);
-            least = std::min(least, listed.reach);
-        }
-        list.bounds[f].reach = least;
-        return safe;
-    }
-
-    double cut_pack(const ClothMove& move, const ListedFeature& feature, double near, const ClusterList& list, ListedPack& listed,
-                    double safe) {
-        const PackAnswer answer = measure_pack(move, feature, near, list, listed);
-        const Obstacle& obstacle = *obstacles_[feature.pair.obstacle];
+    double cut_pack(const ClothMove& move, double near, const SelectedPack& at, double safe) {
+        const PackAnswer answer = measure_pack(move, at, near);
+        const Obstacle& obstacle = *obstacles_[at.feature().obstacle];
         for (unsigned lanes = answer.near; lanes != 0; lanes &= lanes - 1) {
-            const ContactPair pair = feature.with(obstacle.packs().packs[listed.pack], std::countr_zero(lanes));
+            const ContactPair pair = at.feature().with(obstacle.packs().packs[at.number()], std::countr_zero(lanes));
             const Vec3 apart = pair_apart(pair, move.from, obstacle, move.part.from);
             const double distance = apart.norm(), floor = floor_below(distance, thickness_[pair.cloth[0]]);
             const MovingFour four = moving_pair(pair, move, obstacle);
@@ -432,7 +381,7 @@ private:
     Obstacles obstacles_;
     std::optional<CandidateLists> lists_;
     std::vector<ClusterList*> near_clusters_;
-    std::vector<ActiveFeature> active_;
+    std::vector<int> found_;
     std::vector<SelectedPack> candidates_, selected_;
     std::vector<SelectedLane> lanes_;
     std::vector<Vec3> kept_at_;                           // m, where each vertex was when its contacts were last forgotten

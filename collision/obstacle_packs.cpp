@@ -168,16 +168,27 @@ void add_paths(std::span<const int> vertices, const VertexPaths& paths, Box& box
     }
 }
 
-/// Sets a pack's box, and how far along the plane's normal it reaches.
-void enclose(FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, PackPlane& plane) {
-    pack.box = {};
+float not_above(double x) {
+    const auto near = static_cast<float>(x);
+    return static_cast<double>(near) > x ? std::nextafter(near, -std::numeric_limits<float>::infinity()) : near;
+}
+
+/// The hull of a pack with a plane of this normal.
+PackHull hull_of(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, const Vec3& normal) {
+    PackHull hull{.normal = normal, .offset = -infinity};
+    Box box;
     for (int lane = 0; lane < pack.count; ++lane) {
         const std::span<const int> vertices = vertices_of(surface, pack.kind, pack.feature[lane]);
-        add_paths(vertices, paths, pack.box);
+        add_paths(vertices, paths, box);
         for (const int vertex : vertices) {
-            plane.offset = std::max({plane.offset, plane.normal.dot(paths.start[vertex]), plane.normal.dot(paths.end[vertex])});
+            hull.offset = std::max({hull.offset, normal.dot(paths.start[vertex]), normal.dot(paths.end[vertex])});
         }
     }
+    for (int axis = 0; axis < 3; ++axis) {
+        hull.low[axis] = not_above(box.low[axis]);
+        hull.high[axis] = -not_above(-box.high[axis]);
+    }
+    return hull;
 }
 
 }  // namespace
@@ -201,7 +212,7 @@ ObstaclePacks make_packs(const ObstacleSurface& surface) {
     }
     packs.box.resize(packs.first.size() / 3);
     packs.first.push_back(static_cast<int>(packs.packs.size()));
-    packs.planes.resize(packs.packs.size());
+    packs.hulls.resize(packs.packs.size());
     packs.placed.resize(packs.packs.size());
     return packs;
 }
@@ -213,8 +224,7 @@ void set_boxes(ObstaclePacks& packs, const ObstacleSurface& surface, const Verte
     const std::vector<Vec3> normals = patch_normals(packs, surface, paths);
     for (std::size_t patch = 0; patch < packs.patch_count(); ++patch) {
         for (int number = packs.first[3 * patch]; number < packs.first[3 * patch + 3]; ++number) {
-            packs.planes[number] = {.normal = normals[patch], .offset = -infinity};
-            enclose(packs.packs[number], surface, paths, packs.planes[number]);
+            packs.hulls[number] = hull_of(packs.packs[number], surface, paths, normals[patch]);
         }
     }
     for (PlacedPack& placed : packs.placed) placed.fraction = -1.0;

@@ -19,7 +19,6 @@ struct FeaturePack {
     PairKind kind = PairKind::vertex_face;
     int count = 0;
     std::array<int, pack_lanes> feature{};  // triangles, edges or vertices; behind `count` the last one again
-    Box box;                                // m, world, of the whole step
 };
 
 /// What the kernels read of a pack, for one place of the obstacle: together in memory.
@@ -39,17 +38,21 @@ struct alignas(64) PlacedPack {
     }
 };
 
-/// Everything of a pack is below this plane during the whole step: `normal` . x <= `offset` (m, world).
-struct PackPlane {
+/// Everything of a pack is below this plane and in this box during the whole step (m, world). One line of memory, far less than
+/// the pack.
+struct alignas(64) PackHull {
     Vec3 normal = Vec3::Zero();  // unit
-    double offset = 0.0;
+    double offset = 0.0;         // normal . x <= offset
+    std::array<float, 3> low{}, high{};
+
+    Box box() const { return {Vec3(low[0], low[1], low[2]), Vec3(high[0], high[1], high[2])}; }
 };
 
-/// How far points are above a plane at least, m: a bound of the distance of their hull from all that is below.
-inline double height_above(const PackPlane& plane, std::span<const int> points, std::span<const Vec3> positions) {
-    double least = plane.normal.dot(positions[points[0]]);
-    for (const int point : points.subspan(1)) least = std::min(least, plane.normal.dot(positions[point]));
-    return least - plane.offset;
+/// How far points are above the plane at least, m: a bound of the distance of their hull from all that is below.
+inline double height_above(const PackHull& hull, std::span<const int> points, std::span<const Vec3> positions) {
+    double least = hull.normal.dot(positions[points[0]]);
+    for (const int point : points.subspan(1)) least = std::min(least, hull.normal.dot(positions[point]));
+    return least - hull.offset;
 }
 
 /// Patches of sixteen neighbouring triangles with the edges and vertices they own that cloth can touch.
@@ -58,7 +61,7 @@ struct ObstaclePacks {
     std::vector<int> first;     // pack of each patch and kind, and one more: see packs_of
     std::vector<Box> box;       // of each patch, m, world, of the whole step
     std::vector<FeaturePack> packs;
-    std::vector<PackPlane> planes;  // of each pack: far less to read than the pack
+    std::vector<PackHull> hulls;  // of each pack
     std::vector<PlacedPack> placed;
     std::array<std::vector<int>, 3> place_of;  // by kind and feature: eight times the pack and the lane; -1 = in no pack
 
@@ -86,7 +89,7 @@ struct VertexPaths {
     }
 };
 
-/// Sets all boxes and planes for a step and makes every pack be placed anew.
+/// Sets all boxes and hulls for a step and makes every pack be placed anew.
 void set_boxes(ObstaclePacks& packs, const ObstacleSurface& surface, const VertexPaths& paths);
 
 /// The pack at a fraction of the step. Only obstacles at rest get normals and cones: those of moving ones turn.

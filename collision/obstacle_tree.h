@@ -25,6 +25,8 @@ struct Box {
         high.array() += by;
     }
     bool overlaps(const Box& b) const { return (low.array() <= b.high.array()).all() && (b.low.array() <= high.array()).all(); }
+    /// How far apart they are, m; 0 where they overlap.
+    double gap(const Box& b) const { return (low - b.high).cwiseMax(b.low - high).cwiseMax(0.0).norm(); }
     bool contains(const Vec3& x) const { return (low.array() <= x.array()).all() && (x.array() <= high.array()).all(); }
 };
 

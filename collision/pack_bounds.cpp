@@ -187,8 +187,34 @@ double largest_difference(const double* a, const double* b, long count) {
     return result;
 }
 
-constexpr PackKernels kernels{
-    .vertex_face = vertex_face, .edge_edge = edge_edge, .face_vertex = face_vertex, .largest_difference = largest_difference};
+float least(const float* values, long count) {
+    Lanes least_lanes = all(__builtin_inff());
+    long i = 0;
+    for (; i + pack_lanes <= count; i += pack_lanes) least_lanes = smaller(load(values + i), least_lanes);
+    float result = least_of(least_lanes);
+    for (; i < count; ++i) result = values[i] < result ? values[i] : result;
+    return result;
+}
+
+long find_up_to(const float* values, long count, float limit, int* found) {
+    long number = 0, i = 0;
+    for (; i + pack_lanes <= count; i += pack_lanes) {
+        for (unsigned hits = bits(load(values + i) <= all(limit)); hits != 0; hits &= hits - 1) {
+            found[number++] = static_cast<int>(i) + __builtin_ctz(hits);
+        }
+    }
+    for (; i < count; ++i) {
+        if (values[i] <= limit) found[number++] = static_cast<int>(i);
+    }
+    return number;
+}
+
+constexpr PackKernels kernels{.vertex_face = vertex_face,
+                              .edge_edge = edge_edge,
+                              .face_vertex = face_vertex,
+                              .largest_difference = largest_difference,
+                              .least = least,
+                              .find_up_to = find_up_to};
 
 }  // namespace
 

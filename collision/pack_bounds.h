@@ -31,12 +31,16 @@ struct PackAnswer {
     unsigned char row;   // those of them that can be a contact as things are
 };
 
-/// One function for each kind of pair, and one that tells how far cloth has gone. All instruction sets give the same bits.
+/// One function for each kind of pair, and what goes over long arrays. All instruction sets give the same bits.
 struct PackKernels {
     using Function = void (*)(const PackLanes&, const PackQuery&, PackAnswer&);
     Function vertex_face, edge_edge, face_vertex;
     /// Largest |a - b| of `count` numbers.
     double (*largest_difference)(const double* a, const double* b, long count);
+    /// Least of `count` numbers; infinity if there are none.
+    float (*least)(const float* values, long count);
+    /// Writes to `found`, which has room for `count`, where values are <= limit, in ascending order; returns how many.
+    long (*find_up_to)(const float* values, long count, float limit, int* found);
 };
 
 /// The table of a set, null where the processor lacks it.

@@ -41,22 +41,17 @@ public:
     /// Each key once.
     void add(const RowKey& key, const RowForce& force);
     RowForce of(const RowKey& key) const;
-    std::size_t size() const { return size_; }
+    std::size_t size() const { return forces_.size(); }
 
     /// All that are known, by their keys, and back.
     std::vector<KeyedForce> all() const;
     void set(std::span<const KeyedForce> all);
 
 private:
-    struct Slot {
-        RowKey key;
-        RowForce force;
-        bool used = false;
-    };
     std::size_t place(const RowKey& key) const;
 
-    std::vector<Slot> slots_;  // a power of two, at most half of them used
-    std::size_t size_ = 0;
+    std::vector<KeyedForce> forces_;  // in the order in which they came: rows are looked up in much the same one
+    std::vector<int> slots_;          // numbers of forces, -1 = unused; a power of two, at most half of them used
 };
 
 }  // namespace percale

@@ -7,6 +7,7 @@ namespace percale {
 
 bool accept_trial(double fraction, const LineTrial& trial) {
     if (!std::isfinite(trial.objective) || !std::isfinite(trial.slope)) return false;
+    if (trial.slope > trial.most_turned * std::abs(trial.start_slope)) return false;
     const bool gentle = trial.slope <= 0.9 * std::abs(trial.start_slope);
     if (trial.objective <= trial.start_objective + 1e-4 * fraction * trial.start_slope) return true;
     if (!trial.objective_known) return gentle;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 namespace percale {
 
 /// Where a line search stands: objective and slope (residual . direction) at its start and at a trial.
@@ -9,6 +11,8 @@ struct LineTrial {
     double objective = 0.0;
     double slope = 0.0;
     bool objective_known = true;  // false with contact: friction has no potential, rows come and go
+    /// Largest slope beyond the minimum, over the first one's size, whatever the objective says.
+    double most_turned = std::numeric_limits<double>::infinity();
 };
 
 /// Whether a trial is good enough: Armijo's rule on the objective, or, where that is flat to rounding or not known, a slope that

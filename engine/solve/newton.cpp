@@ -15,7 +15,10 @@ constexpr double estimated_share = 0.1;       // likewise where the solver error
 constexpr int most_rounds = 6;                // of contact multipliers in one solve
 constexpr double round_share = 0.01;          // of the thickness at most: contact less exact takes another round
 constexpr int most_trials = 10;               // of one line search
-constexpr double slope_left = 0.6;            // of a full step, from where on going further pays for its evaluation
+/// Projected rows that the matrix did not hold stop the cloth half-way, and from far beyond the minimum the next step leads back
+/// as far: of the slope, what may have turned.
+constexpr double most_turned = 0.3;
+constexpr double slope_left = 0.6;  // of a full step, from where on going further pays for its evaluation
 
 /// The solve of one part: functions that share the part, its work space and what is reported.
 class NewtonSolve {
@@ -352,6 +355,7 @@ private:
         double fraction = 1.0, kept = 1.0;
         move(fraction);
         const bool small = is_small(space_.trial.velocities, share_of_time_error);
+        if (projects()) line.most_turned = small ? 0.9 : most_turned;
         bool accepted = false;
         for (int trial = 0; trial < most_trials && !accepted; ++trial) {
             if (trial > 0) move(fraction);

@@ -12,7 +12,7 @@
 
 namespace percale {
 
-constexpr SealKind state_seal{.name = "PERCALES", .version = 1, .words = "saved state"};
+constexpr SealKind state_seal{.name = "PERCALES", .version = 2, .words = "saved state"};
 
 /// What an obstacle's name is not needed for.
 struct SavedObstacle {

@@ -40,10 +40,10 @@ void check_lane(Obstacle& obstacle, int number, int lane, double fraction, Fit& 
     const std::vector<int> vertices = vertices_of(obstacle.surface(), packs.packs[number], lane);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         const Vec3 x = obstacle.at(vertices[k], fraction);
-        Box slightly_larger = packs.packs[number].box;
+        Box slightly_larger = packs.hulls[number].box();
         slightly_larger.grow(1e-15);
         fit.inside = fit.inside && slightly_larger.contains(x) && obstacle.whole_box().overlaps(slightly_larger);
-        fit.above = std::max(fit.above, packs.planes[number].normal.dot(x) - packs.planes[number].offset);
+        fit.above = std::max(fit.above, packs.hulls[number].normal.dot(x) - packs.hulls[number].offset);
         for (int axis = 0; axis < 3; ++axis) {
             const double value = static_cast<double>(placed.lanes.at[3 * k + axis][lane]);
             fit.off = std::max(fit.off, std::abs(value + placed.centre[axis] - x[axis]));

@@ -1,6 +1,9 @@
 #include "collision/pack_bounds.h"
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
+#include <vector>
 
 #include "tests/support/catch.h"
 #include "tests/support/collision_random.h"
@@ -73,4 +76,25 @@ TEST_CASE("a point over a square triangle is as far from it as it is high, and l
     CHECK(answer.least < 0.3F);
     CHECK(answer.near == 0b11);
     CHECK(answer.row == 0b11);
+}
+
+TEST_CASE("the least bound and those up to a limit are found in arrays of any length, by all instruction sets") {
+    const PackKernels* kernels = GENERATE(baseline_pack_kernels(), avx2_pack_kernels());
+    const std::size_t count = GENERATE(0, 1, 7, 8, 9, 40, 1003);
+    if (!kernels) return;
+    Random random(61);
+    std::vector<float> bounds(count);
+    for (float& bound : bounds) bound = static_cast<float>(random.number(-1.0, 1.0));
+    if (count > 8) bounds[count / 2] = -std::numeric_limits<float>::infinity();
+    const float limit = count > 0 ? bounds[count / 3] : 0.0F;
+    float least = std::numeric_limits<float>::infinity();
+    std::vector<int> expected, found(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (bounds[i] <= limit) expected.push_back(static_cast<int>(i));
+        least = std::min(least, bounds[i]);
+    }
+    found.resize(kernels->find_up_to(bounds.data(), static_cast<long>(count), limit, found.data()));
+    CAPTURE(count, limit);
+    CHECK(found == expected);
+    CHECK(kernels->least(bounds.data(), static_cast<long>(count)) == least);
 }

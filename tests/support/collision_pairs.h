@@ -49,12 +49,11 @@ struct ListedPair {
 /// Every pair that a cluster's list holds.
 inline std::vector<ListedPair> listed_pairs(const ClusterList& list, const Obstacles& obstacles) {
     std::vector<ListedPair> pairs;
-    for (const ListedFeature& feature : list.features) {
-        for (int i = feature.first; i < feature.first + feature.count; ++i) {
-            const FeaturePack& pack = obstacles[feature.pair.obstacle]->packs().packs[list.packs[i].pack];
-            for (int lane = 0; lane < pack.count; ++lane) {
-                pairs.push_back({.pair = feature.with(pack, lane), .reach = static_cast<double>(list.packs[i].reach)});
-            }
+    for (std::size_t i = 0; i < list.packs.size(); ++i) {
+        const ContactPair& feature = list.features[list.packs.at[i].feature];
+        const FeaturePack& pack = obstacles[feature.obstacle]->packs().packs[list.packs.at[i].number];
+        for (int lane = 0; lane < pack.count; ++lane) {
+            pairs.push_back({.pair = feature.with(pack, lane), .reach = static_cast<double>(list.packs.reach[i])});
         }
     }
     return pairs;

