@@ -13,7 +13,6 @@ namespace {
 constexpr double skin_share = 0.4;    // of the thickness: room around a vertex before its lists are built anew
 constexpr double least_share = 1e-4;  // of a move: below it lists are built however many packs they hold
 constexpr double skin_of_way = 0.2;   // of the move the list is built for
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 double skin(double thickness, double way) { return skin_share * thickness + skin_of_way * way; }
 
@@ -116,8 +115,9 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
         const auto [first, last] = packs.packs_of(patch, pair.kind);
         for (int number = first; number < last; ++number) {
             const PackHull& hull = packs.hulls[number];
-            if (!hull.box().overlaps(room) || stays_above(hull, vertices, list.thickness)) continue;
-            const double apart = std::max(hull.box().gap(now), height_above(hull, vertices, move.from));
+            const Box box = hull.box();
+            if (!box.overlaps(room) || stays_above(hull, vertices, list.thickness)) continue;
+            const double apart = std::max(box.gap(now), height_above(hull, vertices, move.from));
             list.packs.add(feature, number, apart, list.thickness);
         }
     }
@@ -262,6 +262,7 @@ void CandidateLists::keep_held(std::size_t cluster, const Obstacles& obstacles) 
     const ClusterList& list = lists_[cluster];
     if (!list.holds) return;
     for (std::size_t i = 0; i < list.packs.size(); ++i) {
+        if (list.packs.at[i].held == 0) continue;
         const ContactPair& feature = list.features[list.packs.at[i].feature];
         const FeaturePack& pack = obstacles[feature.obstacle]->packs().packs[list.packs.at[i].number];
         for (unsigned held = list.packs.at[i].held; held != 0; held &= held - 1) {
@@ -283,15 +284,14 @@ void CandidateLists::mark_held(const Obstacles& obstacles) {
 }
 
 /// Holds the lane at a place of ObstaclePacks::place_of, if the feature is listed with its pack.
-void CandidateLists::hold(ClusterList& list, std::size_t feature, int place) {
+void CandidateLists::hold(ClusterList& list, std::size_t feature, int place) const {
     std::vector<ListedPack>& packs = list.packs.at;
     const auto first = std::partition_point(
         packs.begin(), packs.end(), [&](const ListedPack& pack) { return static_cast<std::size_t>(pack.feature) < feature; });
     for (std::size_t i = first - packs.begin(); i < packs.size() && static_cast<std::size_t>(packs[i].feature) == feature; ++i) {
         if (static_cast<int>(packs[i].number) != place / pack_lanes) continue;
-        packs[i].held |= 1U << (place % pack_lanes) & 0xffU;
-        list.packs.wake[i] = -infinity;
-        list.quiet_until = -infinity;
+        list.packs.hold(i, place % pack_lanes, thickness_[list.features[feature].cloth[0]]);
+        list.quiet_until = std::min(list.quiet_until, static_cast<double>(list.packs.wake[i]));
         list.holds = true;
     }
 }

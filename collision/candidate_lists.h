@@ -33,7 +33,7 @@ struct ListedPack {
 /// array of its own, because it is all that is read of packs that stay away.
 struct ListedPacks {
     std::vector<float> reach;  // m, least distance + travel when last measured: reach - travel is below all distances
-    std::vector<float> wake;   // m, while travel is below this, nothing new of the pack can be a contact
+    std::vector<float> wake;   // m, while travel is below this, no pair of the pack is a row
     std::vector<ListedPack> at;
 
     std::size_t size() const { return reach.size(); }
@@ -119,7 +119,7 @@ private:
     void empty_dirty(const ClothMove& move);
     void keep_held(std::size_t cluster, const Obstacles& obstacles);
     void mark_held(const Obstacles& obstacles);
-    static void hold(ClusterList& list, std::size_t feature, int place);
+    void hold(ClusterList& list, std::size_t feature, int place) const;
     bool is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version);
     void set_ways(const ClothMove& move);
 

@@ -32,8 +32,7 @@ void exchange(Archive& archive, Value& packs) {
 
 template <class Archive, OfType<ClusterList> Value>
 void exchange(Archive& archive, Value& list) {
-    archive(list.boxes, list.features, list.packs, list.thickness, list.travel, list.least_reach, list.quiet_until,
-            list.inside_until, list.holds, list.version);
+    archive(list.boxes, list.features, list.packs, list.travel, list.inside_until, list.version);
 }
 
 namespace {
@@ -124,11 +123,17 @@ CandidateLists CandidateLists::restored(std::span<const Triangle> triangles, std
     state.demand(seen.size() == vertex_thickness.size(), "a wrong number of vertices");
     CandidateLists lists(triangles, vertex_thickness, seen, make_clusters(triangles, seen.size(), order));
     state.demand(saved.size() == lists.lists_.size(), "a wrong number of lists");
+    for (std::size_t i = 0; i < saved.size(); ++i) saved[i].thickness = lists.lists_[i].thickness;
     lists.lists_ = std::move(saved);
     bool room_is_known = false;
     state(lists.seen_fraction_, lists.anchor_, lists.room_, room_is_known, lists.empty_);
     lists.room_version_ = room_is_known ? settled_later : -1;
     lists.check(obstacles, state);
+    for (ClusterList& list : lists.lists_) {
+        set_least(list);
+        list.holds =
+            std::any_of(list.packs.at.begin(), list.packs.at.end(), [](const ListedPack& pack) { return pack.held != 0; });
+    }
     return lists;
 }
 

@@ -185,7 +185,7 @@ private:
         const ContactPair* last = nullptr;
         Box box;  // of the last cloth feature
         for (std::size_t i = 0; i < candidates_.size(); ++i) {
-            if (i + 16 < candidates_.size()) __builtin_prefetch(&candidates_[i + 16].list->packs.at[candidates_[i + 16].pack]);
+            if (i + 16 < candidates_.size()) __builtin_prefetch(&candidates_[i + 16].list->packs.at[candidates_[i + 16].index]);
             if (i + 8 < candidates_.size()) __builtin_prefetch(&hull_of(candidates_[i + 8]));
             const auto& [list, pack] = candidates_[i];
             const ContactPair& feature = candidates_[i].feature();
@@ -224,7 +224,7 @@ private:
             }
             const SelectedPack& at = selected_[i];
             const PackAnswer answer = measure_pack(here, at, thickness_[at.feature().cloth[0]]);
-            for (unsigned lanes = answer.row | (at.list->packs.at[at.pack].held & answer.near); lanes != 0; lanes &= lanes - 1) {
+            for (unsigned lanes = answer.row | (at.list->packs.at[at.index].held & answer.near); lanes != 0; lanes &= lanes - 1) {
                 lanes_.push_back({at, std::countr_zero(lanes)});
                 __builtin_prefetch(&packs_for(at.feature()).packs[at.number()].feature);
             }
@@ -270,7 +270,7 @@ private:
         const double thickness = thickness_[feature.cloth[0]];
         const PlacedPack& placed = obstacles_[feature.obstacle]->placed(at.number(), move.part.from);
         const PackAnswer answer = measure(feature, move.from, placed, {.near = near, .thickness = thickness});
-        at.list->packs.raise(at.pack, static_cast<double>(answer.least), static_cast<double>(answer.least_row), thickness,
+        at.list->packs.raise(at.index, static_cast<double>(answer.least), static_cast<double>(answer.least_row), thickness,
                              at.list->travel);
         return answer;
     }
@@ -351,8 +351,9 @@ private:
             }
             const double near = within((own.way + obstacle_way) * safe, own.thickness);
             if (static_cast<double>(list.packs.reach[pack]) - list.travel >= near) continue;
+            const PackHull& hull = hull_of(at);
             const bool may_cross =
-                !stays_above(hull_of(at), feature, move, largest_floor * own.thickness) && hull_of(at).box().overlaps(own.room);
+                !stays_above(hull, feature, move, largest_floor * own.thickness) && hull.box().overlaps(own.room);
             if (may_cross) safe = cut_pack(move, near, at, safe);
         }
         CandidateLists::set_least(list);

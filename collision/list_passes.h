@@ -6,13 +6,13 @@
 
 namespace percale {
 
-/// What a pass over many such things is about: a listed pack, one of its lanes.
+/// A listed pack, and one of its lanes: what the passes of an evaluation go through.
 struct SelectedPack {
     ClusterList* list;
-    int pack;
+    int index;  // in the list
 
-    const ContactPair& feature() const { return list->features[list->packs.at[pack].feature]; }
-    int number() const { return static_cast<int>(list->packs.at[pack].number); }
+    const ContactPair& feature() const { return list->features[list->packs.at[index].feature]; }
+    int number() const { return static_cast<int>(list->packs.at[index].number); }
 };
 struct SelectedLane {
     SelectedPack place;

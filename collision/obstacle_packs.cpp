@@ -174,7 +174,7 @@ float not_above(double x) {
 }
 
 /// The hull of a pack with a plane of this normal.
-PackHull hull_of(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, const Vec3& normal) {
+PackHull make_hull(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, const Vec3& normal) {
     PackHull hull{.normal = normal, .offset = -infinity};
     Box box;
     for (int lane = 0; lane < pack.count; ++lane) {
@@ -224,7 +224,7 @@ void set_boxes(ObstaclePacks& packs, const ObstacleSurface& surface, const Verte
     const std::vector<Vec3> normals = patch_normals(packs, surface, paths);
     for (std::size_t patch = 0; patch < packs.patch_count(); ++patch) {
         for (int number = packs.first[3 * patch]; number < packs.first[3 * patch + 3]; ++number) {
-            packs.hulls[number] = hull_of(packs.packs[number], surface, paths, normals[patch]);
+            packs.hulls[number] = make_hull(packs.packs[number], surface, paths, normals[patch]);
         }
     }
     for (PlacedPack& placed : packs.placed) placed.fraction = -1.0;

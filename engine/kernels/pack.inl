@@ -8,7 +8,6 @@ constexpr int double_lanes = pack_bytes / 8;
 
 using FloatPack = float __attribute__((vector_size(PERCALE_PACK_BYTES)));
 using DoublePack = double __attribute__((vector_size(PERCALE_PACK_BYTES)));
-using IntPack = int __attribute__((vector_size(PERCALE_PACK_BYTES)));
 using FourFloats = float __attribute__((vector_size(16)));
 using TwoDoubles = double __attribute__((vector_size(16)));
 using FourDoubles = double __attribute__((vector_size(32)));

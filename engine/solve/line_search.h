@@ -16,7 +16,7 @@ struct LineTrial {
 };
 
 /// Whether a trial is good enough: Armijo's rule on the objective, or, where that is flat to rounding or not known, a slope that
-/// has not turned up to 0.9 of the first one's size.
+/// has not turned up to 0.9 of the first one's size; never one beyond most_turned.
 bool accept_trial(double fraction, const LineTrial& trial);
 
 /// The factor for the next trial: the zero of the slope by the secant, kept within 0.15 ... 0.6.

@@ -15,9 +15,9 @@ constexpr double estimated_share = 0.1;       // likewise where the solver error
 constexpr int most_rounds = 6;                // of contact multipliers in one solve
 constexpr double round_share = 0.01;          // of the thickness at most: contact less exact takes another round
 constexpr int most_trials = 10;               // of one line search
-/// Projected rows that the matrix did not hold stop the cloth half-way, and from far beyond the minimum the next step leads back
-/// as far: of the slope, what may have turned.
-constexpr double most_turned = 0.3;
+/// Slopes beyond the minimum, over the first one's size, up to which a projected step is taken, and one that changes little: rows
+/// that were in no matrix stop the cloth half-way, and the next step would lead back as far.
+constexpr double most_turned = 0.3, most_turned_at_end = 0.9;
 constexpr double slope_left = 0.6;  // of a full step, from where on going further pays for its evaluation
 
 /// The solve of one part: functions that share the part, its work space and what is reported.
@@ -355,7 +355,7 @@ private:
         double fraction = 1.0, kept = 1.0;
         move(fraction);
         const bool small = is_small(space_.trial.velocities, share_of_time_error);
-        if (projects()) line.most_turned = small ? 0.9 : most_turned;
+        if (projects() && part_.settings->newton_iterations > 1) line.most_turned = small ? most_turned_at_end : most_turned;
         bool accepted = false;
         for (int trial = 0; trial < most_trials && !accepted; ++trial) {
             if (trial > 0) move(fraction);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "percale/error.h"
 #include "percale/options.h"
@@ -330,6 +331,11 @@ private:
         const auto& [first, in_use] = saved_.solver;
         reader_.demand(first != LinearSolver::automatic && in_use != LinearSolver::automatic, "a linear solver that is none");
         reader_.demand(saved_.projection.share >= 0.0 && saved_.projection.share <= 1.0, "a distance out of range");
+        for (const auto* forces : {&saved_.projection.kept, &saved_.projection.lasting}) {
+            const auto in_order = [](const KeyedForce& a, const KeyedForce& b) { return a.key < b.key; };
+            const auto other = std::adjacent_find(forces->begin(), forces->end(), std::not_fn(in_order));
+            reader_.demand(other == forces->end(), "a contact force twice");
+        }
     }
 
     void check_rest() const {

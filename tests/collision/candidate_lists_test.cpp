@@ -198,6 +198,24 @@ TEST_CASE("reach less travel is never above the true distance on random walks, m
     CHECK(worst > -1e-3);  // a pair measured just now has no slack
 }
 
+TEST_CASE("bounds of a listed pack only rise, and a held one wakes as soon as it comes within the thickness") {
+    ListedPacks packs;
+    packs.add(0, 7, 0.02, 0.005);
+    CHECK(packs.reach[0] == Approx(0.02));
+    CHECK(packs.wake[0] == Approx(0.015));
+    packs.raise(0, 0.01, 0.03, 0.005, 0.004);  // no contact before a way of 0.03 m, though 0.01 m near
+    CHECK(packs.reach[0] == Approx(0.02));
+    CHECK(packs.wake[0] == Approx(0.034));
+    packs.hold(0, 3, 0.005);
+    CHECK(packs.at[0].held == 8U);
+    CHECK(packs.wake[0] == Approx(0.015));
+    packs.raise(0, 0.03, 0.5, 0.005, 0.004);
+    CHECK(packs.reach[0] == Approx(0.034));
+    CHECK(packs.wake[0] == Approx(0.029));
+    CHECK(static_cast<double>(packs.reach[0]) <= 0.034);
+    CHECK(static_cast<double>(packs.wake[0]) <= 0.029);
+}
+
 TEST_CASE("cloth that stays in its boxes and obstacles that rest cost no list, any way out of them does") {
     Random random(260);
     World world(0, random);

@@ -93,6 +93,40 @@ TEST_CASE("boxes and planes hold their packs during the whole step, and placed p
     }
 }
 
+TEST_CASE("the box of a hull is larger than its pack by no more than single precision makes it, far from the origin too") {
+    Obstacle obstacle(some_mesh(0), {.translation = Vec3(1000.0, -3.0, 0.2)}, 0.0, make_brute_force_tree);
+    const ObstaclePacks& packs = obstacle.packs();
+    for (std::size_t number = 0; number < packs.packs.size(); ++number) {
+        Box exact;
+        for (int lane = 0; lane < packs.packs[number].count; ++lane) {
+            for (const int v : vertices_of(obstacle.surface(), packs.packs[number], lane)) exact.add(obstacle.at(v, 0.0));
+        }
+        const Box box = packs.hulls[number].box();
+        for (int axis = 0; axis < 3; ++axis) {
+            const double most = 1.2e-7 * std::max(std::abs(exact.low[axis]), std::abs(exact.high[axis]));
+            CHECK(box.low[axis] <= exact.low[axis]);
+            CHECK(box.high[axis] >= exact.high[axis]);
+            CHECK(box.low[axis] >= exact.low[axis] - most);
+            CHECK(box.high[axis] <= exact.high[axis] + most);
+        }
+    }
+}
+
+TEST_CASE("the gap between two boxes is that of their nearest sides, edges or corners") {
+    Box unit, other;
+    unit.add(Vec3(0, 0, 0));
+    unit.add(Vec3(1, 1, 1));
+    const auto gap_to = [&](const Vec3& low, const Vec3& high) {
+        other = {low, high};
+        CHECK(other.gap(unit) == unit.gap(other));
+        return unit.gap(other);
+    };
+    CHECK(gap_to(Vec3(0.5, 0.5, 0.5), Vec3(2, 2, 2)) == 0.0);
+    CHECK(gap_to(Vec3(3, 0.5, 0.5), Vec3(4, 2, 2)) == 2.0);
+    CHECK(gap_to(Vec3(4, 5, 0.5), Vec3(5, 6, 2)) == 5.0);
+    CHECK(gap_to(Vec3(-4, -3, 3), Vec3(-3, -2, 4)) == Approx(std::sqrt(9.0 + 4.0 + 4.0)));
+}
+
 TEST_CASE("every direction in which a vertex faces the viewer is in its cone") {
     Random random(42);
     const int number = GENERATE(0, 1, 2);

@@ -171,6 +171,21 @@ TEST_CASE("A sheet on a ball comes to rest and falls asleep, at no less than hal
     CHECK(mean(simulation.positions(cloth)).y() > 0.1);
 }
 
+TEST_CASE("Projected cloth that falls on a ball takes few iterations while it hits and folds", "[law]") {
+    Simulation simulation = simulation_on_meshes({.time_step = 1.0 / 60.0, .contact_response = ContactResponse::projection});
+    simulation.add_cloth(make_grid(1.0, 1.0, 33, 33), fabric(1.0), {.translation = Vec3(0.0, 0.3, 0.0)});
+    simulation.add_obstacle(make_sphere(0.25, 4), {}, {.friction = 0.3, .name = "ball"});
+    int iterations = 0;
+    constexpr int steps = 60;
+    for (int i = 0; i < steps; ++i) {
+        const StepReport report = simulation.step();
+        REQUIRE(report.ok());
+        iterations += report.newton_iterations;
+    }
+    check_law("projected sheet on a ball: mean Newton iterations of its first second", static_cast<double>(iterations) / steps,
+              10.0);
+}
+
 TEST_CASE("Cloth stretched over the edges of a box keeps half of the thickness") {
     constexpr int n = 11, steps = 120;
     Simulation simulation = simulation_on_meshes({.time_step = 1.0 / 60.0});

@@ -55,7 +55,9 @@ TEST_CASE("A slope that has turned too far is refused though the objective fell"
     CHECK(accept_trial(1.25, trial));
     trial.most_turned = 0.2;
     CHECK_FALSE(accept_trial(1.25, trial));
-    CHECK(accept_trial(0.9, quadratic(3.0, 1.0, 0.9)));
+    trial = quadratic(3.0, 1.0, 0.9);
+    trial.most_turned = 0.2;
+    CHECK(accept_trial(0.9, trial));
 }
 
 TEST_CASE("A trial that is not finite is refused") {

@@ -92,7 +92,7 @@ TEST_CASE("TR-BDF2 on a plane: no energy is gained, impacts die out, cloth at re
     CHECK(world.state.positions.y[12] < 0.005);
 }
 
-TEST_CASE("A moving plane lifts cloth by TR-BDF2 and does the work that the energy gained") {
+TEST_CASE("A moving plane lifts cloth by TR-BDF2, and does at least the work that the energy gained and at most 15 % more") {
     World world = sheet_over_plane({.time_step = 1.0 / 240.0, .scheme = Scheme::tr_bdf2}, 0.00375);
     double work = 0.0, before = 0.0, after = 0.0;
     for (int n = 0; n < 60; ++n) {
