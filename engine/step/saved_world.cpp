@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "percale/error.h"
 #include "percale/options.h"
@@ -332,9 +331,8 @@ private:
         reader_.demand(first != LinearSolver::automatic && in_use != LinearSolver::automatic, "a linear solver that is none");
         reader_.demand(saved_.projection.share >= 0.0 && saved_.projection.share <= 1.0, "a distance out of range");
         for (const auto* forces : {&saved_.projection.kept, &saved_.projection.lasting}) {
-            const auto in_order = [](const KeyedForce& a, const KeyedForce& b) { return a.key < b.key; };
-            const auto other = std::adjacent_find(forces->begin(), forces->end(), std::not_fn(in_order));
-            reader_.demand(other == forces->end(), "a contact force twice");
+            const auto twice = std::ranges::adjacent_find(*forces, std::ranges::greater_equal{}, &KeyedForce::key);
+            reader_.demand(twice == forces->end(), "a contact force twice");
         }
     }
 
