@@ -1,44 +1,56 @@
 #include "contact_multipliers.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 
 namespace percale {
+namespace {
+
+constexpr int any_feature = -2;       // of an obstacle
+constexpr double least_cosine = 0.9;  // between the directions of rows that hand over, or they lie on two sides of a gap
+
+RowKey of_cloth_feature(RowKey key) {
+    key.feature = any_feature;
+    return key;
+}
+
+/// Whether a row is off the obstacle, and another of its cloth feature nearer.
+bool has_left(const ContactRows& rows, int row, int nearest, const RowClearance& clearance) {
+    const double cloth_thickness = rows.thickness[row] / clearance.zone;
+    const double from = std::max(cloth_thickness, rows.distance[nearest]) + clearance.share * cloth_thickness;
+    return rows.distance[row] > from && rows.direction[row].dot(rows.direction[nearest]) > least_cosine;
+}
+
+}  // namespace
 
 RowKey row_key(const ContactRows& rows, std::size_t row) {
     return {.vertex = rows.vertex[row], .obstacle = rows.obstacle[row], .feature = rows.feature[row]};
 }
 
-void ContactMultipliers::clear(std::size_t rows) {
-    slots_.assign(std::bit_ceil(2 * rows + 1), -1);
-    forces_.clear();
-}
-
-std::size_t ContactMultipliers::place(const RowKey& key) const {
-    // Multiplication carries every bit upwards, the shift brings the upper half down again (Knuth, The Art of Computer
-    // Programming 3, 6.4: Fibonacci hashing). Looked up for each row of each evaluation.
-    std::uint64_t mixed = 0;
-    const auto mix = [&mixed](int number) {
-        mixed = (mixed ^ static_cast<std::uint32_t>(number)) * 0x9e3779b97f4a7c15U;
-        mixed ^= mixed >> 32U;
-    };
-    for (const int vertex : key.vertex) mix(vertex);
-    mix(key.obstacle);
-    mix(key.feature);
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t at = mixed & mask;
-    while (slots_[at] >= 0 && !(forces_[slots_[at]].key == key)) at = (at + 1) & mask;
-    return at;
-}
-
-void ContactMultipliers::add(const RowKey& key, const RowForce& force) {
-    slots_[place(key)] = static_cast<int>(forces_.size());
-    forces_.push_back({key, force});
+void ContactMultipliers::hand_over(const ContactRows& rows, const RowClearance& clearance) {
+    if (forces_.entries().empty()) return;
+    places_.clear(2 * rows.size());
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const RowKey key = row_key(rows, row);
+        const int number = static_cast<int>(row);
+        places_.at(key) = number;
+        const int* known = places_.find(of_cloth_feature(key));
+        if (!known || rows.distance[row] < rows.distance[*known]) places_.at(of_cloth_feature(key)) = number;
+    }
+    handed_.clear(forces_.entries().size());
+    for (const auto& [key, force] : forces_.entries()) {
+        const int *own = places_.find(key), *nearest = places_.find(of_cloth_feature(key));
+        const bool goes_on = nearest && (!own || has_left(rows, *own, *nearest, clearance));
+        RowForce& handed = handed_.at(goes_on ? row_key(rows, *nearest) : key);
+        handed.normal += force.normal;
+        handed.friction += force.friction;
+        handed.stiffness = std::max(handed.stiffness, force.stiffness);
+    }
+    std::swap(forces_, handed_);
 }
 
 std::vector<KeyedForce> ContactMultipliers::all() const {
-    std::vector<KeyedForce> all = forces_;
+    std::vector<KeyedForce> all;
+    for (const auto& [key, force] : forces_.entries()) all.push_back({key, force});
     std::sort(all.begin(), all.end(), [](const KeyedForce& a, const KeyedForce& b) { return a.key < b.key; });
     return all;
 }
@@ -49,8 +61,8 @@ void ContactMultipliers::set(std::span<const KeyedForce> all) {
 }
 
 RowForce ContactMultipliers::of(const RowKey& key) const {
-    const int number = slots_.empty() ? -1 : slots_[place(key)];
-    return number >= 0 ? forces_[number].force : RowForce{};
+    const RowForce* force = forces_.find(key);
+    return force ? *force : RowForce{};
 }
 
 }  // namespace percale

@@ -1,23 +1,13 @@
 #pragma once
 
-#include <array>
-#include <compare>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "percale/contact.h"
+#include "row_table.h"
 
 namespace percale {
-
-/// What tells contact rows of one evaluation from each other and finds them again in the next.
-struct RowKey {
-    std::array<int, 4> vertex{-1, -1, -1, -1};
-    int obstacle = -1;
-    int feature = -1;
-
-    auto operator<=>(const RowKey&) const = default;
-};
 
 RowKey row_key(const ContactRows& rows, std::size_t row);
 
@@ -33,25 +23,34 @@ struct KeyedForce {
     RowForce force;
 };
 
+/// From where on a row counts as off the obstacle.
+struct RowClearance {
+    double zone = 1.0;   // the rows' thickness over the cloth's
+    double share = 0.0;  // of the cloth's thickness, beyond it
+};
+
 /// Contact forces found again by row. A row that is not known has none.
 class ContactMultipliers {
 public:
     /// Forgets everything and makes room for that many rows.
-    void clear(std::size_t rows);
+    void clear(std::size_t rows) { forces_.clear(rows); }
     /// Each key once.
-    void add(const RowKey& key, const RowForce& force);
+    void add(const RowKey& key, const RowForce& force) { forces_.at(key) = force; }
     RowForce of(const RowKey& key) const;
-    std::size_t size() const { return forces_.size(); }
+    std::size_t size() const { return forces_.entries().size(); }
+
+    /// Where facets pass under a feature of the cloth, a force goes on with it: from a row that is gone, or off and farther than
+    /// another, to the nearest row of the same feature of the cloth on the same obstacle. Left where it was it would act behind
+    /// the place of contact and only slowly move on.
+    void hand_over(const ContactRows& rows, const RowClearance& clearance);
 
     /// All that are known, by their keys, and back.
     std::vector<KeyedForce> all() const;
     void set(std::span<const KeyedForce> all);
 
 private:
-    std::size_t place(const RowKey& key) const;
-
-    std::vector<KeyedForce> forces_;  // in the order in which they came: rows are looked up in much the same one
-    std::vector<int> slots_;          // numbers of forces, -1 = unused; a power of two, at most half of them used
+    RowTable<RowForce> forces_, handed_;
+    RowTable<int> places_;  // scratch space of hand_over: numbers of rows
 };
 
 }  // namespace percale

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "newton_stop.h"
+
 namespace percale {
 namespace {
 
@@ -141,6 +143,10 @@ void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces)
         terms.largest_stiffness = std::max(terms.largest_stiffness, state.stiffness);
         terms.obstacle_power += whole.dot(rows.obstacle_displacement[row]) * point.step.obstacle_rate;
     }
+}
+
+void ContactProjection::meet(const ContactRows& rows) {
+    multipliers_.hand_over(rows, {.zone = projection_zone, .share = smallest_share});
 }
 
 double ContactProjection::mismatch(const ContactRows& rows, const std::vector<RowForce>& forces) const {

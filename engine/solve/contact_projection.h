@@ -39,6 +39,9 @@ public:
     /// one.
     void start_part() { multipliers_ = lasting_; }
 
+    /// The rows that it begins with are known.
+    void meet(const ContactRows& rows);
+
     void add(const ProjectedPoint& point, ProjectedForces forces) const;
 
     /// How far the forces of a point are from the multipliers, in m: the largest change of one over its k.

@@ -100,8 +100,8 @@ private:
         trial.velocities = space_.current.velocities;
         add_scaled(trial.velocities, fraction, space_.direction);
         place_trial();
-        const double remaining = part_.span.to - space_.current.fraction;
-        trial.fraction = fraction == 1.0 ? part_.span.to : space_.current.fraction + fraction * remaining;
+        const double reached = space_.current.fraction;
+        trial.fraction = fraction == 1.0 ? part_.span.to : reached + fraction * (part_.span.to - reached);
     }
 
     void place_trial() {
@@ -176,6 +176,7 @@ private:
             space_.frozen_load = forces.total;
         }
         if (projects()) {
+            if (first) space_.projection.meet(forces.rows);
             space_.projection.add(projected(point), projected_forces(point));
         } else {
             weigh_contact(1.0 / part_.contact_weight, forces);
@@ -277,9 +278,7 @@ private:
     double gravity_norm() const { return part_.dt * part_.settings->gravity.norm() * std::sqrt(total_mass()); }
 
     double total_mass() const {
-        double mass = 0.0;
-        for (const double m : model_.mass) mass += m;
-        return mass;
+        return sum_terms(0, model_.vertex_count(), [&](int i) { return model_.mass[i]; });
     }
 
     void end_here(bool good_enough) {
@@ -410,8 +409,8 @@ private:
 
     /// Whether the direction, which leads to the velocities `ahead`, changes less than a share of the time error.
     bool is_small(const Vectors& ahead, double share) const {
-        const bool in_contact = space_.current.forces.rows.size() > 0;
-        return change_is_small(error_, {space_.current.residual, space_.direction, ahead, in_contact}, share);
+        const NewtonPoint& point = space_.current;
+        return change_is_small(error_, {point.residual, space_.direction, ahead, point.forces.rows.size() > 0}, share);
     }
 
     void finish(ClothState& state) {

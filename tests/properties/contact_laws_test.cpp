@@ -101,12 +101,18 @@ TEST_CASE("A strip pulled over a cylinder has the tensions of the capstan", "[la
     const bool penalty = response == ContactResponse::penalty;
     for (const double friction : {0.1, 0.5}) {
         Strip strip(friction, response);
-        for (int i = 0; i < 60; ++i) strip.pull(0.0005);
-        const double ratio = strip.stretch(Strip::columns - 2) / strip.stretch(0);
-        CAPTURE(penalty, friction, ratio, strip.sliding_ratio(friction), std::exp(friction * Strip::angle));
+        for (int i = 0; i < 30; ++i) strip.pull(0.0005);
+        // Facets pass under the vertices: the ratio goes up and down about its mean.
+        double error = 0.0, ratio = 0.0;
+        for (int i = 0; i < 30; ++i) {
+            strip.pull(0.0005);
+            ratio += strip.stretch(Strip::columns - 2) / strip.stretch(0) / 30.0;
+            error += (strip.stretch(Strip::columns - 2) / strip.stretch(0) / strip.sliding_ratio(friction) - 1.0) / 30.0;
+        }
+        CAPTURE(penalty, friction, ratio, error, std::exp(friction * Strip::angle));
         check_law("capstan over half a turn, mu " + figure(friction) + (penalty ? "" : ", projection") +
-                      ": relative error of the ratio of tensions",
-                  std::abs(ratio / strip.sliding_ratio(friction) - 1.0), penalty ? 0.01 : 0.02);
+                      ": relative error of the mean ratio of tensions",
+                  std::abs(error), 0.01);
         CHECK(ratio == Approx(std::exp(friction * Strip::angle)).epsilon(0.03));
     }
 }

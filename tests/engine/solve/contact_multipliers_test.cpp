@@ -56,4 +56,56 @@ TEST_CASE("All forces are told in the order of their keys, and another table tak
     CHECK(copy.of(key(20)).normal == 0.0);
 }
 
+TEST_CASE("A force goes on to the nearest row of its cloth feature when its own is gone or has left") {
+    constexpr double h = 0.005;
+    constexpr RowClearance clearance{.zone = 1.2, .share = 1e-3};
+    ContactRows rows;
+    const auto add_row = [&](int vertex, int obstacle, int feature, double distance, const Vec3& direction = Vec3(0, 1, 0)) {
+        rows.vertex.push_back({vertex, vertex + 1, -1, -1});
+        rows.obstacle.push_back(obstacle);
+        rows.feature.push_back(feature);
+        rows.distance.push_back(distance);
+        rows.thickness.push_back(clearance.zone * h);
+        rows.direction.push_back(direction);
+    };
+    const auto key = [](int vertex, int obstacle, int feature) {
+        return RowKey{.vertex = {vertex, vertex + 1, -1, -1}, .obstacle = obstacle, .feature = feature};
+    };
+    ContactMultipliers multipliers;
+    multipliers.clear(10);
+    const auto push = [&](const RowKey& row, double force) {
+        multipliers.add(row, {.normal = force, .friction = Vec3(0.1 * force, 0, 0)});
+    };
+    // Left behind for a nearer row, which has a force already; one vertex further the nearer lies on another obstacle.
+    add_row(0, 0, 1, 1.01 * h);
+    add_row(0, 0, 2, 0.99 * h);
+    add_row(2, 0, 1, 1.01 * h);
+    add_row(2, 1, 2, 0.99 * h);
+    push(key(0, 0, 1), 3.0);
+    push(key(0, 0, 2), 2.0);
+    push(key(2, 0, 1), 5.0);
+    // Two that rest, one of them a little farther off; two sides of a gap.
+    add_row(4, 0, 1, 1.0009 * h);
+    add_row(4, 0, 2, h);
+    add_row(6, 0, 1, 1.1 * h);
+    add_row(6, 0, 2, h, Vec3(0, -1, 0));
+    push(key(4, 0, 1), 7.0);
+    push(key(6, 0, 1), 11.0);
+    // Gone, with another row of the feature and without.
+    add_row(8, 0, 2, 1.15 * h);
+    push(key(8, 0, 1), 13.0);
+    push(key(10, 0, 1), 17.0);
+    multipliers.hand_over(rows, clearance);
+    CHECK(multipliers.of(key(0, 0, 1)).normal == 0.0);
+    CHECK(multipliers.of(key(0, 0, 2)).normal == 5.0);
+    CHECK(multipliers.of(key(0, 0, 2)).friction.x() == Approx(0.5));
+    CHECK(multipliers.of(key(2, 0, 1)).normal == 5.0);
+    CHECK(multipliers.of(key(2, 1, 2)).normal == 0.0);
+    CHECK(multipliers.of(key(4, 0, 1)).normal == 7.0);
+    CHECK(multipliers.of(key(6, 0, 1)).normal == 11.0);
+    CHECK(multipliers.of(key(8, 0, 1)).normal == 0.0);
+    CHECK(multipliers.of(key(8, 0, 2)).normal == 13.0);
+    CHECK(multipliers.of(key(10, 0, 1)).normal == 17.0);
+}
+
 }  // namespace percale::test
