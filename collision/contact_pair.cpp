@@ -1,9 +1,14 @@
 #include "contact_pair.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "triangle_distance.h"
 
 namespace percale {
 namespace {
+
+constexpr double negligible_rise = 1e-3;  // of the thickness
 
 std::array<Vec3, 3> corners(const Obstacle& obstacle, int triangle, double fraction) {
     const Triangle& t = obstacle.surface().triangles[triangle];
@@ -67,6 +72,8 @@ PairContact edge_edge_contact(const ContactPair& pair, std::span<const Vec3> clo
                         .cloth_point = p + closest.s * (q - p),
                         .obstacle_point = a + closest.t * (b - a)};
     set_direction(contact);
+    const Vec3 u = q - p, v = b - a;
+    contact.crossing = std::sqrt(u.cross(v).squaredNorm() / std::max(u.squaredNorm(), v.squaredNorm()));
     const auto& [va, vb] = obstacle.surface().edges[pair.feature].vertex;
     contact.obstacle_displacement = (1.0 - closest.t) * obstacle.displacement(va) + closest.t * obstacle.displacement(vb);
     const bool inside = closest.s > 0.0 && closest.s < 1.0 && closest.t > 0.0 && closest.t < 1.0;
@@ -91,6 +98,12 @@ PairContact face_vertex_contact(const ContactPair& pair, std::span<const Vec3> c
 }
 
 }  // namespace
+
+double row_share(const PairContact& contact, double thickness) {
+    // At a distance d the ends are (crossing/2)^2/(2 d) farther off than the middle.
+    const double rise = contact.crossing * contact.crossing / (8.0 * thickness), x = rise / (negligible_rise * thickness);
+    return x < 1.0 ? x * (2.0 - x) : 1.0;
+}
 
 Vec3 pair_apart(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {
     switch (pair.kind) {

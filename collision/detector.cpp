@@ -294,7 +294,7 @@ private:
         const double thickness = thickness_[pair.cloth[0]];
         const PairContact contact = pair_contact(pair, positions, *obstacles_[pair.obstacle], fraction);
         smallest_distance_ = std::min(smallest_distance_, contact.distance);
-        if (contact.distance >= thickness) return;
+        if (contact.distance >= thickness || row_share(contact, thickness) == 0.0) return;
         // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
         // that the force is continuous where closest points pass from one feature to the next.
         const auto& [list, pack] = at.place;
@@ -314,6 +314,7 @@ private:
         rows.distance.push_back(contact.distance);
         rows.thickness.push_back(thickness);
         rows.friction.push_back(obstacles_[pair.obstacle]->friction());
+        rows.share.push_back(row_share(contact, thickness));
         rows.obstacle.push_back(pair.obstacle);
         rows.feature.push_back(pair.feature);
     }

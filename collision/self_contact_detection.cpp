@@ -80,6 +80,7 @@ void SelfContactDetection::add_row(const SelfPair& pair, const SelfPairContact& 
     rows.distance.push_back(contact.distance);
     rows.thickness.push_back(pair.zone);
     rows.friction.push_back(0.5 * (friction_[pair.vertex[0]] + friction_[pair.vertex[3]]));
+    rows.share.push_back(1.0);
     rows.obstacle.push_back(-1);
     rows.feature.push_back(pair.shape == PairShape::edge_edge ? 2 : 1);
 }

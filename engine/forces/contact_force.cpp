@@ -44,7 +44,7 @@ double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep
     }
     const double static_load = std::max(mass * step.gravity.norm(), press / squares);
     const double of_matrix = inert * inverse_square_dt(rows, row, step) + (inertia - inert) / (step.dt * step.dt);
-    return std::max(share_of_matrix * of_matrix, 4.0 * static_load / rows.thickness[row]);
+    return rows.share[row] * std::max(share_of_matrix * of_matrix, 4.0 * static_load / rows.thickness[row]);
 }
 
 /// Gives the vertices of a row their share of what presses them to the obstacle. Normals that point apart, of the two sides of a

@@ -20,6 +20,7 @@ struct RowState {
     double approach = 0.0;    // m, how much nearer than its target the row is
     Vec3 slip;                // m/s
     double friction = 0.0;    // mu
+    double share = 1.0;       // of all it does
 };
 
 /// k = share/(dt^2 W), W = sum w^2/(n.A n) over the row's vertices: n.A^-1 n if these had no neighbours.
@@ -69,21 +70,23 @@ RowState row_state(const ProjectedPoint& point, std::size_t row, double kept_sha
             .spring = row_spring({rows.distance[row], target, rows.thickness[row]}, multiplier, stiffness),
             .approach = target - rows.distance[row],
             .slip = tangential(velocity - point.step.obstacle_rate * way, n),
-            .friction = rows.friction[row]};
+            .friction = rows.friction[row],
+            .share = rows.share[row]};
 }
 
 /// The row's force, N, its matrix, kg, added to the block; no matrix if it does not push.
 RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, SymmetricBlock& block) {
-    RowForce force{.normal = std::max(0.0, multiplier.normal + row.spring.slope), .stiffness = row.stiffness};
+    RowForce force{.normal = row.share * std::max(0.0, multiplier.normal + row.spring.slope), .stiffness = row.stiffness};
     if (force.normal == 0.0) return force;
-    const double damping = row.stiffness * dt, limit = row.friction * force.normal;
-    const Vec3 trial = tangential(multiplier.friction, row.normal) - damping * row.slip;
+    const double damping = row.share * row.stiffness * dt, limit = row.friction * force.normal;
+    const Vec3 trial = row.share * tangential(multiplier.friction, row.normal) - damping * row.slip;
     const double size = trial.norm();
     const bool slides = size > limit;
-    const double share = slides ? limit / size : 1.0;
-    force.friction = share * trial;
+    const double kept = slides ? limit / size : 1.0;
+    force.friction = kept * trial;
     const Vec3 along = slides ? Vec3(trial / size) : Vec3(Vec3::Zero());
-    const double normal_part = dt * dt * row.spring.curvature, slip_part = row.friction > 0.0 ? dt * damping * share : 0.0;
+    const double normal_part = row.share * dt * dt * row.spring.curvature,
+                 slip_part = row.friction > 0.0 ? dt * damping * kept : 0.0;
     add_normal_block(block, normal_part, row.normal);
     add_tangent_block(block, slip_part, row.normal, along);
     return force;
@@ -91,8 +94,8 @@ RowForce row_force(const RowState& row, const RowForce& multiplier, double dt, S
 
 /// Its derivative by the distance is -force; the multiplier's part is what it does from the target on.
 double row_energy(const RowState& row, double multiplier, double force) {
-    if (force == 0.0) return -0.5 * multiplier * multiplier / row.spring.curvature;
-    return multiplier * row.approach + row.spring.energy;
+    if (force == 0.0) return -0.5 * row.share * multiplier * multiplier / row.spring.curvature;
+    return row.share * (multiplier * row.approach + row.spring.energy);
 }
 
 Vec3 total(const ContactRows& rows, std::size_t row, const RowForce& force) {

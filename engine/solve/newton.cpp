@@ -15,9 +15,10 @@ constexpr double estimated_share = 0.1;       // likewise where the solver error
 constexpr int most_rounds = 6;                // of contact multipliers in one solve
 constexpr double round_share = 0.01;          // of the thickness at most: contact less exact takes another round
 constexpr int most_trials = 10;               // of one line search
-/// Slopes beyond the minimum, over the first one's size, up to which a projected step is taken, and one that changes little: rows
-/// that were in no matrix stop the cloth half-way, and the next step would lead back as far.
-constexpr double most_turned = 0.3, most_turned_at_end = 0.9;
+/// Slopes beyond the minimum, over the first one's size, up to which a step is taken whatever the objective says: friction is not
+/// in it, and steps that overshoot by more go to and fro for ever. Less where contact is projected, unless the step changes
+/// little: rows that were in no matrix stop the cloth half-way, and the next step would lead back as far.
+constexpr double most_turned = 0.9, most_projected = 0.3;
 constexpr double slope_left = 0.6;  // of a full step, from where on going further pays for its evaluation
 
 /// The solve of one part: functions that share the part, its work space and what is reported.
@@ -42,8 +43,7 @@ private:
         space_.start_velocities = state.velocities;
         space_.current.positions = state.positions;
         space_.current.velocities = state.velocities;
-        space_.current.points = state.points;
-        space_.trial.points = state.points;
+        space_.current.points = space_.trial.points = state.points;
         base_positions_ = part_.base ? &part_.base->positions : &space_.start_positions;
         base_velocities_ = part_.base ? &part_.base->velocities : &space_.start_velocities;
         error_ = {.model = &model_,
@@ -354,7 +354,9 @@ private:
         double fraction = 1.0, kept = 1.0;
         move(fraction);
         const bool small = is_small(space_.trial.velocities, share_of_time_error);
-        if (projects() && part_.settings->newton_iterations > 1) line.most_turned = small ? most_turned_at_end : most_turned;
+        const bool flat = -slope <= 1e-12 * std::abs(line.start_objective);  // what slopes say then is rounding
+        if (part_.settings->newton_iterations > 1 && space_.current.forces.rows.size() > 0 && !flat)
+            line.most_turned = projects() && !small ? most_projected : most_turned;
         bool accepted = false;
         for (int trial = 0; trial < most_trials && !accepted; ++trial) {
             if (trial > 0) move(fraction);
@@ -373,8 +375,7 @@ private:
         if (accepted && fraction * kept == 1.0 && was_arrived && !small) go_on(line);
         const bool by_change = small && direction_is_good_ && fraction * kept == 1.0 && !part_.settings->newton_tolerance &&
                                report_.newton_iterations > 1;
-        const bool by_rounding = !accepted && -slope <= 1e-12 * std::abs(line.start_objective);
-        converged_ = was_arrived && (by_change || by_rounding);
+        converged_ = was_arrived && (by_change || (!accepted && flat));
         return !converged_;
     }
 

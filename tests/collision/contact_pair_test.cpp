@@ -1,6 +1,7 @@
 #include "collision/contact_pair.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "percale/certify.h"
 #include "tests/support/catch.h"
@@ -67,6 +68,43 @@ int reports(const Obstacle& obstacle, const Vec3& x, double* distance = nullptr)
 }
 
 }  // namespace
+
+TEST_CASE("what edges push upon goes evenly from end to end as they turn through the parallel") {
+    constexpr double thickness = 0.005, length = 0.02;
+    const Obstacle box = make(make_box({1.0, 1.0, 1.0}));
+    const auto& edges = box.surface().edges;
+    const auto upper = [&](int vertex) { return box.at(vertex, 0.0).y() > 0.0 && box.at(vertex, 0.0).z() > 0.0; };
+    const auto edge =
+        std::find_if(edges.begin(), edges.end(), [&](const auto& e) { return upper(e.vertex[0]) && upper(e.vertex[1]); });
+    REQUIRE(edge != edges.end());
+    const ContactPair pair{.kind = PairKind::edge_edge, .cloth = {0, 1, -1}, .feature = static_cast<int>(edge - edges.begin())};
+    double before = 0.0, jump = 0.0, closest_before = 0.5, closest_jump = 0.0;
+    int whole = 0;
+    for (int i = -20000; i <= 20000; ++i) {
+        const double angle = 5e-6 * i;
+        // Above the upper edge along x, the place where they cross going from the middle past one end and back from the other.
+        const Vec3 middle(0.0, 0.5 + 0.004, 0.5 + 1e-5 * length),
+            half(0.5 * length * std::cos(angle), 0.0, 0.5 * length * std::sin(angle));
+        const std::vector<Vec3> cloth{middle - half, middle + half};
+        const PairContact contact = pair_contact(pair, cloth, box, 0.0);
+        const double share = row_share(contact, thickness);
+        if (i == 0) CHECK(share == 0.0);
+        whole += share == 1.0 ? 1 : 0;
+        jump = std::max(jump, std::abs(share * (contact.weight[1] - 0.5) - before));
+        closest_jump = std::max(closest_jump, std::abs(contact.weight[1] - closest_before));
+        before = share * (contact.weight[1] - 0.5);
+        closest_before = contact.weight[1];
+    }
+    CHECK(closest_jump > 0.3);
+    CHECK(jump < 1e-3);
+    CHECK(whole > 30000);
+    // Where the share begins to shrink, the ends are a thousandth of the thickness farther off than the middle.
+    const double sine = std::sqrt(8e-3) * thickness / length;
+    const double rise = std::hypot(thickness, 0.5 * length * sine) - thickness;
+    CHECK(rise == Approx(1e-3 * thickness).epsilon(1e-3));
+    CHECK(row_share({.crossing = 0.999 * length * sine}, thickness) < 1.0);
+    CHECK(row_share({.crossing = 1.001 * length * sine}, thickness) == 1.0);
+}
 
 TEST_CASE("every contact obeys direction . (sum of weighted cloth vertices - obstacle point) = distance, at any fraction") {
     const int number = GENERATE(0, 1, 2, 3, 4);

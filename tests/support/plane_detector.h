@@ -105,6 +105,7 @@ private:
         rows.distance.push_back(d);
         rows.thickness.push_back(thickness_[vertex]);
         rows.friction.push_back(plane.friction);
+        rows.share.push_back(1.0);
         rows.obstacle.push_back(obstacle);
         rows.feature.push_back(0);
     }

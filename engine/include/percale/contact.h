@@ -29,16 +29,17 @@ struct ContactRows {
     std::vector<double> distance;               // m, from the cloth's middle surface to the obstacle or to the other's, > 0
     std::vector<double> thickness;              // m, where the contact zone starts
     std::vector<double> friction;               // Coulomb coefficient
-    std::vector<int> obstacle;                  // -1: cloth against cloth
-    std::vector<int> feature;  // obstacle triangle, edge or vertex, by number of vertices used; between cloths the
-                               // number of vertices on the first side: 1 vertex-face, 2 edge-edge
+    std::vector<double> share;  // 0 < share <= 1 of the stiffness: less where other rows stand for the contact, too
+    std::vector<int> obstacle;  // -1: cloth against cloth
+    std::vector<int> feature;   // obstacle triangle, edge or vertex, by number of vertices used; between cloths the
+                                // number of vertices on the first side: 1 vertex-face, 2 edge-edge
 
     std::size_t size() const { return vertex.size(); }
     void clear() {
         vertex.clear();
         weight.clear();
         for (auto* vectors : {&direction, &obstacle_point, &obstacle_displacement}) vectors->clear();
-        for (auto* numbers : {&distance, &thickness, &friction}) numbers->clear();
+        for (auto* numbers : {&distance, &thickness, &friction, &share}) numbers->clear();
         obstacle.clear();
         feature.clear();
     }

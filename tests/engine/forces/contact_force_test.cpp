@@ -48,6 +48,7 @@ struct Touch {
         rows.distance.push_back(distance);
         rows.thickness.push_back(h);
         rows.friction.push_back(0.0);
+        rows.share.push_back(1.0);
         rows.obstacle.push_back(0);
         rows.feature.push_back(0);
     }

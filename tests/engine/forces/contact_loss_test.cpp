@@ -43,6 +43,7 @@ struct Touching {
         rows.distance.push_back(random.number(0.2, 0.95) * h);
         rows.thickness.push_back(h);
         rows.friction.push_back(0.4);
+        rows.share.push_back(1.0);
         rows.obstacle.push_back(obstacle);
         rows.feature.push_back(0);
     }

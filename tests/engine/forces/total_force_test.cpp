@@ -76,6 +76,7 @@ TEST_CASE("Contact is added on top") {
     forces.rows.distance = {0.003};
     forces.rows.thickness = {0.005};
     forces.rows.friction = {0.0};
+    forces.rows.share = {1.0};
     forces.rows.obstacle = forces.rows.feature = {0};
     DiagonalBlocks diagonal;
     diagonal.resize(32);

@@ -46,6 +46,7 @@ struct OneRow {
         rows.distance = {distance};
         rows.thickness = {projection_zone * h};
         rows.friction = {mu};
+        rows.share = {1.0};
         rows.obstacle = rows.feature = {0};
         const ContactRows far;
         projection.keep(far, {});  // nothing was nearer than the thickness before
