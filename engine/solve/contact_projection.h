@@ -39,7 +39,7 @@ public:
     /// one.
     void start_part() { multipliers_ = lasting_; }
 
-    /// The rows that it begins with are known.
+    /// The rows that it begins with are known: forces go on with the cloth, and rows share what their vertices can bear.
     void meet(const ContactRows& rows);
 
     void add(const ProjectedPoint& point, ProjectedForces forces) const;
@@ -67,6 +67,7 @@ public:
 private:
     ContactMultipliers kept_, lasting_, multipliers_;
     std::vector<RowForce> lasting_forces_;  // scratch space of keep
+    std::vector<double> crowd_;  // of each vertex, the rows that push it as the part begins, by their weights
     double kept_share_ = 0.0;               // of the thickness, the least distance of a kept row; 0 if unknown
 };
 

@@ -100,6 +100,28 @@ TEST_CASE("A projected row sticks inside Coulomb's cone and slides on it against
     }
 }
 
+TEST_CASE("Rows that push one vertex as the step begins share its stiffness, others do not count") {
+    const auto stiffness = [](double second_distance) {
+        OneRow row(0.95 * h);
+        ContactRows& rows = row.rows;
+        for (auto* numbers : {&rows.thickness, &rows.friction, &rows.share, &rows.distance}) numbers->push_back(numbers->front());
+        for (auto* vectors : {&rows.direction, &rows.obstacle_point, &rows.obstacle_displacement})
+            vectors->push_back(vectors->front());
+        rows.vertex.push_back(rows.vertex[0]);
+        rows.weight.push_back(rows.weight[0]);
+        rows.obstacle = {0, 0};
+        rows.feature = {0, 1};
+        rows.distance[1] = second_distance;
+        row.projection.meet(rows);
+        row.add();
+        return row.forces[0].stiffness;
+    };
+    CHECK(stiffness(0.95 * h) == Approx(0.5 * stiffness(1.05 * h)));
+    OneRow alone(0.95 * h);
+    alone.add();
+    CHECK(stiffness(1.05 * h) == Approx(alone.forces[0].stiffness));
+}
+
 TEST_CASE("Multipliers match where rows are at the thickness without slip") {
     OneRow row(0.95 * h);
     row.add();
