@@ -6,6 +6,7 @@ namespace percale {
 namespace {
 
 constexpr int any_feature = -2;       // of an obstacle
+constexpr double most_of_it = 0.5;    // of its stiffness, that a row has to take to be handed forces
 constexpr double least_cosine = 0.9;  // between the directions of rows that hand over, or they lie on two sides of a gap
 
 RowKey of_cloth_feature(RowKey key) {
@@ -33,26 +34,33 @@ void ContactMultipliers::hand_over(const ContactRows& rows, const RowClearance& 
         const RowKey key = row_key(rows, row);
         const int number = static_cast<int>(row);
         places_.at(key) = number;
+        if (rows.obstacle[row] < 0 || rows.share[row] < most_of_it) continue;
         const int* known = places_.find(of_cloth_feature(key));
         if (!known || rows.distance[row] < rows.distance[*known]) places_.at(of_cloth_feature(key)) = number;
     }
-    handed_.clear(forces_.entries().size());
-    for (const auto& [key, force] : forces_.entries()) {
+    const std::span<const KeyedForce> before = in_order();
+    forces_.clear(before.size());
+    for (const auto& [key, force] : before) {
         const int *own = places_.find(key), *nearest = places_.find(of_cloth_feature(key));
         const bool goes_on = nearest && (!own || has_left(rows, *own, *nearest, clearance));
-        RowForce& handed = handed_.at(goes_on ? row_key(rows, *nearest) : key);
+        RowForce& handed = forces_.at(goes_on ? row_key(rows, *nearest) : key);
         handed.normal += force.normal;
         handed.friction += force.friction;
         handed.stiffness = std::max(handed.stiffness, force.stiffness);
     }
-    std::swap(forces_, handed_);
+}
+
+std::span<const KeyedForce> ContactMultipliers::in_order() {
+    ordered_.clear();
+    for (const auto& [key, force] : forces_.entries()) ordered_.push_back({key, force});
+    std::sort(ordered_.begin(), ordered_.end(), [](const KeyedForce& a, const KeyedForce& b) { return a.key < b.key; });
+    return ordered_;
 }
 
 std::vector<KeyedForce> ContactMultipliers::all() const {
-    std::vector<KeyedForce> all;
-    for (const auto& [key, force] : forces_.entries()) all.push_back({key, force});
-    std::sort(all.begin(), all.end(), [](const KeyedForce& a, const KeyedForce& b) { return a.key < b.key; });
-    return all;
+    ContactMultipliers copy = *this;
+    const std::span<const KeyedForce> ordered = copy.in_order();
+    return {ordered.begin(), ordered.end()};
 }
 
 void ContactMultipliers::set(std::span<const KeyedForce> all) {

@@ -40,8 +40,8 @@ public:
     std::size_t size() const { return forces_.entries().size(); }
 
     /// Where facets pass under a feature of the cloth, a force goes on with it: from a row that is gone, or off and farther than
-    /// another, to the nearest row of the same feature of the cloth on the same obstacle. Left where it was it would act behind
-    /// the place of contact and only slowly move on.
+    /// another, to the nearest row of the same feature of the cloth on the same obstacle that has most of its stiffness. Left
+    /// where it was it would act behind the place of contact and only slowly move on. Between cloths forces stay where they are.
     void hand_over(const ContactRows& rows, const RowClearance& clearance);
 
     /// All that are known, by their keys, and back.
@@ -49,8 +49,12 @@ public:
     void set(std::span<const KeyedForce> all);
 
 private:
-    RowTable<RowForce> forces_, handed_;
-    RowTable<int> places_;  // scratch space of hand_over: numbers of rows
+    /// Into scratch space: in an order that does not depend on how the forces came here, as sums do on theirs.
+    std::span<const KeyedForce> in_order();
+
+    RowTable<RowForce> forces_;
+    RowTable<int> places_;             // scratch space of hand_over: numbers of rows
+    std::vector<KeyedForce> ordered_;  // scratch space
 };
 
 }  // namespace percale

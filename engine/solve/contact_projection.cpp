@@ -12,6 +12,8 @@ namespace {
 constexpr double stiffness_share = 1.0;  // of the step matrix: softer takes more rounds, stiffer makes each take longer
 constexpr double recovery_time = 0.05;   // s, in which cloth that starts too near comes back to the thickness
 
+constexpr RowClearance leaving{.zone = projection_zone, .share = smallest_share};
+
 /// One row at one point of the search.
 struct RowState {
     Vec3 normal;
@@ -159,7 +161,7 @@ void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces)
 }
 
 void ContactProjection::meet(const ContactRows& rows) {
-    multipliers_.hand_over(rows, {.zone = projection_zone, .share = smallest_share});
+    multipliers_.hand_over(rows, leaving);
     std::fill(crowd_.begin(), crowd_.end(), 0.0);
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const bool near = rows.distance[row] * projection_zone < rows.thickness[row];
@@ -167,7 +169,7 @@ void ContactProjection::meet(const ContactRows& rows) {
         for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
             const std::size_t vertex = rows.vertex[row][k];
             if (vertex >= crowd_.size()) crowd_.resize(vertex + 1, 0.0);
-            crowd_[vertex] += std::abs(rows.weight[row][k]);
+            crowd_[vertex] += rows.share[row] * std::abs(rows.weight[row][k]);
         }
     }
 }
@@ -190,6 +192,7 @@ void ContactProjection::advance(const ProjectedPoint& point, ProjectedForces for
 }
 
 void ContactProjection::keep(const ContactRows& rows, const std::vector<RowForce>& forces) {
+    kept_.hand_over(rows, leaving);  // what lasted may have gone on during the part
     std::vector<RowForce>& lasting = lasting_forces_;
     lasting = forces;
     for (std::size_t row = 0; row < rows.size(); ++row) {

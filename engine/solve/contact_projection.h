@@ -67,7 +67,7 @@ public:
 private:
     ContactMultipliers kept_, lasting_, multipliers_;
     std::vector<RowForce> lasting_forces_;  // scratch space of keep
-    std::vector<double> crowd_;  // of each vertex, the rows that push it as the part begins, by their weights
+    std::vector<double> crowd_;             // of each vertex, the rows that push it as the part begins, by their weights
     double kept_share_ = 0.0;               // of the thickness, the least distance of a kept row; 0 if unknown
 };
 

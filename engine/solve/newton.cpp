@@ -354,7 +354,7 @@ private:
         double fraction = 1.0, kept = 1.0;
         move(fraction);
         const bool small = is_small(space_.trial.velocities, share_of_time_error);
-        const bool flat = -slope <= 1e-12 * std::abs(line.start_objective);  // what slopes say then is rounding
+        const bool flat = std::abs(slope) <= 1e-12 * std::abs(line.start_objective);  // what slopes say then is rounding
         if (part_.settings->newton_iterations > 1 && space_.current.forces.rows.size() > 0 && !flat)
             line.most_turned = projects() && !small ? most_projected : most_turned;
         bool accepted = false;

@@ -187,7 +187,7 @@ void settle_impacts(World& world, const Vectors& start, double length) {
         for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
             const int vertex = rows.vertex[row][k];
             const double share = world.script.free[vertex] * rows.weight[row][k] / (world.model.mass[vertex] * mobility);
-            world.state.velocities.add(vertex, -share * excess * n);
+            world.state.velocities.add(vertex, -rows.share[row] * share * excess * n);
         }
     }
 }

@@ -23,7 +23,7 @@ inline bool same_rows(const ContactRows& a, const ContactRows& b) {
     return same_bits(a.vertex, b.vertex) && same_bits(a.weight, b.weight) && same_bits(a.direction, b.direction) &&
            same_bits(a.obstacle_point, b.obstacle_point) && same_bits(a.obstacle_displacement, b.obstacle_displacement) &&
            same_bits(a.distance, b.distance) && same_bits(a.thickness, b.thickness) && same_bits(a.friction, b.friction) &&
-           a.obstacle == b.obstacle && a.feature == b.feature;
+           same_bits(a.share, b.share) && a.obstacle == b.obstacle && a.feature == b.feature;
 }
 
 inline std::vector<Vec3> between(std::span<const Vec3> from, std::span<const Vec3> to, double fraction) {

@@ -29,7 +29,8 @@ struct ContactRows {
     std::vector<double> distance;               // m, from the cloth's middle surface to the obstacle or to the other's, > 0
     std::vector<double> thickness;              // m, where the contact zone starts
     std::vector<double> friction;               // Coulomb coefficient
-    std::vector<double> share;  // 0 < share <= 1 of the stiffness: less where other rows stand for the contact, too
+    std::vector<double> share;  // 0 < share <= 1 of the stiffness: less where other rows stand for the contact, too;
+                                // projected, such a row is a spring
     std::vector<int> obstacle;  // -1: cloth against cloth
     std::vector<int> feature;   // obstacle triangle, edge or vertex, by number of vertices used; between cloths the
                                 // number of vertices on the first side: 1 vertex-face, 2 edge-edge

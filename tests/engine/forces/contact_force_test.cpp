@@ -131,6 +131,17 @@ TEST_CASE("The contact potential grows without bound towards the surface") {
     }
 }
 
+TEST_CASE("A row that shares its contact with others takes its share of force and matrix") {
+    Touch whole(1), part(1);
+    for (Touch* touch : {&whole, &part}) touch->add_point(Vec3(0, 1, 0), 0.8 * h);
+    part.rows.share = {0.25};
+    whole.evaluate();
+    part.evaluate();
+    CHECK(part.forces.at(0).y() == Approx(0.25 * whole.forces.at(0).y()));
+    CHECK(part.terms.blocks.at(0).k[3] == Approx(0.25 * whole.terms.blocks.at(0).k[3]));
+    CHECK(part.terms.energy == Approx(0.25 * whole.terms.energy));
+}
+
 TEST_CASE("A row's stiffness is half of its share of the step matrix") {
     Touch touch(3, 0.01);
     touch.set_diagonal(0, {5.0, 6.0, 7.0});

@@ -66,6 +66,7 @@ TEST_CASE("A force goes on to the nearest row of its cloth feature when its own 
         rows.feature.push_back(feature);
         rows.distance.push_back(distance);
         rows.thickness.push_back(clearance.zone * h);
+        rows.share.push_back(1.0);
         rows.direction.push_back(direction);
     };
     const auto key = [](int vertex, int obstacle, int feature) {
@@ -91,8 +92,10 @@ TEST_CASE("A force goes on to the nearest row of its cloth feature when its own 
     add_row(6, 0, 2, h, Vec3(0, -1, 0));
     push(key(4, 0, 1), 7.0);
     push(key(6, 0, 1), 11.0);
-    // Gone, with another row of the feature and without.
+    // Gone, with another row of the feature and without; the nearest is nearly parallel.
     add_row(8, 0, 2, 1.15 * h);
+    add_row(8, 0, 3, 1.1 * h);
+    rows.share.back() = 0.1;
     push(key(8, 0, 1), 13.0);
     push(key(10, 0, 1), 17.0);
     multipliers.hand_over(rows, clearance);
@@ -106,6 +109,46 @@ TEST_CASE("A force goes on to the nearest row of its cloth feature when its own 
     CHECK(multipliers.of(key(8, 0, 1)).normal == 0.0);
     CHECK(multipliers.of(key(8, 0, 2)).normal == 13.0);
     CHECK(multipliers.of(key(10, 0, 1)).normal == 17.0);
+}
+
+TEST_CASE("Forces that are handed to one row have the same sum in whatever order they came") {
+    ContactRows rows;
+    rows.vertex = {{0, 1, -1, -1}};
+    rows.obstacle = {0};
+    rows.feature = {9};
+    rows.distance = {0.004};
+    rows.thickness = {0.006};
+    rows.share = {1.0};
+    rows.direction = {Vec3(0, 1, 0)};
+    const double forces[] = {0.1, 0.2, 0.3, 1e-17, 0.7};
+    ContactMultipliers up, down;
+    up.clear(5);
+    down.clear(5);
+    for (int i = 0; i < 5; ++i) {
+        up.add({.vertex = {0, 1, -1, -1}, .obstacle = 0, .feature = i}, {.normal = forces[i]});
+        down.add({.vertex = {0, 1, -1, -1}, .obstacle = 0, .feature = 4 - i}, {.normal = forces[4 - i]});
+    }
+    for (ContactMultipliers* multipliers : {&up, &down}) multipliers->hand_over(rows, {.zone = 1.2, .share = 1e-3});
+    REQUIRE(up.size() == 1);
+    CHECK(up.of(row_key(rows, 0)).normal == down.of(row_key(rows, 0)).normal);
+    CHECK(up.of(row_key(rows, 0)).normal == Approx(1.3));
+}
+
+TEST_CASE("Between cloths a force stays with its row") {
+    ContactRows rows;
+    rows.vertex = {{0, 1, 2, 3}};
+    rows.obstacle = {-1};
+    rows.feature = {2};
+    rows.distance = {0.004};
+    rows.thickness = {0.006};
+    rows.share = {1.0};
+    rows.direction = {Vec3(0, 1, 0)};
+    ContactMultipliers multipliers;
+    multipliers.clear(1);
+    const RowKey other{.vertex = {0, 1, 2, 3}, .obstacle = -1, .feature = 1};
+    multipliers.add(other, {.normal = 2.0});
+    multipliers.hand_over(rows, {.zone = 1.2, .share = 1e-3});
+    CHECK(multipliers.of(other).normal == 2.0);
 }
 
 }  // namespace percale::test

@@ -67,12 +67,14 @@ struct OneRow {
 }  // namespace
 
 TEST_CASE("A projected row's push is minus the derivative of its energy and its matrix that of its push") {
+    const double taken = GENERATE(1.0, 0.3);  // ContactRows::share
     for (const double share : {0.2, 0.45, 0.55, 0.9, 1.02, 1.15}) {
-        CAPTURE(share);
+        CAPTURE(share, taken);
         const double step = 1e-7 * h;
         OneRow low(share * h - step), middle(share * h), high(share * h + step);
         for (OneRow* row : {&low, &middle, &high}) {
             const double distance = row->rows.distance[0];
+            row->rows.share = {taken};
             row->rows.distance[0] = 0.93 * h;  // a multiplier from elsewhere
             row->add();
             row->advance();
@@ -100,8 +102,24 @@ TEST_CASE("A projected row sticks inside Coulomb's cone and slides on it against
     }
 }
 
+TEST_CASE("A force that went on to another row of its cloth feature lasts there") {
+    OneRow row(0.95 * h);
+    row.add();
+    const double push = row.forces[0].normal;
+    for (int part = 0; part < 2; ++part) row.projection.keep(row.rows, row.forces);
+    row.rows.feature = {1};
+    row.rows.distance = {h};
+    for (int part = 0; part < 2; ++part) {
+        row.projection.start_part();
+        row.projection.meet(row.rows);
+        row.add();
+        CHECK(row.forces[0].normal == Approx(push));
+        row.projection.keep(row.rows, row.forces);
+    }
+}
+
 TEST_CASE("Rows that push one vertex as the step begins share its stiffness, others do not count") {
-    const auto stiffness = [](double second_distance) {
+    const auto stiffness = [](double second_distance, double second_share) {
         OneRow row(0.95 * h);
         ContactRows& rows = row.rows;
         for (auto* numbers : {&rows.thickness, &rows.friction, &rows.share, &rows.distance}) numbers->push_back(numbers->front());
@@ -112,14 +130,16 @@ TEST_CASE("Rows that push one vertex as the step begins share its stiffness, oth
         rows.obstacle = {0, 0};
         rows.feature = {0, 1};
         rows.distance[1] = second_distance;
+        rows.share[1] = second_share;
         row.projection.meet(rows);
         row.add();
         return row.forces[0].stiffness;
     };
-    CHECK(stiffness(0.95 * h) == Approx(0.5 * stiffness(1.05 * h)));
+    CHECK(stiffness(0.95 * h, 1.0) == Approx(0.5 * stiffness(1.05 * h, 1.0)));
+    CHECK(stiffness(0.95 * h, 0.5) == Approx(stiffness(1.05 * h, 1.0) / 1.5));
     OneRow alone(0.95 * h);
     alone.add();
-    CHECK(stiffness(1.05 * h) == Approx(alone.forces[0].stiffness));
+    CHECK(stiffness(1.05 * h, 1.0) == Approx(alone.forces[0].stiffness));
 }
 
 TEST_CASE("Multipliers match where rows are at the thickness without slip") {
