@@ -21,6 +21,13 @@ bool has_left(const ContactRows& rows, int row, int nearest, const RowClearance&
     return rows.distance[row] > from && rows.direction[row].dot(rows.direction[nearest]) > least_cosine;
 }
 
+/// All forces by their keys, in whatever order they came.
+void set_ordered(const RowTable<RowForce>& forces, std::vector<KeyedForce>& ordered) {
+    ordered.clear();
+    for (const auto& [key, force] : forces.entries()) ordered.push_back({key, force});
+    std::sort(ordered.begin(), ordered.end(), [](const KeyedForce& a, const KeyedForce& b) { return a.key < b.key; });
+}
+
 }  // namespace
 
 RowKey row_key(const ContactRows& rows, std::size_t row) {
@@ -38,9 +45,9 @@ void ContactMultipliers::hand_over(const ContactRows& rows, const RowClearance& 
         const int* known = places_.find(of_cloth_feature(key));
         if (!known || rows.distance[row] < rows.distance[*known]) places_.at(of_cloth_feature(key)) = number;
     }
-    const std::span<const KeyedForce> before = in_order();
-    forces_.clear(before.size());
-    for (const auto& [key, force] : before) {
+    set_ordered(forces_, ordered_);
+    forces_.clear(ordered_.size());
+    for (const auto& [key, force] : ordered_) {
         const int *own = places_.find(key), *nearest = places_.find(of_cloth_feature(key));
         const bool goes_on = nearest && (!own || has_left(rows, *own, *nearest, clearance));
         RowForce& handed = forces_.at(goes_on ? row_key(rows, *nearest) : key);
@@ -50,17 +57,10 @@ void ContactMultipliers::hand_over(const ContactRows& rows, const RowClearance& 
     }
 }
 
-std::span<const KeyedForce> ContactMultipliers::in_order() {
-    ordered_.clear();
-    for (const auto& [key, force] : forces_.entries()) ordered_.push_back({key, force});
-    std::sort(ordered_.begin(), ordered_.end(), [](const KeyedForce& a, const KeyedForce& b) { return a.key < b.key; });
-    return ordered_;
-}
-
 std::vector<KeyedForce> ContactMultipliers::all() const {
-    ContactMultipliers copy = *this;
-    const std::span<const KeyedForce> ordered = copy.in_order();
-    return {ordered.begin(), ordered.end()};
+    std::vector<KeyedForce> all;
+    set_ordered(forces_, all);
+    return all;
 }
 
 void ContactMultipliers::set(std::span<const KeyedForce> all) {

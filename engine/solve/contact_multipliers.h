@@ -49,12 +49,9 @@ public:
     void set(std::span<const KeyedForce> all);
 
 private:
-    /// Into scratch space: in an order that does not depend on how the forces came here, as sums do on theirs.
-    std::span<const KeyedForce> in_order();
-
     RowTable<RowForce> forces_;
     RowTable<int> places_;             // scratch space of hand_over: numbers of rows
-    std::vector<KeyedForce> ordered_;  // scratch space
+    std::vector<KeyedForce> ordered_;  // likewise: the forces before it, as sums depend on their order
 };
 
 }  // namespace percale
