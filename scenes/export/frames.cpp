@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "obj_file.h"
+#include "common/whole_file.h"
+#include "meshes/obj_file.h"
 #include "percale/error.h"
-#include "whole_file.h"
 
 namespace percale::scenes {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "run_scene.h"
-#include "whole_file.h"
+#include "common/whole_file.h"
+#include "run/run_scene.h"
 
 namespace percale::scenes {
 

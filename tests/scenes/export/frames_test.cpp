@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "obj_file.h"
+#include "meshes/obj_file.h"
 #include "percale/error.h"
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "format/scene.h"
+
+namespace percale::scenes {
+
+/// One `--set KEY=VALUE`: a dotted key of the scene file and a TOML value (a bare word is taken as a string). An option that
+/// stands for a key, such as --fps, is named in messages in place of `--set KEY`.
+struct Override {
+    std::string key;
+    std::string value;
+    std::string option = {};
+};
+
+/// Reads a TOML scene file, overrides applied before anything is checked. Throws SceneError with "file:line:column: what",
+/// the allowed range or the nearest valid key. Keys and ranges: scene_keys.h.
+Scene load_scene(const std::string& file, std::span<const Override> overrides = {});
+
+/// The same from text; `name` stands for the file in messages and relative paths are relative to its folder.
+Scene parse_scene(const std::string& text, const std::string& name, std::span<const Override> overrides = {});
+
+/// A scene with overrides applied to what it is read from; throws SceneError as load_scene does.
+using SceneSource = std::function<Scene(std::span<const Override>)>;
+
+/// What load_scene has against a file, one kind at a time: all faults of keys and values; where there are none, those of whole
+/// tables; where there are none, those of names by which tables call each other.
+std::vector<std::string> scene_faults(const std::string& file, std::span<const Override> overrides = {});
+
+}  // namespace percale::scenes
