@@ -34,6 +34,8 @@ MAY_INCLUDE = {
     'tests': PUBLIC | {'engine', *ENGINE_PARTS, 'collision', 'scenes', 'tests'},
     'outside': PUBLIC | {'outside'},
 }
+# The rooms of scenes/, each of which may include itself and the rooms before it.
+SCENES_ROOMS = ['common', 'report', 'shapes', 'format', 'meshes', 'run', 'export', 'doctor', 'compare', 'stress', 'program']
 # Header prefixes of other projects and the folders that may see them.
 OTHERS = [
     (r'fcl/', ('collision/fcl/', 'tests/collision/')),
@@ -146,6 +148,12 @@ def part_of(path):
     return parts[0] if parts[0] in ('collision', 'scenes', 'tests') else 'outside'
 
 
+def room_of(path):
+    """The folder of scenes/ that holds a file; None where there is none."""
+    parts = path.split('/')
+    return parts[1] if parts[0] == 'scenes' and len(parts) > 2 else None
+
+
 def check_top_level(tree):
     for name in sorted({f.split('/')[0] for f in tree.files} - TOP_LEVEL):
         tree.complain(name, 1, 'not allowed at the top level')
@@ -153,6 +161,8 @@ def check_top_level(tree):
         parts = path.split('/')
         if parts[0] == 'engine' and len(parts) > 2 and parts[1] not in [*ENGINE_PARTS, 'include', 'cmake']:
             tree.complain(path, 1, f'unknown part of the engine (known: {", ".join(ENGINE_PARTS)})')
+        if room_of(path) not in [None, *SCENES_ROOMS]:
+            tree.complain(path, 1, f'unknown room of scenes (known: {", ".join(SCENES_ROOMS)})')
 
 
 def check_directions(tree):
@@ -167,6 +177,14 @@ def check_directions(tree):
         detector = re.search(r'\bContactDetector\b', plain_code(tree.text[path]))
         if path.startswith('engine/forces/') and detector:
             tree.complain(path, line_of(tree.text[path], detector.start()), 'forces must not know the contact detector')
+
+
+def check_rooms(tree):
+    for path, includes in tree.includes.items():
+        for line, name, target in includes:
+            room, other = room_of(path), room_of(target or '')
+            if other is not None and room in SCENES_ROOMS and other not in SCENES_ROOMS[:SCENES_ROOMS.index(room) + 1]:
+                tree.complain(path, line, f'scenes/{room} must not include scenes/{other} ({name})')
 
 
 def check_other_project(tree, path, line, name):
@@ -346,8 +364,8 @@ def check_test_size(tree):
     return library, tests
 
 
-RULES = (check_top_level, check_directions, check_cycles, check_modules, check_folder_sizes, check_mirror, check_public_headers,
-         check_names, check_texts, check_readmes, check_glossary)
+RULES = (check_top_level, check_directions, check_rooms, check_cycles, check_modules, check_folder_sizes, check_mirror,
+         check_public_headers, check_names, check_texts, check_readmes, check_glossary)
 
 
 def check(root):

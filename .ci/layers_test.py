@@ -166,6 +166,14 @@ class Rules(unittest.TestCase):
         self.caught('scenes/README.md', f'```\n{wide}\n```\n{wide}\n', 'README.md:4: line')
         self.assertEqual(violations({'README.md': f'{wide[1:]}\n| {wide} |\n\n    {wide}\n\n```sh\n{wide}\n```\n'}), [])
 
+    def test_every_direction_between_the_rooms_of_scenes(self):
+        for low, room in enumerate(layers.SCENES_ROOMS):
+            for high, other in enumerate(layers.SCENES_ROOMS):
+                found = violations({f'scenes/{room}/a.h': f'#include "{other}/b.h"\n', f'scenes/{other}/b.h': 'int x;\n'})
+                expected = [f'scenes/{room}/a.h:1: scenes/{room} must not include scenes/{other} ({other}/b.h)'] if high > low else []
+                self.assertEqual(found, expected)
+        self.caught('scenes/misc/a.h', 'int x;\n', 'unknown room of scenes')
+
     def test_a_source_without_its_test(self):
         self.caught('scenes/export/frames.cpp', 'int x;\n', 'no test file (tests/scenes/export/frames_test.cpp)')
         self.assertEqual(len(violations(removed=['tests/engine/model/shapes_test.cpp'])), 2)  # the size of the tests too

@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/whole_file.h"
 #include "export/run_settings.h"
 #include "percale/error.h"
 #include "percale/saved_report.h"
-#include "whole_file.h"
 
 namespace percale::scenes {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "run_scene.h"
-#include "whole_file.h"
+#include "common/whole_file.h"
+#include "run/run_scene.h"
 
 namespace percale::scenes {
 
@@ -46,8 +46,5 @@ private:
     std::vector<std::string> written_;
     std::map<std::string, OutputFolder> folders_;
 };
-
-/// Whether an obstacle has more than one pose during a run.
-bool obstacle_moves(const ObstacleSpec& obstacle);
 
 }  // namespace percale::scenes

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "common/whole_file.h"
 #include "export/frames.h"
 #include "export/run_report.h"
 #include "export/step_table.h"
-#include "whole_file.h"
 
 namespace percale::scenes {
 

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "expectations.h"
-#include "lacking.h"
-#include "nearest_name.h"
+#include "common/nearest_name.h"
+#include "common/text.h"
+#include "format/expectations.h"
+#include "format/lacking.h"
 #include "percale/error.h"
-#include "scene_text.h"
 
 namespace percale::program {
 

@@ -1,7 +1,7 @@
 #include "export/run_folder.h"
 
+#include "format/scene_file.h"
 #include "percale/error.h"
-#include "scene_file.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
