@@ -36,6 +36,14 @@ MAY_INCLUDE = {
 }
 # The rooms of scenes/, each of which may include itself and the rooms before it.
 SCENES_ROOMS = ['common', 'report', 'shapes', 'format', 'meshes', 'run', 'export', 'doctor', 'compare', 'stress', 'program']
+# Which folder of collision may include which other ones; tolerances.h all of them. What stands on top (detector.*) sees all, a
+# backend sees the top and what a tree is.
+COLLISION_FOLDERS = {
+    'geometry': set(), 'certificate': set(),
+    'obstacle': {'geometry', 'certificate'}, 'lists': {'geometry', 'obstacle'}, 'self': {'geometry'},
+    'untangle': {'geometry', 'certificate'},
+    **{backend: {'top', 'geometry', 'obstacle'} for backend in ('fcl', 'bullet', 'brute_force')},
+}
 # Header prefixes of other projects and the folders that may see them.
 OTHERS = [
     (r'fcl/', ('collision/fcl/', 'tests/collision/')),
@@ -187,6 +195,18 @@ def check_rooms(tree):
                 tree.complain(path, line, f'scenes/{room} must not include scenes/{other} ({name})')
 
 
+def check_collision_folders(tree):
+    folder_of = lambda path: path.split('/')[1] if path.count('/') > 1 else 'top'
+    for path in tree.code('collision'):
+        folder = folder_of(path)
+        for line, name, target in tree.includes[path]:
+            other = folder_of(target) if target and target.startswith('collision/') else folder
+            if target == 'collision/tolerances.h' or other in (folder, 'include') or folder == 'top':
+                continue
+            if other not in COLLISION_FOLDERS.get(folder, set()):
+                tree.complain(path, line, f'collision/{folder} must not include collision/{other} ({name})')
+
+
 def check_other_project(tree, path, line, name):
     if path.startswith('.ci/'):
         return
@@ -259,11 +279,13 @@ def check_folder_sizes(tree):
 
 def check_cycles(tree):
     files, folders = defaultdict(set), defaultdict(set)
+    # A layer's tolerances.h includes nothing and is read by all folders: it counts as a folder of its own.
+    folder_of = lambda path: path if path.endswith('/tolerances.h') else str(PurePosixPath(path).parent)
     for path, includes in tree.includes.items():
         for _, _, target in includes:
             if target is not None:
                 files[path].add(target)
-                ends = [str(PurePosixPath(end).parent) for end in (path, target)]
+                ends = [folder_of(end) for end in (path, target)]
                 folders[ends[0]] |= {ends[1]} - {ends[0]}
     for ring in cycles(files):
         tree.complain(ring[0], 1, f'files include each other ({", ".join(ring)})')
@@ -364,8 +386,8 @@ def check_test_size(tree):
     return library, tests
 
 
-RULES = (check_top_level, check_directions, check_rooms, check_cycles, check_modules, check_folder_sizes, check_mirror,
-         check_public_headers, check_names, check_texts, check_readmes, check_glossary)
+RULES = (check_top_level, check_directions, check_rooms, check_collision_folders, check_cycles, check_modules,
+         check_folder_sizes, check_mirror, check_public_headers, check_names, check_texts, check_readmes, check_glossary)
 
 
 def check(root):

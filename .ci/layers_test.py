@@ -93,6 +93,21 @@ class Rules(unittest.TestCase):
         self.assertEqual(layers.MAY_INCLUDE['scenes'], {'public', 'public_collision', 'scenes'})
         self.assertNotIn('public', layers.MAY_INCLUDE['support'])
 
+    def test_folders_of_collision(self):
+        header = {folder: f'collision/{folder}/a.h' for folder in layers.COLLISION_FOLDERS} | {'top': 'collision/detector.h'}
+        clean = {path: '#pragma once\n' for path in header.values()} | {'collision/tolerances.h': '#pragma once\n'}
+        for folder, path in header.items():
+            for other, target in header.items():
+                said = violations({**clean, path: f'#include "{target}"\n#include "collision/tolerances.h"\n'})
+                is_refused = any(f'collision/{folder} must not include collision/{other} ' in line for line in said)
+                allowed = folder == 'top' or other in layers.COLLISION_FOLDERS[folder] | {folder}
+                self.assertEqual(is_refused, not allowed, (folder, other, said))
+
+    def test_tolerances_of_a_layer_make_no_ring_of_folders(self):
+        changes = {'collision/detector.h': '#include "lists/a.h"\n', 'collision/lists/a.h': '#include "tolerances.h"\n'}
+        self.assertEqual(violations({**changes, 'collision/tolerances.h': '#pragma once\n'}), [])
+        self.assertIn('folders include each other', violations({**changes, 'collision/tolerances.h': '#include "detector.h"\n'})[1])
+
     def test_an_include_that_is_no_file(self):
         self.include_caught('scenes/scene.h', '"sceen.h"', 'is no file of the project')
 
