@@ -3,7 +3,7 @@
 #include <string>
 
 #include "export/run_folder.h"
-#include "run_scene.h"
+#include "run/run_scene.h"
 
 namespace percale::scenes {
 

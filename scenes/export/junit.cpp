@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene_text.h"
+#include "common/text.h"
 
 namespace percale::scenes {
 

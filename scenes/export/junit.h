@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "expectations.h"
+#include "format/expectations.h"
 
 namespace percale::scenes {
 

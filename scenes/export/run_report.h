@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "expectations.h"
 #include "export/frames.h"
-#include "run_scene.h"
+#include "format/expectations.h"
+#include "run/run_scene.h"
 
 namespace percale::scenes {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "scene.h"
+#include "format/scene.h"
 
 namespace percale::scenes {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "common/whole_file.h"
 #include "percale/report.h"
-#include "whole_file.h"
 
 namespace percale::scenes {
 

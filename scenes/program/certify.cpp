@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 
 #include "export/run_report.h"
-#include "measures.h"
-#include "mesh_import.h"
+#include "meshes/mesh_import.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
+#include "run/measures.h"
 
 namespace percale::program {
 

@@ -5,15 +5,15 @@
 #include <mutex>
 #include <thread>
 
+#include "common/whole_file.h"
 #include "export/junit.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/common_options.h"
 #include "program/exit_codes.h"
 #include "program/stop_signals.h"
-#include "run_scene.h"
-#include "start_fault.h"
-#include "whole_file.h"
+#include "run/run_scene.h"
+#include "run/start_fault.h"
 
 namespace percale::program {
 

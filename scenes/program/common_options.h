@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scene_file.h"
+#include "format/scene_file.h"
 
 namespace CLI {
 class App;

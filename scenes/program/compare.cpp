@@ -1,18 +1,18 @@
-#include "compare.h"
+#include "compare/compare.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 
-#include "compare_report.h"
+#include "common/text.h"
+#include "common/whole_file.h"
+#include "compare/compare_report.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/common_options.h"
 #include "program/exit_codes.h"
 #include "program/stop_signals.h"
-#include "scene_text.h"
-#include "whole_file.h"
 
 namespace percale::program {
 

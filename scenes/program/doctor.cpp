@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "doctor_report.h"
+#include "doctor/doctor_report.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/common_options.h"

@@ -6,9 +6,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "measures.h"
-#include "nearest_name.h"
-#include "obj_file.h"
+#include "common/nearest_name.h"
+#include "common/text.h"
+#include "common/whole_file.h"
+#include "meshes/obj_file.h"
 #include "percale/certify.h"
 #include "percale/error.h"
 #include "percale/fabric_presets.h"
@@ -16,10 +17,9 @@
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
-#include "scene_build.h"
-#include "scene_text.h"
-#include "start_fault.h"
-#include "whole_file.h"
+#include "run/measures.h"
+#include "run/scene_build.h"
+#include "run/start_fault.h"
 
 namespace percale::program {
 

@@ -1,4 +1,4 @@
-#include "explain.h"
+#include "format/explain.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>

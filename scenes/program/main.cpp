@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "nearest_name.h"
+#include "common/nearest_name.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"

@@ -2,8 +2,8 @@
 #include <exception>
 #include <filesystem>
 
-#include "obj_file.h"
-#include "shipped_meshes.h"
+#include "meshes/obj_file.h"
+#include "shapes/shipped_meshes.h"
 
 /// percale_make_data OUTDIR: writes the meshes of data/meshes. Exit code 0, or 2 with one message.
 int main(int count, char** arguments) {

@@ -5,7 +5,7 @@
 #include "program/commands.h"
 #include "program/common_options.h"
 #include "program/exit_codes.h"
-#include "scene_plan.h"
+#include "run/scene_plan.h"
 
 namespace percale::program {
 

@@ -1,4 +1,4 @@
-#include "replay.h"
+#include "compare/replay.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -5,19 +5,19 @@
 #include <memory>
 #include <optional>
 
-#include "expectations.h"
+#include "common/text.h"
 #include "export/checkpoint.h"
 #include "export/run_settings.h"
-#include "obj_file.h"
+#include "format/expectations.h"
+#include "meshes/obj_file.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/common_options.h"
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
-#include "scene_plan.h"
-#include "scene_text.h"
-#include "start_fault.h"
+#include "run/scene_plan.h"
+#include "run/start_fault.h"
 
 namespace percale::program {
 

@@ -1,4 +1,4 @@
-#include "stress.h"
+#include "stress/stress.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -6,16 +6,16 @@
 #include <memory>
 #include <optional>
 
-#include "compare.h"
+#include "common/text.h"
+#include "common/whole_file.h"
+#include "compare/compare.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/common_options.h"
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
-#include "scene_text.h"
-#include "stress_report.h"
-#include "whole_file.h"
+#include "stress/stress_report.h"
 
 namespace percale::program {
 

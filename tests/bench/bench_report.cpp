@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "scenes/whole_file.h"
+#include "scenes/common/whole_file.h"
 
 namespace percale::test {
 namespace {

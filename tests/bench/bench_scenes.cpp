@@ -1,7 +1,7 @@
 #include "bench_scenes.h"
 
 #include "percale/detectors.h"
-#include "scenes/mesh_import.h"
+#include "scenes/meshes/mesh_import.h"
 #include "tests/support/bench_unit.h"
 #include "tests/support/real_meshes.h"
 

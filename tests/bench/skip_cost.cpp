@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "scenes/run_scene.h"
-#include "scenes/scene_file.h"
+#include "scenes/format/scene_file.h"
+#include "scenes/run/run_scene.h"
 #include "tests/bench/bench_report.h"
 
 namespace {

@@ -12,8 +12,8 @@
 
 #include "percale/options.h"
 #include "percale/simulation.h"
+#include "scenes/common/whole_file.h"
 #include "scenes/report/plot_svg.h"
-#include "scenes/whole_file.h"
 #include "tests/bench/bench_report.h"
 #include "tests/bench/plain_rk4.h"
 #ifdef PERCALE_HAS_BULLET_SOFT_BODY

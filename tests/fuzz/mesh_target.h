@@ -4,8 +4,8 @@
 
 #include "fuzz_entry.h"
 #include "percale/error.h"
-#include "scenes/mesh_import.h"
-#include "scenes/obj_file.h"
+#include "scenes/meshes/mesh_import.h"
+#include "scenes/meshes/obj_file.h"
 #include "tests/scenes/test_folder.h"
 
 // What the targets of all mesh formats share.

@@ -3,9 +3,9 @@
 
 #include "fuzz_entry.h"
 #include "percale/error.h"
-#include "scenes/scene_build.h"
-#include "scenes/scene_file.h"
-#include "scenes/scene_plan.h"
+#include "scenes/format/scene_file.h"
+#include "scenes/run/scene_build.h"
+#include "scenes/run/scene_plan.h"
 #include "tests/scenes/test_folder.h"
 
 // A scene file from its text to the first step of its simulation.

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "scenes/compare_run.h"
+#include "scenes/compare/compare_run.h"
 
 // Scenes of which the error of a scheme is known.
 namespace percale::scenes::test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scenes/export/run_report.h"
-#include "scenes/run_scene.h"
+#include "scenes/run/run_scene.h"
 
 // Runs of scenes that are left on their way and resumed with the scene built anew.
 namespace percale::scenes::test {

@@ -6,9 +6,9 @@
 
 #include "percale/detectors.h"
 #include "percale/error.h"
-#include "scenes/mesh_import.h"
-#include "scenes/spikes.h"
-#include "scenes/timeline.h"
+#include "scenes/meshes/mesh_import.h"
+#include "scenes/run/obstacle_motion.h"
+#include "scenes/shapes/spikes.h"
 #include "tests/support/bench_meshes.h"
 #include "tests/support/collision_shapes.h"
 #include "tests/support/real_meshes.h"

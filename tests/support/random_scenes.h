@@ -4,7 +4,7 @@
 #include <string>
 
 #include "percale/report.h"
-#include "scenes/run_scene.h"
+#include "scenes/run/run_scene.h"
 
 // Scenes drawn at random: cloth, obstacle, motion, time step, each from a seed, so that any one can be made again alone.
 namespace percale::test {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "collision/detector.h"
-#include "scenes/mesh_import.h"
+#include "scenes/meshes/mesh_import.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision_backends.h"
 #include "tests/support/collision_random.h"

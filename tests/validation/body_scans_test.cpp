@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <sstream>
 
-#include "scenes/mesh_import.h"
-#include "scenes/run_scene.h"
-#include "scenes/scene_file.h"
+#include "scenes/format/scene_file.h"
+#include "scenes/meshes/mesh_import.h"
+#include "scenes/run/run_scene.h"
 #include "tests/support/catch.h"
 #include "tests/support/real_meshes.h"
 

@@ -3,10 +3,11 @@
 #include <utility>
 #include <vector>
 
-#include "scenes/doctor.h"
-#include "scenes/expectations.h"
-#include "scenes/run_scene.h"
-#include "scenes/scene_file.h"
+#include "scenes/doctor/doctor.h"
+#include "scenes/format/expectations.h"
+#include "scenes/format/scene_file.h"
+#include "scenes/run/run_scene.h"
+#include "scenes/run/step_count.h"
 #include "tests/scenes/watched_run.h"
 #include "tests/support/catch.h"
 

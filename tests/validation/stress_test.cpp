@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "scenes/stress_report.h"
+#include "scenes/stress/stress_report.h"
 #include "tests/support/catch.h"
 
 namespace percale::scenes::test {

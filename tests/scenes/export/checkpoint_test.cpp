@@ -1,8 +1,8 @@
 #include "export/checkpoint.h"
 
 #include "export/run_settings.h"
+#include "format/scene_file.h"
 #include "percale/error.h"
-#include "scene_file.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"

@@ -3,8 +3,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "format/scene_file.h"
 #include "percale/error.h"
-#include "scene_file.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"

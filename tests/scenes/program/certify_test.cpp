@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "obj_file.h"
+#include "meshes/obj_file.h"
 #include "percale/mesh.h"
 #include "tests/scenes/program/run_program.h"
 #include "tests/scenes/small_scenes.h"

@@ -1,6 +1,6 @@
 #include <fstream>
 
-#include "obj_file.h"
+#include "meshes/obj_file.h"
 #include "percale/certify.h"
 #include "percale/mesh.h"
 #include "tests/scenes/program/run_program.h"

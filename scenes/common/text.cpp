@@ -1,0 +1,54 @@
+#include "common/text.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "percale/error.h"
+
+namespace percale::scenes {
+
+std::string number_text(double value) {
+    char digits[32];
+    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+    std::string text(digits, end);
+    const std::size_t exponent = text.find('e');
+    if (exponent == std::string::npos || !std::isfinite(value)) return text;
+    // 1e+06 and 1e-06 read better as 1e6 and 1e-6
+    const std::size_t first = text.find_first_not_of("+-0", exponent + 1);
+    const std::string sign = text[exponent + 1] == '-' ? "-" : "";
+    return text.substr(0, exponent + 1) + sign + text.substr(first);
+}
+
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
+
+std::string nearness_text(double smallest_distance) {
+    if (std::isinf(smallest_distance)) return "never near";
+    char text[64];
+    std::snprintf(text, sizeof text, "smallest distance %.3g m", smallest_distance);
+    return text;
+}
+
+std::string place_text(const SourcePlace& place) {
+    if (place.line <= 0) return place.file;
+    return place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+}
+
+void fail_at(const SourcePlace& place, const std::string& what) {
+    const std::string where = place_text(place);
+    throw SceneError(where.empty() ? what : where + ": " + what);
+}
+
+std::string joined(std::span<const std::string> words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+}  // namespace percale::scenes

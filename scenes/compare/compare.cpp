@@ -1,0 +1,113 @@
+#include "compare/compare.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "percale/error.h"
+#include "percale/options.h"
+
+namespace percale::scenes {
+
+namespace {
+
+constexpr int default_steps = 4;                             // of each scheme
+constexpr double default_tolerances[] = {1e-2, 1e-3, 1e-4};  // m/s, of adaptive steps
+
+void add_default_steps(const SceneSource& source, const std::string& scheme, const CompareHooks& hooks,
+                       std::vector<Variant>& variants) {
+    const std::optional<Survivor> survivor = largest_surviving_step(source, scheme, hooks.stop_asked);
+    double step = survivor ? survivor->step : 1.0 / 60.0;
+    for (int k = 0; k < (survivor ? default_steps : 1); ++k, step *= 0.5) variants.push_back({scheme, step, 0.0});
+    if (scheme != "tr_bdf2") return;
+    for (const double tolerance : default_tolerances) variants.push_back({scheme, 0.0, tolerance});
+}
+
+/// Whether a scheme takes the scene at all.
+bool is_refused(const SceneSource& source, const std::string& scheme) {
+    Scene scene = source(std::vector<Override>{{"step.scheme", scheme}});
+    try {
+        build_scene(scene);
+    } catch (const SceneError&) {
+        return true;
+    }
+    return false;
+}
+
+std::vector<std::string> wanted_schemes(const SceneSource& source, const CompareSettings& settings) {
+    if (!settings.schemes.empty()) return settings.schemes;
+    std::vector<std::string> schemes = scheme_words();
+    std::erase_if(schemes, [&](const std::string& scheme) { return is_refused(source, scheme); });
+    return schemes;
+}
+
+std::vector<Variant> all_variants(const SceneSource& source, const CompareSettings& settings, const CompareHooks& hooks) {
+    std::vector<Variant> variants;
+    for (const std::string& scheme : wanted_schemes(source, settings)) {
+        if (settings.steps.empty() && settings.tolerances.empty()) {
+            is_refused(source, scheme) ? variants.push_back({scheme, 1.0 / 60.0, 0.0})
+                                       : add_default_steps(source, scheme, hooks, variants);
+        }
+        for (const double step : settings.steps) variants.push_back({scheme, step, 0.0});
+        for (const double tolerance : settings.tolerances) variants.push_back({scheme, 0.0, tolerance});
+    }
+    return variants;
+}
+
+double extent_of(const EndState& end) {
+    Vec3 lowest = end.positions.front(), highest = lowest;
+    for (const Vec3& x : end.positions) {
+        lowest = lowest.cwiseMin(x);
+        highest = highest.cwiseMax(x);
+    }
+    return (highest - lowest).norm();
+}
+
+ComparedRun judged(const Variant& variant, VariantRun run, const Comparison& comparison) {
+    const Reference& reference = comparison.reference;
+    ComparedRun compared{variant, std::move(run), {}};
+    if (compared.run.end != VariantEnd::finished) return compared;
+    compared.error = distances_between(compared.run.state, reference.state);
+    if (compared.error.rms <= comparison.extent) return compared;
+    compared.run.end = VariantEnd::blew_up;
+    compared.run.reason = "ended farther from the reference than the cloth is large";
+    return compared;
+}
+
+}  // namespace
+
+double Comparison::rank_of(const Distances& distances) const {
+    if (!reference.chaotic) return distances.rms;
+    return std::max({distances.mass_centre, distances.lowest, distances.stretch * extent});
+}
+
+std::vector<std::string> scheme_words() {
+    std::vector<std::string> words;
+    for (const Option<StepSettings>& option : step_options())
+        if (option.key == "scheme") words.assign(option.choices.begin(), option.choices.end());
+    std::erase(words, "auto");
+    return words;
+}
+
+Comparison compare_scene(const SceneSource& source, const CompareSettings& settings, const CompareHooks& hooks) {
+    const Scene scene = source({});
+    Comparison comparison{.title = scene.title,
+                          .duration = scene.duration,
+                          .reference = make_reference(source, settings.reference_error, hooks.stop_asked),
+                          .runs = {}};
+    comparison.extent = extent_of(comparison.reference.state);
+    if (hooks.reference_made) hooks.reference_made(comparison.reference);
+    for (const Variant& variant : all_variants(source, settings, hooks)) {
+        VariantRun run = run_variant(source, variant, hooks.stop_asked);
+        comparison.runs.push_back(judged(variant, std::move(run), comparison));
+    }
+    for (int round = 1; round < settings.repeats; ++round) {
+        for (ComparedRun& compared : comparison.runs) {
+            if (compared.run.end != VariantEnd::finished) continue;
+            const VariantRun again = run_variant(source, compared.variant, hooks.stop_asked);
+            compared.run.totals.cpu_s = std::min(compared.run.totals.cpu_s, again.totals.cpu_s);
+        }
+    }
+    return comparison;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "format/scene_file.h"
+#include "run/run_scene.h"
+
+// One run of a comparison: a scene stepped in a given way to its end, and how far two ends lie apart.
+namespace percale::scenes {
+
+/// How a scene is stepped.
+struct Variant {
+    std::string scheme = {};  // as in a scene file
+    double time_step = 0.0;   // s; 0: chosen by the scheme for `tolerance`
+    double tolerance = 0.0;   // m per second, where the time step is 0
+};
+
+/// "1/240 s", "0.003 s", "tolerance 0.001 m/s".
+std::string length_text(const Variant& variant);
+/// "rk4 at 1/3840 s", "tr_bdf2 with tolerance 0.001 m/s".
+std::string variant_text(const Variant& variant);
+
+enum class VariantEnd { finished, blew_up, failed, refused };
+const char* end_word(VariantEnd end);
+
+/// What is compared at the end.
+struct EndState {
+    std::vector<Vec3> positions = {};  // m, all cloths in turn
+    Vec3 mass_centre = Vec3::Zero();   // m
+    double energy = 0.0;               // J, total
+    double lowest = 0.0;               // m, height of the lowest vertex
+    double stretch = 0.0;              // largest (l - l0)/l0 of a mesh edge
+};
+
+/// A stop was asked for.
+class ComparisonStopped : public std::runtime_error {
+public:
+    ComparisonStopped() : std::runtime_error("stopped") {}
+};
+
+struct VariantRun {
+    VariantEnd end = VariantEnd::finished;
+    std::string reason = {};  // why, if not finished
+    EndState state = {};      // of a finished run
+    RunTotals totals = {};
+    int steps = 0;     // accepted, those that an adaptive step consists of each
+    int rejected = 0;  // tried and found too inexact, or redone as shorter ones
+};
+
+/// No frames but the first and no expectations.
+void leave_only_steps(Scene& scene);
+
+/// Steps a scene to its end without writing, measuring or judging anything. `disturbance`: every free vertex starts so far, m,
+/// from where it should, in directions that depend on its number alone. What the scheme refuses (an explicit one takes no
+/// obstacles) is an end like any other. Throws SceneError where the scene itself is wrong, ComparisonStopped after a stop.
+VariantRun run_variant(const SceneSource& source, const Variant& variant, const std::function<bool()>& stop_asked,
+                       double disturbance = 0.0);
+
+/// How far two ends lie apart.
+struct Distances {
+    double rms = std::numeric_limits<double>::quiet_NaN();          // m, root of the mean over vertices
+    double largest = std::numeric_limits<double>::quiet_NaN();      // m, of a vertex
+    double mass_centre = std::numeric_limits<double>::quiet_NaN();  // m
+    double lowest = std::numeric_limits<double>::quiet_NaN();       // m
+    double energy = std::numeric_limits<double>::quiet_NaN();       // J
+    double stretch = std::numeric_limits<double>::quiet_NaN();      // of an edge's length
+};
+
+/// The two must have equally many vertices.
+Distances distances_between(const EndState& a, const EndState& b);
+Distances scaled(const Distances& distances, double factor);
+/// The larger of each.
+Distances larger(const Distances& a, const Distances& b);
+
+}  // namespace percale::scenes

@@ -1,0 +1,63 @@
+#include "doctor/doctor.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "doctor/doctor_mesh.h"
+#include "doctor/doctor_scene.h"
+#include "meshes/mesh_import.h"
+#include "percale/error.h"
+
+namespace percale::scenes {
+namespace {
+
+void check_file(const std::string& file) {
+    std::error_code status;
+    if (!std::filesystem::exists(file, status)) throw SceneError(file + ": no such file");
+    if (!std::filesystem::is_regular_file(file, status)) throw SceneError(file + ": not a file; name scene files and mesh files");
+}
+
+std::vector<Finding> examine_mesh(const std::string& file, MeshRole role, TriangleMesh mesh) {
+    ExaminedMesh examined{.role = role, .place = file, .mesh = std::move(mesh)};
+    examined.facts = mesh_facts(examined.mesh);
+    return role == MeshRole::cloth ? examine_cloth(examined, Fabric{}) : examine_obstacle(examined);
+}
+
+std::vector<Finding> examine_mesh_file(const std::string& file, std::optional<MeshRole> asked) {
+    std::vector<Finding> found;
+    try {
+        const TriangleMesh mesh = import_mesh(file);
+        check_mesh(mesh, file, false);
+        for (const MeshRole role : {MeshRole::cloth, MeshRole::obstacle}) {
+            if (asked && *asked != role) continue;
+            const std::vector<Finding> more = examine_mesh(file, role, mesh);
+            found.insert(found.end(), more.begin(), more.end());
+        }
+    } catch (const SceneError& error) {
+        found.push_back(refusal("unreadable", error.what(), file,
+                                "export the mesh again, as OBJ, OFF, PLY or STL, with triangles and finite coordinates"));
+    }
+    return found;
+}
+
+}  // namespace
+
+long Diagnosis::count(Severity severity) const {
+    return std::count_if(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.severity == severity; });
+}
+
+bool Diagnosis::has(const std::string& kind) const {
+    return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.kind == kind; });
+}
+
+Diagnosis diagnose(const std::string& file, const DoctorSettings& settings) {
+    check_file(file);
+    Diagnosis diagnosis{.file = file,
+                        .findings = extension_of(file) == ".toml" ? examine_scene_file(file, settings.overrides)
+                                                                  : examine_mesh_file(file, settings.role)};
+    std::stable_sort(diagnosis.findings.begin(), diagnosis.findings.end(),
+                     [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+    return diagnosis;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "doctor/finding.h"
+#include "format/override.h"
+
+// What will go wrong with a scene or a mesh, found without taking a step.
+namespace percale::scenes {
+
+struct Diagnosis {
+    std::string file;
+    std::vector<Finding> findings;  // errors first
+
+    long count(Severity severity) const;
+    bool has(const std::string& kind) const;
+};
+
+struct DoctorSettings {
+    std::optional<MeshRole> role = {};     // of a mesh file; both if not said
+    std::vector<Override> overrides = {};  // of a scene file
+};
+
+/// Looks at a file: a scene if its name ends in .toml, else a mesh. What is wrong inside the file is a finding; throws SceneError
+/// only where there is no such file, or for an override that is wrong.
+Diagnosis diagnose(const std::string& file, const DoctorSettings& settings = {});
+
+}  // namespace percale::scenes

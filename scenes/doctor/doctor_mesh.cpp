@@ -1,0 +1,284 @@
+#include "doctor/doctor_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/text.h"
+#include "percale/certify.h"
+#include "percale/cleaning.h"
+#include "percale/error.h"
+
+namespace percale::scenes {
+namespace {
+
+constexpr std::size_t shown_elements = 4;
+
+std::string element_text(int element) { return std::to_string(element); }
+std::string element_text(const VertexPair& edge) { return "(" + std::to_string(edge[0]) + ", " + std::to_string(edge[1]) + ")"; }
+
+template <class Element>
+std::string first_few(const std::vector<Element>& elements) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(elements.size(), shown_elements); ++i)
+        text += (i == 0 ? "" : ", ") + element_text(elements[i]);
+    return text + (elements.size() > shown_elements ? ", ..." : "");
+}
+
+/// "1 vertex ..." or "12 vertices ..." of "vertex|vertices ...".
+std::string counted(long count, const std::string& what) {
+    const std::size_t bar = what.find('|'), end = what.find(' ', bar);
+    return std::to_string(count) + " " + (count == 1 ? what.substr(0, bar) : what.substr(bar + 1, end - bar - 1)) +
+           what.substr(end);
+}
+
+void append(int element, std::vector<int>& flat) { flat.push_back(element); }
+void append(const VertexPair& edge, std::vector<int>& flat) { flat.insert(flat.end(), edge.begin(), edge.end()); }
+
+/// Collects what is found about one mesh.
+class Findings {
+public:
+    explicit Findings(const ExaminedMesh& mesh) : mesh_(mesh) {}
+
+    void add(Severity severity, const std::string& kind, const std::string& what, const std::string& fix) {
+        const std::string prefix = mesh_.name.empty() ? "" : mesh_.name + ": ";
+        found_.push_back(
+            {.severity = severity, .kind = kind, .role = mesh_.role, .place = mesh_.place, .what = prefix + what, .fix = fix});
+    }
+
+    /// Where there are such elements; the sentence is "12 WHAT: 3, 7, 8, 9, ..." (see counted).
+    template <class Element>
+    void add_elements(Severity severity, const std::string& kind, const std::vector<Element>& elements, const std::string& what,
+                      const std::string& fix) {
+        if (elements.empty()) return;
+        const auto count = static_cast<long>(elements.size());
+        add(severity, kind, counted(count, what) + ": " + first_few(elements), fix);
+        found_.back().count = count;
+        for (std::size_t i = 0; i < std::min(elements.size(), shown_elements); ++i) append(elements[i], found_.back().elements);
+    }
+
+    std::vector<Finding> take() { return std::move(found_); }
+
+private:
+    const ExaminedMesh& mesh_;
+    std::vector<Finding> found_;
+};
+
+/// Bodies and garments are 0.1 to some 10 m large.
+void find_size(const ExaminedMesh& mesh, Findings& found) {
+    const double extent = mesh.facts.extent();
+    const std::string size = "it is " + short_number(extent) + " m large";
+    if (mesh.from_file && extent >= 50.0) {
+        const bool centimetres = extent < 500.0;
+        found.add(Severity::warning, "size", size + ", which looks like another unit than m",
+                  std::string("say unit = \"") + (centimetres ? "cm" : "mm") + "\" beside its mesh, which makes it " +
+                      short_number(extent * (centimetres ? 0.01 : 0.001)) + " m, if it is not meant so");
+    }
+    if (mesh.from_file && extent <= 2e-3) {
+        found.add(Severity::warning, "size", size + ", which looks like a unit too much or a pose.scale too small",
+                  "leave out its unit (m), or enlarge it by pose.scale = " + short_number(extent > 0.0 ? 1.0 / extent : 1.0) +
+                      ", which makes it 1 m, if it is not meant so");
+    }
+    if (mesh.facts.farthest() <= 1e4 * extent) return;
+    const Vec3 back = -0.5 * (mesh.facts.lowest + mesh.facts.highest);
+    found.add(Severity::warning, "far_from_origin",
+              size + ", but " + short_number(mesh.facts.farthest()) +
+                  " m away from the origin: rounding there, in single precision where the file format has that, spoils its shape",
+              "move it to the origin by pose.translation = [" + short_number(back.x()) + ", " + short_number(back.y()) + ", " +
+                  short_number(back.z()) + "], or in the mesh itself");
+}
+
+/// Beyond this exact tests of orientation overflow.
+bool is_beyond_tests(const ExaminedMesh& mesh, Findings& found) {
+    constexpr double largest = 1e75;
+    if (mesh.facts.farthest() <= largest) return false;
+    found.add(Severity::error, "size", "its coordinates reach " + short_number(mesh.facts.farthest()) + " m, 1e75 m at most",
+              "scale the mesh down, to m");
+    return true;
+}
+
+CrossingSearch search_crossings(const TriangleMesh& mesh) {
+    constexpr long most_pairs = 1000, tests_a_triangle = 100, least_tests = 1000000;
+    return find_crossings(mesh, most_pairs, std::max(least_tests, tests_a_triangle * static_cast<long>(mesh.triangles.size())));
+}
+
+JoinedMesh as_given(const TriangleMesh& mesh) {
+    JoinedMesh given{.mesh = mesh, .number = std::vector<int>(mesh.triangles.size())};
+    std::iota(given.number.begin(), given.number.end(), 0);
+    return given;
+}
+
+/// Of the mesh as its role sees it.
+void find_self_crossing(const JoinedMesh& joined, Severity severity, const std::string& fix, Findings& found) {
+    const CrossingSearch search = search_crossings(joined.mesh);
+    std::vector<VertexPair> pairs;
+    for (const IntersectingPair& pair : search.pairs) pairs.push_back({joined.number[pair.first], joined.number[pair.second]});
+    const std::string more = search.complete ? "" : ", at least,";
+    found.add_elements(severity, "self_crossing", pairs, "pair|pairs of its triangles" + more + " cross each other", fix);
+    if (search.complete || !pairs.empty()) return;
+    found.add(Severity::note, "crossings_unknown", "too many of its triangles lie side by side to test every pair for crossings",
+              "mesh it with triangles of more even size, such as a grid in place of a fan");
+}
+
+/// Faults for which cloth is refused.
+void find_refused_cloth(const MeshFacts& facts, Findings& found) {
+    found.add_elements(Severity::error, "unused_vertices", facts.unused_vertices,
+                       "vertex|vertices of no triangle, which would have no mass", "delete loose vertices from the mesh");
+    found.add_elements(Severity::error, "repeated_triangles", facts.repeated_triangles,
+                       "triangle|triangles with the corners of an earlier one", "delete the second of each two from the mesh");
+    found.add_elements(Severity::error, "flat_triangles", facts.flat_triangles, "triangle|triangles without area",
+                       "delete them, or merge their corners in the mesh");
+    found.add_elements(Severity::error, "crowded_edges", facts.crowded_edges,
+                       "edge|edges of three triangles or more (non-manifold)",
+                       "split the mesh along them, and sew the parts together with a [[seam]]");
+}
+
+void find_cloth_shape(const ExaminedMesh& cloth, const Fabric& fabric, Findings& found) {
+    const MeshFacts& facts = cloth.facts;
+    const bool bends = fabric.springs.bend > 0.0 && !fabric.has_moduli();
+    found.add_elements(bends ? Severity::error : Severity::warning, "folded_flat", facts.folded_flat,
+                       "pair|pairs of vertices opposite an edge at the same place, where a bending spring has no length",
+                       "unfold the mesh there, or set springs.bend = 0");
+    found.add_elements(Severity::warning, "repeated_places", facts.repeated_places,
+                       "vertex|vertices at the place of an earlier one, not joined to it: the cloth comes apart there",
+                       "merge vertices by distance in the mesh, or sew them with a [[seam]]");
+    found.add_elements(Severity::warning, "pinched_vertices", facts.pinched_vertices,
+                       "vertex|vertices by which alone pieces hang together (non-manifold)",
+                       "split the mesh at them, or join the pieces by an edge");
+    found.add_elements(Severity::note, "contrary_edges", facts.contrary_edges,
+                       "edge|edges whose two triangles are wound against each other",
+                       "make normals consistent in the mesh; forces do not need it, but viewers show one side black");
+    found.add_elements(Severity::warning, "slivers", facts.slivers,
+                       "triangle|triangles more than a hundred times as long as high, which make the cloth stiff and steps dear",
+                       "remesh the cloth with triangles of even size");
+}
+
+void find_cloth_edges(const ExaminedMesh& cloth, const Fabric& fabric, Findings& found) {
+    const MeshFacts& facts = cloth.facts;
+    const std::string shortest = short_number(facts.shortest_edge), longest = short_number(facts.longest_edge);
+    if (facts.shortest_edge > 0.0 && facts.longest_edge > 1e3 * facts.shortest_edge)
+        found.add(Severity::warning, "edge_lengths", "its edges are " + shortest + " to " + longest + " m long",
+                  "remesh it with edges of about " + short_number(facts.median_edge) + " m, its median");
+    if (facts.parts > 1)
+        found.add(Severity::note, "parts", "it consists of " + std::to_string(facts.parts) + " pieces that nothing joins",
+                  "sew them with a [[seam]] if they belong together");
+    const std::string thickness = "thickness " + short_number(fabric.thickness) + " m is ";
+    if (fabric.thickness > facts.median_edge)
+        found.add(Severity::warning, "thick_for_edges",
+                  thickness + "more than its median edge, " + short_number(facts.median_edge) +
+                      " m: contacts of neighbours get into each other's way",
+                  "set thickness = " + short_number(0.5 * facts.median_edge) + " or below in its fabric, or take longer edges");
+    else if (fabric.self_contact && fabric.thickness > facts.shortest_edge)
+        found.add(Severity::note, "thick_for_edges",
+                  thickness + "more than its shortest edge, " + shortest + " m: with self_contact such places keep less",
+                  "set thickness = " + shortest + " or below in its fabric for an even gap");
+    if (fabric.thickness < 1e-5 * facts.farthest())
+        found.add(Severity::warning, "thin_for_place",
+                  thickness + "too little " + short_number(facts.farthest()) + " m from the origin: gaps of a thousandth of it" +
+                      " drown in rounding",
+                  "move the scene to the origin, or set thickness = " + short_number(1e-5 * facts.farthest()) + " or above");
+}
+
+/// What cleaning leaves out before the first step, silently as far as the run is concerned.
+void find_cleaning(const ExaminedMesh& obstacle, Findings& found) {
+    const CleaningReport report = cleaning_report(obstacle.mesh);
+    const auto note = [&](const std::string& kind, long count, const std::string& what, const std::string& fix) {
+        if (count > 0) found.add(Severity::note, kind, counted(count, what), fix);
+    };
+    note("repeated_places", report.merged_vertices, "vertex|vertices at the place of others, merged with them",
+         "nothing has to be done; merging them in the mesh makes it smaller");
+    note("flat_triangles", report.degenerate_triangles, "triangle|triangles without area, left out",
+         "nothing has to be done; deleting them from the mesh makes it smaller");
+    note("repeated_triangles", report.duplicate_triangles, "triangle|triangles with the corners of others, left out",
+         "nothing has to be done; deleting them from the mesh makes it smaller");
+    note("unused_vertices", report.unreferenced_vertices, "vertex|vertices of no triangle, left out",
+         "nothing has to be done; deleting them from the mesh makes it smaller");
+    note("internal_triangles", report.internal_triangles, "triangle|triangles inside it, where parts overlap, left out",
+         "nothing has to be done; uniting the parts in the mesh makes it smaller");
+}
+
+void find_obstacle_surface(const MeshFacts& surface, Findings& found) {
+    const std::string open = ", so it has no inside (it holds cloth on both sides, and deepest_penetration is not measured)";
+    found.add_elements(Severity::warning, "crowded_edges", surface.crowded_edges,
+                       "edge|edges of three triangles or more (non-manifold)" + open,
+                       "split the mesh there, or delete inner walls, if an inside is meant");
+    found.add_elements(Severity::warning, "contrary_edges", surface.contrary_edges,
+                       "edge|edges whose two triangles are wound against each other" + open,
+                       "make normals consistent in the mesh, all outwards");
+    found.add_elements(Severity::note, "open_edges", surface.open_edges, "edge|edges of one triangle (open boundary)" + open,
+                       "close the holes of the mesh if an inside is meant");
+    found.add_elements(Severity::note, "pinched_vertices", surface.pinched_vertices,
+                       "vertex|vertices at which parts of it meet in a point (non-manifold)",
+                       "nothing has to be done; splitting them makes the mesh cleaner");
+    found.add_elements(Severity::warning, "inverted_parts", surface.inverted_parts,
+                       "part|parts turned inside out, with the lowest vertex",
+                       "flip the normals in the mesh; cloth is kept outside all the same, at a higher cost");
+    if (surface.parts > 1)
+        found.add(Severity::note, "parts", "it consists of " + std::to_string(surface.parts) + " pieces",
+                  "nothing has to be done unless it was meant to be one");
+}
+
+}  // namespace
+
+std::vector<Finding> examine_cloth(const ExaminedMesh& cloth, const Fabric& fabric) {
+    Findings found(cloth);
+    find_size(cloth, found);
+    find_cloth_edges(cloth, fabric, found);
+    if (!cloth.from_file || is_beyond_tests(cloth, found)) return found.take();
+    find_refused_cloth(cloth.facts, found);
+    find_cloth_shape(cloth, fabric, found);
+    find_self_crossing(as_given(cloth.mesh), fabric.self_contact ? Severity::error : Severity::warning,
+                       fabric.self_contact ? "move the layers apart in the mesh; self_contact cannot start crossed"
+                                           : "move the layers apart in the mesh; self_contact = true would be refused",
+                       found);
+    return found.take();
+}
+
+std::vector<Finding> examine_obstacle(const ExaminedMesh& obstacle) {
+    Findings found(obstacle);
+    find_size(obstacle, found);
+    if (!obstacle.from_file || is_beyond_tests(obstacle, found)) return found.take();
+    try {
+        find_cleaning(obstacle, found);
+    } catch (const SceneError& error) {
+        found.add(Severity::error, "no_surface", error.what(), "give it triangles with an area");
+        return found.take();
+    }
+    const JoinedMesh joined = joined_by_place(obstacle.mesh);
+    const MeshFacts surface = mesh_facts(joined.mesh);
+    find_obstacle_surface(surface, found);
+    find_self_crossing(joined, surface.watertight() ? Severity::note : Severity::warning,
+                       "unite the parts in the mesh (a Boolean union) if cloth can come between them", found);
+    return found.take();
+}
+
+std::vector<Finding> examine_pair(const ExaminedMesh& cloth, const ExaminedMesh& obstacle) {
+    Findings found(cloth);
+    const double size = cloth.facts.extent(), other = obstacle.facts.extent(), ratio = std::max(size / other, other / size);
+    if ((cloth.from_file || obstacle.from_file) && ratio > 50.0) {
+        const bool centimetres = ratio < 500.0;
+        const std::string larger = size > other ? "it" : obstacle.name, smaller = size > other ? obstacle.name : "it";
+        found.add(Severity::warning, "size_ratio",
+                  "it is " + short_number(size) + " m large and " + obstacle.name + " " + short_number(other) +
+                      " m: they look like meshes in different units",
+                  "say unit = \"" + std::string(centimetres ? "cm" : "mm") + "\" for " + larger + ", or leave out the unit of " +
+                      smaller + ", if it is not meant so");
+        return found.take();
+    }
+    std::array<double, 3> sides;
+    for (int axis = 0; axis < 3; ++axis) sides[axis] = obstacle.facts.highest[axis] - obstacle.facts.lowest[axis];
+    std::sort(sides.begin(), sides.end());
+    const double edge = cloth.facts.median_edge;
+    if (edge > 0.5 * sides[1])
+        found.add(Severity::warning, "coarse_cloth",
+                  "its edges of " + short_number(edge) + " m are too long to lie around " + obstacle.name + ", " +
+                      short_number(sides[1]) + " m across",
+                  "mesh the cloth with edges of " + short_number(0.125 * sides[1]) + " m or less");
+    else if (obstacle.from_file && edge > 10.0 * obstacle.facts.median_edge)
+        found.add(Severity::note, "coarse_cloth",
+                  "its edges of " + short_number(edge) + " m are more than ten times those of " + obstacle.name + ", " +
+                      short_number(obstacle.facts.median_edge) + " m: detail of the obstacle will not show in the cloth",
+                  "mesh the cloth more finely, or the obstacle more coarsely, which is cheaper");
+    return found.take();
+}
+
+}  // namespace percale::scenes

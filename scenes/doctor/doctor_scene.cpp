@@ -1,0 +1,322 @@
+#include "doctor/doctor_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/text.h"
+#include "doctor/doctor_mesh.h"
+#include "format/scene_file.h"
+#include "frames/frame_formats.h"
+#include "percale/error.h"
+#include "run/motion_parts.h"
+#include "run/obstacle_motion.h"
+#include "run/run_scene.h"
+#include "run/scene_plan.h"
+#include "run/start_fault.h"
+#include "run/step_count.h"
+
+namespace percale::scenes {
+namespace {
+
+constexpr const char* see_keys = "correct it there; `percale explain` lists every key with unit, range and default";
+
+bool has_errors(std::span<const Finding> found) {
+    return std::any_of(found.begin(), found.end(), [](const Finding& finding) { return finding.severity == Severity::error; });
+}
+
+/// The meshes of a scene that can be read, each with its number there.
+struct Meshes {
+    std::vector<ExaminedMesh> cloths, obstacles;
+    std::vector<const ClothSpec*> cloth_specs;
+    std::vector<const ObstacleSpec*> obstacle_specs;
+};
+
+template <class Spec, class Read>
+std::optional<ExaminedMesh> read_mesh(const Spec& spec, MeshRole role, std::vector<Finding>& found, Read read) {
+    ExaminedMesh mesh{.role = role,
+                      .name = std::string(role_word(role)) + " '" + spec.name + "'",
+                      .place = place_text(spec.place),
+                      .from_file = !spec.mesh.empty()};
+    try {
+        mesh.mesh = read();
+        check_mesh(mesh.mesh, mesh.name, false);
+    } catch (const SceneError& error) {
+        found.push_back({.severity = Severity::error,
+                         .kind = "unreadable",
+                         .role = role,
+                         .place = mesh.place,
+                         .what = mesh.name + ": " + error.what(),
+                         .fix = "name a mesh file that `percale doctor FILE` finds readable"});
+        return std::nullopt;
+    }
+    mesh.facts = mesh_facts(mesh.mesh);
+    return mesh;
+}
+
+Meshes read_meshes(const Scene& scene, std::vector<Finding>& found) {
+    Meshes meshes;
+    for (const ClothSpec& cloth : scene.cloths) {
+        auto mesh = read_mesh(cloth, MeshRole::cloth, found, [&] { return rest_mesh(scene, cloth); });
+        if (!mesh) continue;
+        meshes.cloths.push_back(std::move(*mesh));
+        meshes.cloth_specs.push_back(&cloth);
+    }
+    for (const ObstacleSpec& obstacle : scene.obstacles) {
+        auto mesh = read_mesh(obstacle, MeshRole::obstacle, found, [&] {
+            TriangleMesh placed = obstacle_mesh(scene, obstacle);
+            placed.vertices = transform(obstacle_pose_at(obstacle, 0.0), std::span<const Vec3>(placed.vertices));
+            return placed;
+        });
+        if (!mesh) continue;
+        meshes.obstacles.push_back(std::move(*mesh));
+        meshes.obstacle_specs.push_back(&obstacle);
+    }
+    return meshes;
+}
+
+void append(std::vector<Finding> more, std::vector<Finding>& found) {
+    std::move(more.begin(), more.end(), std::back_inserter(found));
+}
+
+void examine_meshes(const Scene& scene, const Meshes& meshes, std::vector<Finding>& found) {
+    for (std::size_t i = 0; i < meshes.cloths.size(); ++i) {
+        const auto fabric = scene.fabrics.find(meshes.cloth_specs[i]->fabric);
+        append(examine_cloth(meshes.cloths[i], fabric == scene.fabrics.end() ? Fabric{} : fabric->second), found);
+    }
+    for (const ExaminedMesh& obstacle : meshes.obstacles) append(examine_obstacle(obstacle), found);
+    for (const ExaminedMesh& cloth : meshes.cloths) {
+        for (std::size_t k = 0; k < meshes.obstacles.size(); ++k) {
+            const bool plane = std::holds_alternative<PlaneShape>(meshes.obstacle_specs[k]->shape);
+            if (!plane) append(examine_pair(cloth, meshes.obstacles[k]), found);
+        }
+    }
+}
+
+void find_unused_fabrics(const Scene& scene, std::vector<Finding>& found) {
+    for (const auto& entry : scene.fabrics) {
+        const std::string& name = entry.first;
+        if (std::any_of(scene.cloths.begin(), scene.cloths.end(), [&](const ClothSpec& cloth) { return cloth.fabric == name; }))
+            continue;
+        found.push_back({.severity = Severity::note,
+                         .kind = "unused_fabric",
+                         .place = scene.file,
+                         .what = "no cloth is made of fabric '" + name + "'",
+                         .fix = "remove [fabric." + name + "], or say fabric = \"" + name + "\" at a cloth"});
+    }
+}
+
+bool pins_nothing(const ClothSpec& cloth) {
+    const auto* indices = std::get_if<VertexIndices>(&cloth.pin);
+    return indices != nullptr && indices->vertices.empty();
+}
+
+bool pulls(const Scene& scene) {
+    return scene.step.gravity != Vec3::Zero() ||
+           std::any_of(scene.events.begin(), scene.events.end(), [](const EventSpec& event) {
+               const auto* gravity = std::get_if<GravityEvent>(&event.what);
+               return gravity != nullptr && gravity->gravity != Vec3::Zero();
+           });
+}
+
+void find_free_fall(const Scene& scene, std::vector<Finding>& found) {
+    const bool pinned = std::any_of(scene.events.begin(), scene.events.end(),
+                                    [](const EventSpec& event) { return std::holds_alternative<PinEvent>(event.what); });
+    if (!scene.obstacles.empty() || !scene.seams.empty() || pinned || !pulls(scene)) return;
+    for (const ClothSpec& cloth : scene.cloths) {
+        if (!pins_nothing(cloth)) continue;
+        found.push_back({.severity = Severity::warning,
+                         .kind = "free_fall",
+                         .place = place_text(cloth.place),
+                         .what = "cloth '" + cloth.name + "' has no pin and the scene no obstacle: it falls for ever",
+                         .fix = "pin vertices (pin = [0]), add an [[obstacle]], or set gravity = [0, 0, 0]"});
+    }
+}
+
+/// Why a measure of [expect] says nothing in this scene, and what does; two empty texts where it does.
+std::pair<std::string, std::string> idle_measure(const Scene& scene, const Meshes& meshes, const std::string& measure) {
+    const auto closed = [](const ExaminedMesh& obstacle) { return mesh_facts(joined_by_place(obstacle.mesh).mesh).watertight(); };
+    const bool contact = measure == "intersections" || measure == "smallest_distance";
+    if (contact && !scene.has_contact())
+        return {"nothing can meet: there is no obstacle and no fabric with self_contact", "add an [[obstacle]] or remove it"};
+    const bool inside = std::any_of(meshes.obstacles.begin(), meshes.obstacles.end(), closed);
+    if (measure == "deepest_penetration" && !inside)
+        return {
+            "no obstacle is watertight, so it is 0 whatever happens",
+            "expect intersections = 0 instead, or close the mesh (`percale doctor FILE --as obstacle` says where it is open)"};
+    const bool of_steps = measure == "largest_strain" || measure == "energy_gain";
+    if (of_steps && scene.step.measure == StepMeasures::none)
+        return {"steps measure nothing, so it is not known and fails", "set step.measure = \"all\""};
+    return {};
+}
+
+void find_idle_expectations(const Scene& scene, const Meshes& meshes, std::vector<Finding>& found) {
+    for (const Expectation& expectation : scene.expectations) {
+        const auto [why, fix] = idle_measure(scene, meshes, expectation.measure);
+        if (why.empty()) continue;
+        found.push_back({.severity = Severity::warning,
+                         .kind = "idle_expectation",
+                         .place = place_text(expectation.place),
+                         .what = "expect." + expectation.measure + " can never be measured: " + why,
+                         .fix = fix});
+    }
+}
+
+/// Largest number of parts that a step asks for: turns of 15 degrees, or four thicknesses of still cloth.
+double most_parts(const Scene& scene, const ObstacleSpec& obstacle) {
+    constexpr double turn = 0.2617993877991494;  // pi / 12
+    double thickness = 1.0;
+    for (const ClothSpec& cloth : scene.cloths) {
+        const auto fabric = scene.fabrics.find(cloth.fabric);
+        if (fabric != scene.fabrics.end()) thickness = std::min(thickness, fabric->second.thickness);
+    }
+    const double dt = scene.step.time_step;
+    std::vector<double> starts = {0.0, obstacle.spin ? obstacle.spin->from : 0.0};
+    for (std::size_t i = 1; i < obstacle.motion.size(); ++i)
+        starts.push_back(
+            std::max(obstacle.motion[i - 1].time, 0.5 * (obstacle.motion[i - 1].time + obstacle.motion[i].time - dt)));
+    double parts = 1.0;
+    for (const double start : starts) {
+        if (start >= scene.duration) continue;
+        const MotionAmount amount = motion_between(obstacle, start, start + dt);
+        parts = std::max({parts, amount.angle / turn, amount.path / (4.0 * thickness)});
+    }
+    return std::ceil(parts - 1e-9);
+}
+
+void find_fast_motion(const Scene& scene, std::vector<Finding>& found) {
+    constexpr double dear = 100.0;
+    for (const ObstacleSpec& obstacle : scene.obstacles) {
+        const double parts = most_parts(scene, obstacle);
+        if (parts <= 1.0) continue;
+        found.push_back({.severity = parts > dear ? Severity::warning : Severity::note,
+                         .kind = "fast_obstacle",
+                         .place = place_text(obstacle.place),
+                         .what = "obstacle '" + obstacle.name + "' moves so fast that near cloth a step is made in up to " +
+                                 short_number(parts) + " parts",
+                         .fix = "slow its motion or spin down, or take step.time_step = " +
+                                short_number(scene.step.time_step / parts) + " where every step is to be one"});
+    }
+}
+
+/// A warning of the plan says what and, behind a semicolon, what to do.
+Finding plan_warning(const Scene& scene, const ScenePlan& plan, const std::string& warning) {
+    const std::size_t semicolon = warning.rfind("; ");
+    Finding finding{.severity = Severity::warning,
+                    .kind = "scheme",
+                    .place = place_text(scene.scheme_place),
+                    .what = warning.substr(0, semicolon)};
+    if (semicolon != std::string::npos) finding.fix = warning.substr(semicolon + 2);
+    const bool flies_apart =
+        plan.stable_step > 0.0 && plan.stable_step < scene.step.time_step && scene.step.scheme == plan.scheme;
+    if (!flies_apart) return finding;
+    finding.severity = Severity::error;
+    finding.kind = "unstable_step";
+    finding.fix =
+        "set step.time_step = " + short_number(0.8 * plan.stable_step) + " or below, or step.scheme = \"backward_euler\"";
+    return finding;
+}
+
+void find_start_moves(const BuiltScene& built, std::vector<Finding>& found) {
+    for (const StartMove& move : built.simulation.start_repair()) {
+        const ClothSpec& cloth = built.scene.cloths[static_cast<std::size_t>(move.cloth)];
+        const bool far = move.largest_move > 2.0 * built.scene.fabrics.at(cloth.fabric).thickness;
+        found.push_back({.severity = far ? Severity::warning : Severity::note,
+                         .kind = "start_moved",
+                         .place = place_text(cloth.place),
+                         .what = start_move_text(move),
+                         .fix = "move it there by pose.translation, or set step.start = \"refuse\" to have it refused"});
+    }
+}
+
+std::string duration_text(double seconds) {
+    return seconds < 2.0 * 86400.0 ? short_number(seconds / 3600.0) + " hours" : short_number(seconds / 86400.0) + " days";
+}
+
+void examine_built(const Scene& scene, std::vector<Finding>& found) {
+    const BuiltScene built = build_scene(scene);
+    read_reference(built);
+    const ScenePlan plan = plan_of(built);
+    for (const std::string& warning : plan.warnings) found.push_back(plan_warning(scene, plan, warning));
+    find_start_moves(built, found);
+    append(examine_cost(built, plan), found);
+}
+
+void try_to_build(const Scene& scene, std::vector<Finding>& found) {
+    try {
+        examine_built(scene, found);
+    } catch (const StartRefused& error) {
+        found.push_back(
+            refusal("start", error.what(), scene.file,
+                    "move what is named apart by pose.translation, or in the mesh; `percale run` leaves the triangles "
+                    "concerned in OUTPUT_start.obj"));
+    } catch (const SceneError& error) {
+        found.push_back(refusal("refused", error.what(), scene.file, see_keys));
+    }
+}
+
+Finding not_looked_at(const std::string& file, const std::string& parts) {
+    return {.severity = Severity::note,
+            .kind = "not_built",
+            .place = file,
+            .what = parts + " were not looked at, because of the errors",
+            .fix = "mend these and run `percale doctor` once more"};
+}
+
+std::vector<Finding> examine_scene(const Scene& scene) {
+    std::vector<Finding> found;
+    const Meshes meshes = read_meshes(scene, found);
+    examine_meshes(scene, meshes, found);
+    find_unused_fabrics(scene, found);
+    find_free_fall(scene, found);
+    find_idle_expectations(scene, meshes, found);
+    find_fast_motion(scene, found);
+    if (!has_errors(found)) {
+        try_to_build(scene, found);
+    } else {
+        found.push_back(not_looked_at(scene.file, "pinned vertices, events, start, scheme and cost"));
+    }
+    return found;
+}
+
+}  // namespace
+
+std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan) {
+    std::vector<Finding> found;
+    constexpr double seconds_a_spring = 5e-9, much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
+    constexpr double bytes_a_vertex = 60.0, bytes_a_triangle = 20.0;
+    const Scene& scene = built.scene;
+    const auto warn = [&](const std::string& kind, const std::string& what, const std::string& fix) {
+        found.push_back({.severity = Severity::warning, .kind = kind, .place = scene.file, .what = what, .fix = fix});
+    };
+    const double steps = static_cast<double>(count_steps(scene.duration, scene.step.time_step).steps);
+    const double springs = plan.springs.total() + plan.springs.triangle;
+    const double seconds = steps * plan.evaluations_a_step * springs * seconds_a_spring;
+    if (seconds > much_time)
+        warn("long_run", short_number(steps) + " steps will take about " + duration_text(seconds) + ", without contact",
+             "shorten duration, take a larger step.time_step, or fewer vertices");
+    if (plan.memory_bytes > much_memory)
+        warn("much_memory", "it will take about " + short_number(1e-9 * plan.memory_bytes) + " GB of memory",
+             "take fewer vertices (grid.vertices) or simpler obstacle meshes");
+    double frame = 0.0;
+    for (const TriangleMesh& mesh : built.cloth_meshes)
+        frame += bytes_a_vertex * static_cast<double>(mesh.vertices.size()) +
+                 bytes_a_triangle * static_cast<double>(mesh.triangles.size());
+    const double disk = scene.output.frames == no_frames ? 0.0 : frame * scene.duration * scene.output.fps;
+    if (disk > much_disk)
+        warn("much_output", "its frames will take about " + short_number(1e-9 * disk) + " GB on disk",
+             "lower output.fps, or set output.frames = \"none\"");
+    return found;
+}
+
+std::vector<Finding> examine_scene_file(const std::string& file, std::span<const Override> overrides) {
+    std::vector<Finding> found;
+    for (const std::string& message : scene_faults(file, overrides)) {
+        if (message.starts_with("--")) throw SceneError(message);  // an override, which is not the file's fault
+        found.push_back(refusal("refused", message, file, see_keys));
+    }
+    if (found.empty()) return examine_scene(load_scene(file, overrides));
+    found.push_back(not_looked_at(file, "what tables say together, names, meshes, start, scheme and cost"));
+    return found;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,87 @@
+#include "format/expectations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "common/text.h"
+
+namespace percale::scenes {
+namespace {
+
+const MeasureDescription measure_list[] = {
+    {"intersections", "",
+     "Intersecting (not merely touching) triangle pairs of cloth and obstacles, and of cloth with self_contact, summed over all "
+     "output frames."},
+    {"deepest_penetration", "m",
+     "Largest depth of a cloth vertex inside a watertight obstacle over all output frames; 0 if none."},
+    {"smallest_distance", "m",
+     "Smallest distance between cloth and obstacles, or in a contact between cloths, over all steps; infinite if none was near."},
+    {"largest_strain", "", "Largest (l - l0)/l0 of a structural spring over all steps."},
+    {"speed_at_end", "m/s", "Largest speed of a vertex in the last step."},
+    {"rms_speed_at_end", "m/s", "Root of the mean squared speed of all vertices in the last step."},
+    {"energy_gain", "J", "Largest rise of the total energy in one step beyond the work of pins and obstacles."},
+    {"lowest_vertex", "m", "Height of the lowest cloth vertex at the end."},
+};
+
+// Six digits, or all of them where six would contradict the verdict.
+std::string value_text(const Expectation& expectation, double value) {
+    if (std::isinf(value)) return value > 0.0 ? "infinite" : "minus infinite";
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    const bool same_verdict = within(expectation, std::strtod(text, nullptr)) == within(expectation, value);
+    return same_verdict ? text : number_text(value);
+}
+
+ExpectationResult judged(const Expectation& expectation, const std::map<std::string, double>& measures) {
+    ExpectationResult result{.expectation = expectation, .value = {}, .passed = false, .text = {}};
+    const auto found = measures.find(expectation.measure);
+    if (found != measures.end()) result.value = found->second;
+    result.passed = result.value && within(expectation, *result.value);
+    const std::string file = expectation.file.empty() ? "" : " " + expectation.file;
+    const std::string value = result.value ? value_text(expectation, *result.value) : "not measured";
+    result.text = expectation.measure + file + " " + value + ", expected " + limit_text(expectation) +
+                  (result.passed ? ": passed" : ": failed");
+    return result;
+}
+
+}  // namespace
+
+std::span<const MeasureDescription> measure_descriptions() { return measure_list; }
+
+std::vector<Expectation> with_every_step(std::vector<Expectation> expectations) {
+    for (const char* measure : {"intersections_at_every_step", "deepest_penetration_at_every_step"}) {
+        Expectation& none = expectations.emplace_back();
+        none.measure = measure;
+    }
+    return expectations;
+}
+
+std::string limit_text(const Expectation& expectation) {
+    const std::string lowest = number_text(expectation.lowest), highest = number_text(expectation.highest);
+    if (expectation.lowest == expectation.highest) return "= " + lowest;
+    if (std::isinf(expectation.lowest)) return (expectation.highest_included ? "<= " : "< ") + highest;
+    if (std::isinf(expectation.highest)) return (expectation.lowest_included ? ">= " : "> ") + lowest;
+    return lowest + " ... " + highest;
+}
+
+bool within(const Expectation& expectation, double value) {
+    const bool high_enough = expectation.lowest_included ? value >= expectation.lowest : value > expectation.lowest;
+    const bool low_enough = expectation.highest_included ? value <= expectation.highest : value < expectation.highest;
+    return high_enough && low_enough;
+}
+
+bool read_step_measures(std::span<const Expectation> expectations) {
+    return std::any_of(expectations.begin(), expectations.end(), [](const Expectation& expectation) {
+        return expectation.measure == "largest_strain" || expectation.measure == "energy_gain";
+    });
+}
+
+std::vector<ExpectationResult> judge(std::span<const Expectation> expectations, const std::map<std::string, double>& measures) {
+    std::vector<ExpectationResult> results;
+    for (const Expectation& expectation : expectations) results.push_back(judged(expectation, measures));
+    return results;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,174 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "common/source_place.h"
+#include "percale/fabric.h"
+#include "percale/mesh.h"
+#include "percale/settings.h"
+
+// What a scene file says, as plain data: nothing is read from disk or checked against meshes here.
+namespace percale::scenes {
+
+struct GridSpec {
+    std::array<double, 2> size = {1.0, 1.0};  // m
+    std::array<int, 2> vertices = {2, 2};     // columns, rows
+};
+
+/// Vertices of one cloth: by index, inside a box given in fractions of the rest shape's bounding box, or the whole boundary.
+struct VertexIndices {
+    std::vector<int> vertices;
+};
+struct VertexBox {
+    Vec3 lowest = Vec3::Zero(), highest = Vec3::Ones();
+};
+struct VertexBoundary {};
+using VertexSelection = std::variant<VertexIndices, VertexBox, VertexBoundary>;
+
+struct ClothSpec {
+    std::string name;
+    std::string fabric;
+    std::optional<GridSpec> grid;  // exactly one of grid and mesh
+    std::string mesh;              // path relative to the scene file
+    double unit = 1.0;             // m per unit of the mesh file
+    Pose pose;
+    VertexSelection pin = VertexIndices{};
+    SourcePlace pin_place;  // of `pin`; of the cloth where that is not said
+    SourcePlace place;
+};
+
+struct SphereShape {
+    double radius = 0.0;
+};
+struct BoxShape {
+    Vec3 size = Vec3::Zero();
+};
+struct CylinderShape {
+    double radius = 0.0, height = 0.0;
+};
+struct CapsuleShape {
+    double radius = 0.0, height = 0.0;
+};
+struct PlaneShape {
+    double half_size = 10.0;
+};
+using Shape = std::variant<std::monostate, SphereShape, BoxShape, CylinderShape, CapsuleShape, PlaneShape>;
+
+/// One keyframe; what it does not say stays as the previous one (the first: as the pose) has it.
+struct Keyframe {
+    double time = 0.0;  // s
+    std::optional<Vec3> translation;
+    std::optional<Rotation> rotation;
+};
+
+struct Spin {
+    Vec3 axis = Vec3::UnitY();
+    double turns_per_s = 0.0;
+    double from = 0.0;  // s
+};
+
+struct ObstacleSpec {
+    std::string name;
+    std::string mesh;  // exactly one of mesh and shape
+    Shape shape;
+    double unit = 1.0;
+    double friction = 0.3;
+    Pose pose;
+    std::vector<Keyframe> motion;  // ascending times
+    std::optional<Spin> spin;
+    SourcePlace place;
+};
+
+/// Pairs of vertices sewn together; closing begins with the scene.
+struct SeamSpec {
+    std::array<std::string, 2> cloths;
+    std::vector<std::array<int, 2>> vertices;  // of the first and of the second cloth
+    double over = 1.0;                         // s
+    double stiffness = 1000.0;                 // N/m
+    SourcePlace place;
+};
+
+struct PinEvent {
+    std::string cloth;
+    VertexSelection vertices;
+};
+struct UnpinEvent {
+    std::string cloth;
+    VertexSelection vertices;
+};
+struct MoveEvent {
+    std::string cloth;
+    VertexSelection vertices;
+    Vec3 to = Vec3::Zero();  // m, displacement
+    double over = 0.0;       // s, > 0
+};
+struct GravityEvent {
+    Vec3 gravity = Vec3::Zero();
+};
+struct WindEvent {
+    Vec3 wind = Vec3::Zero();  // m/s
+};
+struct EventSpec {
+    double time = 0.0;  // s
+    std::variant<PinEvent, UnpinEvent, MoveEvent, GravityEvent, WindEvent> what;
+    SourcePlace place;
+};
+
+/// One line of [expect]: the measure must lie in [lowest, highest]; `matches` carries a file, too.
+struct Expectation {
+    std::string measure;
+    double lowest = 0.0, highest = 0.0;
+    bool lowest_included = true, highest_included = true;
+    std::string file;  // matches: path relative to the scene file
+    SourcePlace place;
+};
+
+struct OutputSpec {
+    std::string frames = "obj";  // a word of frame_words()
+    double fps = 30.0;
+};
+
+enum class Detector { fcl, bullet, brute_force, none };
+/// How a scene file writes each Detector, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 4> detector_words = {"fcl", "bullet", "brute_force", "none"};
+inline constexpr std::string_view word_of(Detector detector) { return detector_words[static_cast<std::size_t>(detector)]; }
+
+struct Scene {
+    std::string file;  // as given; "" for a scene made in memory
+    std::string title;
+    double duration = 1.0;                               // s
+    StepSettings step{.measure = StepMeasures::ledger};  // gravity included; a run reports what became of energy
+    SourcePlace scheme_place;                            // of step.scheme; of the whole file where that is not said
+    Detector detector = Detector::fcl;
+    std::map<std::string, Fabric> fabrics;
+    std::set<std::string> preset_moduli;  // names of fabrics whose stretch and shear stiffness are those of their preset
+    std::vector<ClothSpec> cloths;
+    std::vector<ObstacleSpec> obstacles;
+    std::vector<SeamSpec> seams;
+    std::vector<EventSpec> events;  // ascending times
+    std::vector<Expectation> expectations;
+    OutputSpec output;
+
+    /// Whether this cloth meets itself and other such cloth.
+    bool meets_cloth(const ClothSpec& cloth) const {
+        const auto found = fabrics.find(cloth.fabric);
+        return found != fabrics.end() && found->second.self_contact;
+    }
+    /// The first cloth that does; null: none.
+    const ClothSpec* cloth_that_meets_cloth() const {
+        for (const ClothSpec& cloth : cloths)
+            if (meets_cloth(cloth)) return &cloth;
+        return nullptr;
+    }
+    /// Whether anything can come into contact at all.
+    bool has_contact() const { return !obstacles.empty() || cloth_that_meets_cloth() != nullptr; }
+};
+
+}  // namespace percale::scenes

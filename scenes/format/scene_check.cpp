@@ -1,0 +1,226 @@
+#include "format/scene_check.h"
+
+#include <cmath>
+
+#include "common/nearest_name.h"
+#include "common/text.h"
+#include "format/lacking.h"
+#include "format/scene_keys.h"
+
+namespace percale::scenes {
+namespace {
+
+/// Which table or value is looked at: by its path in scene_keys(), and as `--set` would write it.
+struct Spot {
+    std::string path;
+    std::string shown;
+
+    Spot inside(const std::string& key) const {
+        return {path.empty() ? key : path + "." + key, shown.empty() ? key : shown + "." + key};
+    }
+};
+
+[[noreturn]] void fail_kind(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    const std::string unit = key.unit.empty() ? "" : " (" + key.unit + ")";
+    fail_at(node.place, shown + " must be " + kind_text(key) + unit + ", not " + described(node));
+}
+
+void check_number(const TomlNode& node, const SceneKey& key, const std::string& shown, bool whole = false) {
+    if (!node.is_number() || (whole && node.kind != TomlKind::integer)) fail_kind(node, key, shown);
+    const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+    const std::string value = shown + " = " + number_text(node.number) + unit;
+    if (!std::isfinite(node.number)) fail_at(node.place, value + " is not finite");
+    if (node.number < key.lowest || node.number > key.highest)
+        fail_at(node.place, value + " is out of range; allowed: " + range_text(key));
+}
+
+void check_numbers(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind != TomlKind::list || static_cast<int>(node.items.size()) != key.count) fail_kind(node, key, shown);
+    for (std::size_t i = 0; i < node.items.size(); ++i)
+        check_number(node.items[i], key, shown + "[" + std::to_string(i) + "]", key.kind == KeyKind::integers);
+}
+
+void check_word(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind != TomlKind::text) fail_kind(node, key, shown);
+    for (const std::string& choice : key.choices)
+        if (node.text == choice) return;
+    fail_at(node.place, shown + " has no choice '" + node.text + "'" + suggestion(node.text, key.choices));
+}
+
+void check_number_or_auto(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind == TomlKind::text && node.text == "auto") return;
+    check_number(node, key, shown);
+}
+
+void check_box(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind != TomlKind::list || node.items.size() != 2) fail_kind(node, key, shown);
+    SceneKey corner = key;
+    corner.kind = KeyKind::numbers;
+    corner.count = 3;
+    for (std::size_t i = 0; i < 2; ++i) check_numbers(node.items[i], corner, shown + "[" + std::to_string(i) + "]");
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double lowest = node.items[0].items[axis].number, highest = node.items[1].items[axis].number;
+        if (lowest > highest)
+            fail_at(node.place, shown + ": the first corner must not lie above the second; on axis " + std::to_string(axis) +
+                                    " " + number_text(lowest) + " > " + number_text(highest));
+    }
+}
+
+void check_table(const TomlNode& table, const Spot& spot, FaultList& faults);
+
+void check_vertices(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
+    if (node.kind == TomlKind::text && node.text == "boundary") return;
+    if (node.kind == TomlKind::table && !node.entries.empty()) return check_table(node, spot, faults);
+    if (node.kind != TomlKind::list) fail_kind(node, key, spot.shown);
+    SceneKey index = key;
+    index.kind = KeyKind::integer;
+    index.lowest = 0;
+    index.highest = 2147483647;
+    for (const TomlNode& item : node.items) check_number(item, index, spot.shown, true);
+}
+
+void check_names(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind != TomlKind::list || static_cast<int>(node.items.size()) != key.count) fail_kind(node, key, shown);
+    for (const TomlNode& item : node.items)
+        if (item.kind != TomlKind::text) fail_kind(item, key, shown);
+}
+
+void check_pairs(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind != TomlKind::list || node.items.empty()) fail_kind(node, key, shown);
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const TomlNode& pair = node.items[i];
+        const std::string place = shown + "[" + std::to_string(i) + "]";
+        if (pair.kind != TomlKind::list || pair.items.size() != 2) fail_kind(pair, key, place);
+        for (std::size_t k = 0; k < 2; ++k) check_number(pair.items[k], key, place + "[" + std::to_string(k) + "]", true);
+    }
+}
+
+void check_between(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    SceneKey both = key;
+    both.kind = KeyKind::numbers;
+    both.count = 2;
+    check_numbers(node, both, shown);
+    const double lowest = node.items[0].number, highest = node.items[1].number;
+    if (lowest > highest)
+        fail_at(node.place,
+                shown + ": the first number must not be above the second; " + number_text(lowest) + " > " + number_text(highest));
+}
+
+void check_limit(const TomlNode& node, const SceneKey& key, const Spot& spot) {
+    if (node.is_number()) return check_number(node, key, spot.shown);
+    if (node.kind != TomlKind::table) fail_kind(node, key, spot.shown);
+    const std::string forms[] = {"below", "above", "between"};
+    for (const TomlNode& value : node.entries) {
+        const std::string& form = value.key;
+        if (form == "between") {
+            check_between(value, key, spot.shown + "." + form);
+        } else if (form == "below" || form == "above") {
+            check_number(value, {.path = key.path, .kind = KeyKind::number, .sentence = {}, .unit = key.unit},
+                         spot.shown + "." + form);
+        } else {
+            fail_at(value.key_place, "unknown key '" + form + "' in [" + spot.shown + "]" + suggestion(form, forms));
+        }
+    }
+    if (node.entries.size() != 1)
+        fail_at(node.place,
+                spot.shown + " must have exactly one of below, above, between, not " + std::to_string(node.entries.size()));
+}
+
+void check_table_list(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
+    if (node.kind != TomlKind::list) fail_kind(node, key, spot.shown);
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const TomlNode& item = node.items[i];
+        faults.attempt([&] {
+            if (item.kind != TomlKind::table) fail_kind(item, key, spot.shown + "." + std::to_string(i));
+            const TomlNode* name = item.find("name");
+            const bool named = name != nullptr && name->kind == TomlKind::text;
+            check_table(item, {spot.path, spot.shown + "." + (named ? name->text : std::to_string(i))}, faults);
+        });
+    }
+}
+
+void check_named_tables(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
+    if (node.kind != TomlKind::table) fail_kind(node, key, spot.shown);
+    for (const TomlNode& table : node.entries) {
+        faults.attempt([&] {
+            const std::string& name = table.key;
+            if (table.kind != TomlKind::table)
+                fail_at(table.place,
+                        spot.shown + "." + name + " must be a table [" + spot.shown + ".NAME], not " + described(table));
+            check_table(table, {spot.path, spot.shown + "." + name}, faults);
+        });
+    }
+}
+
+[[noreturn]] void fail_lacking_choice(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    const std::string range = key.choices.empty() ? ", " + range_text(key) : "";
+    fail_at(node.place, "this build lacks the choice '" + node.text + "' of " + shown + "; it takes " + kind_text(key) + range);
+}
+
+void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
+    if (node.kind == TomlKind::text && lacks_choice(key.path, node.text)) fail_lacking_choice(node, key, spot.shown);
+    switch (key.kind) {
+        case KeyKind::text:
+            if (node.kind != TomlKind::text) fail_kind(node, key, spot.shown);
+            return;
+        case KeyKind::word:
+            return check_word(node, key, spot.shown);
+        case KeyKind::flag:
+            if (node.kind != TomlKind::boolean) fail_kind(node, key, spot.shown);
+            return;
+        case KeyKind::number:
+            return check_number(node, key, spot.shown);
+        case KeyKind::integer:
+            return check_number(node, key, spot.shown, true);
+        case KeyKind::number_or_auto:
+            return check_number_or_auto(node, key, spot.shown);
+        case KeyKind::numbers:
+        case KeyKind::integers:
+            return check_numbers(node, key, spot.shown);
+        case KeyKind::box:
+            return check_box(node, key, spot.shown);
+        case KeyKind::vertices:
+            return check_vertices(node, key, spot, faults);
+        case KeyKind::names:
+            return check_names(node, key, spot.shown);
+        case KeyKind::pairs:
+            return check_pairs(node, key, spot.shown);
+        case KeyKind::limit:
+            return check_limit(node, key, spot);
+        case KeyKind::table:
+            if (node.kind != TomlKind::table) fail_kind(node, key, spot.shown);
+            return check_table(node, spot, faults);
+        case KeyKind::table_list:
+            return check_table_list(node, key, spot, faults);
+        case KeyKind::named_tables:
+            return check_named_tables(node, key, spot, faults);
+    }
+}
+
+std::string table_text(const Spot& spot) { return spot.shown.empty() ? "the scene" : "[" + spot.shown + "]"; }
+
+void check_entry(const TomlNode& node, const Spot& table, const std::vector<std::string>& valid, FaultList& faults) {
+    const std::string& name = node.key;
+    const Spot entry = table.inside(name);
+    const SceneKey* key = name.find('.') == std::string::npos ? find_scene_key(entry.path) : nullptr;
+    if (lacks_key(entry.path))
+        fail_at(node.key_place, "this build lacks the key '" + name + "' of " + table_text(table) + "; valid: " + joined(valid));
+    if (key == nullptr) fail_at(node.key_place, "unknown key '" + name + "' in " + table_text(table) + suggestion(name, valid));
+    check_value(node, *key, entry, faults);
+}
+
+void check_table(const TomlNode& table, const Spot& spot, FaultList& faults) {
+    const std::vector<std::string> valid = keys_inside(spot.path);
+    for (const TomlNode& node : table.entries) faults.attempt([&] { check_entry(node, spot, valid, faults); });
+    for (const std::string& name : valid) {
+        const SceneKey& key = *find_scene_key(spot.inside(name).path);
+        if (!key.required || table.find(name) != nullptr) continue;
+        faults.attempt([&] { fail_at(table.place, table_text(spot) + " lacks '" + name + "': " + key.sentence); });
+    }
+}
+
+}  // namespace
+
+void check_document(const TomlNode& document, FaultList& faults) { check_table(document, {}, faults); }
+
+}  // namespace percale::scenes

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "format/override.h"
+#include "format/scene.h"
+
+namespace percale::scenes {
+
+/// Reads a TOML scene file, overrides applied before anything is checked. Throws SceneError with "file:line:column: what",
+/// the allowed range or the nearest valid key. Keys and ranges: scene_keys.h.
+Scene load_scene(const std::string& file, std::span<const Override> overrides = {});
+
+/// The same from text; `name` stands for the file in messages and relative paths are relative to its folder.
+Scene parse_scene(const std::string& text, const std::string& name, std::span<const Override> overrides = {});
+
+/// A scene with overrides applied to what it is read from; throws SceneError as load_scene does.
+using SceneSource = std::function<Scene(std::span<const Override>)>;
+
+/// What load_scene has against a file, one kind at a time: all faults of keys and values; where there are none, those of whole
+/// tables; where there are none, those of names by which tables call each other.
+std::vector<std::string> scene_faults(const std::string& file, std::span<const Override> overrides = {});
+
+}  // namespace percale::scenes

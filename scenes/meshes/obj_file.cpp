@@ -1,0 +1,144 @@
+#include "meshes/obj_file.h"
+
+#include <istream>
+#include <iterator>
+#include <limits>
+
+#include "common/whole_file.h"
+#include "meshes/text_scan.h"
+
+namespace percale::scenes {
+
+namespace {
+
+/// The corners of all faces read so far, one after another, as 0-based indices that are checked once all vertices are known.
+struct FaceList {
+    std::vector<long long> corners;
+    std::vector<std::size_t> ends;   // one past a face's last corner
+    std::vector<std::size_t> lines;  // where the face stands
+};
+
+/// Takes the next logical line off the text: a backslash before the line end joins lines, and comments end it.
+std::string next_line(std::string_view& text, std::size_t& line_number) {
+    std::string joined;
+    bool goes_on = true;
+    while (goes_on && !text.empty()) {
+        std::string_view line = take_line(text);
+        ++line_number;
+        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        goes_on = !line.empty() && line.back() == '\\';
+        if (goes_on) line.remove_suffix(1);
+        joined.append(line).append(goes_on ? " " : "");
+    }
+    return joined.substr(0, joined.find('#'));
+}
+
+Vec3 read_vertex(std::string_view line, const TextPlace& place) {
+    constexpr const char* names[] = {"coordinate x", "coordinate y", "coordinate z", "weight or colour"};
+    std::array<double, 8> numbers{};
+    std::size_t count = 0;
+    for (std::string_view word = next_word(line); !word.empty() && count < numbers.size(); word = next_word(line)) {
+        numbers[count] = to_double(word, place, names[std::min<std::size_t>(count, 3)]);
+        ++count;
+    }
+    if (count < 3) fail_at(place, std::string(names[count]) + " is missing");
+    if (count > 7) fail_at(place, "a vertex has 3 coordinates, at most a weight and a colour after them, not 8 numbers or more");
+    const bool weighted = count == 4 || count == 7;
+    if (weighted && numbers[3] != 1.0) fail_at(place, "a vertex weight other than 1 is not supported");
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// The vertex index of one corner a, a/b, a//c or a/b/c as it stands in the file; the others are only checked for form.
+long long read_corner(std::string_view word, const TextPlace& place) {
+    const std::size_t slash = word.find('/');
+    const long long index = to_integer(word.substr(0, slash), place, "vertex index");
+    if (slash == std::string_view::npos) return index;
+    std::string_view rest = word.substr(slash + 1);
+    const std::size_t second = std::min(rest.find('/'), rest.size());
+    if (second > 0) to_integer(rest.substr(0, second), place, "texture index");
+    if (second < rest.size()) to_integer(rest.substr(second + 1), place, "normal index");
+    return index;
+}
+
+void read_face(std::string_view line, const TextPlace& place, std::size_t vertex_count, FaceList& faces) {
+    const std::size_t start = faces.corners.size();
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+        const long long index = read_corner(word, place);
+        if (index == 0) fail_at(place, "vertex index 0: indices start at 1 (or at -1, backwards)");
+        if (index < -static_cast<long long>(vertex_count))
+            fail_at(place, "vertex index " + std::to_string(index) + " reaches before the first of " +
+                               std::to_string(vertex_count) + " vertices read so far");
+        faces.corners.push_back(index > 0 ? index - 1 : static_cast<long long>(vertex_count) + index);
+    }
+    const std::size_t count = faces.corners.size() - start;
+    if (count < 3) fail_at(place, "a face needs 3 corners or more, this one has " + std::to_string(count));
+    faces.ends.push_back(faces.corners.size());
+    faces.lines.push_back(place.line);
+}
+
+/// Fans every face from its first corner.
+std::vector<Triangle> fan(const FaceList& faces, std::size_t vertex_count, const std::string& name) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(faces.corners.size());
+    std::size_t start = 0;
+    for (std::size_t face = 0; face < faces.ends.size(); ++face) {
+        for (std::size_t k = start; k < faces.ends[face]; ++k)
+            if (faces.corners[k] >= static_cast<long long>(vertex_count))
+                fail_at({name, faces.lines[face]}, "vertex index " + std::to_string(faces.corners[k] + 1) +
+                                                       " is out of range 1 ... " + std::to_string(vertex_count));
+        const auto corner = [&](std::size_t k) { return static_cast<int>(faces.corners[k]); };
+        for (std::size_t k = start + 2; k < faces.ends[face]; ++k) triangles.push_back({corner(start), corner(k - 1), corner(k)});
+        start = faces.ends[face];
+    }
+    return triangles;
+}
+
+template <typename Number>
+void append_number(std::string& text, Number number) {
+    char digits[32];
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+std::string obj_text(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+    std::string text;
+    text.reserve(vertices.size() * 64 + triangles.size() * 24);
+    for (const Vec3& x : vertices) {
+        text += 'v';
+        for (int k = 0; k < 3; ++k) append_number(text += ' ', x[k]);
+        text += '\n';
+    }
+    for (const Triangle& triangle : triangles) {
+        text += 'f';
+        for (const int vertex : triangle) append_number(text += ' ', static_cast<long long>(vertex) + 1);
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace
+
+TriangleMesh read_obj(std::istream& in, const std::string& name) {
+    const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    if (in.bad()) throw SceneError(name + ": cannot be read");
+    TriangleMesh mesh;
+    FaceList faces;
+    std::size_t line_number = 0;
+    for (std::string_view text = content; !text.empty();) {
+        const TextPlace place{name, line_number + 1};
+        const std::string line = next_line(text, line_number);
+        std::string_view rest = line;
+        const std::string_view keyword = next_word(rest);
+        if (keyword == "v") mesh.vertices.push_back(read_vertex(rest, place));
+        if (keyword == "f") read_face(rest, place, mesh.vertices.size(), faces);
+    }
+    if (mesh.vertices.empty()) throw SceneError(name + ": no vertices");
+    if (faces.ends.empty()) throw SceneError(name + ": no triangles");
+    mesh.triangles = fan(faces, mesh.vertices.size(), name);
+    return mesh;
+}
+
+void write_obj(const std::string& file, std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+    write_whole_file(file, obj_text(vertices, triangles));
+}
+
+}  // namespace percale::scenes

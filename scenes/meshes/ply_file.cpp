@@ -1,0 +1,352 @@
+#include "meshes/ply_file.h"
+
+#include <bit>
+#include <cstdint>
+#include <istream>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include "meshes/text_scan.h"
+
+namespace percale::scenes {
+
+namespace {
+
+struct PlyType {
+    enum class Kind { signed_whole, unsigned_whole, real };
+    Kind kind = Kind::real;
+    std::size_t bytes = 0;
+};
+
+constexpr int no_role = -1;
+
+struct PlyProperty {
+    PlyType item;
+    PlyType length;      // of a list; 0 bytes: no list
+    int role = no_role;  // 0, 1, 2: x, y, z of a vertex; 0: the corners of a face
+
+    bool is_list() const { return length.bytes > 0; }
+};
+
+struct PlyElement {
+    std::string_view name;
+    std::size_t line = 0;
+    std::size_t count = 0;
+    std::vector<PlyProperty> properties = {};
+    std::array<bool, 3> has_role = {};
+};
+
+struct PlyHeader {
+    enum class Format { unknown, text, little_endian, big_endian };
+    Format format = Format::unknown;
+    std::vector<PlyElement> elements;
+};
+
+struct PlyText {
+    const std::string& name;
+    std::string_view rest;
+    std::size_t line = 0;
+
+    TextPlace place() const { return {name, line}; }
+};
+
+PlyType type_of(std::string_view word, const TextPlace& place) {
+    using enum PlyType::Kind;
+    if (word == "char" || word == "int8") return {signed_whole, 1};
+    if (word == "uchar" || word == "uint8") return {unsigned_whole, 1};
+    if (word == "short" || word == "int16") return {signed_whole, 2};
+    if (word == "ushort" || word == "uint16") return {unsigned_whole, 2};
+    if (word == "int" || word == "int32") return {signed_whole, 4};
+    if (word == "uint" || word == "uint32") return {unsigned_whole, 4};
+    if (word == "float" || word == "float32") return {real, 4};
+    if (word == "double" || word == "float64") return {real, 8};
+    fail_at(place, "unknown PLY type " + shown(word));
+}
+
+PlyType whole_type_of(std::string_view word, const TextPlace& place, const char* what) {
+    const PlyType type = type_of(word, place);
+    if (type.kind == PlyType::Kind::real) fail_at(place, std::string(what) + " must be of a whole type, not " + shown(word));
+    return type;
+}
+
+int role_of(std::string_view element, std::string_view property) {
+    if (element == "face") return property == "vertex_indices" || property == "vertex_index" ? 0 : no_role;
+    if (element != "vertex" || property.size() != 1 || property[0] < 'x' || property[0] > 'z') return no_role;
+    return property[0] - 'x';
+}
+
+std::string_view read_name(std::string_view& line, const TextPlace& place, const char* what) {
+    const std::string_view name = next_word(line);
+    if (name.empty()) fail_at(place, std::string("the ") + what + " has no name");
+    return name;
+}
+
+void check_end(std::string_view line, const TextPlace& place) {
+    const std::string_view word = next_word(line);
+    if (!word.empty()) fail_at(place, "more than belongs on this line of a PLY header: " + shown(word));
+}
+
+void read_property(std::string_view line, const TextPlace& place, PlyHeader& header) {
+    if (header.elements.empty()) fail_at(place, "a property before the first element");
+    PlyElement& element = header.elements.back();
+    PlyProperty property;
+    std::string_view type = next_word(line);
+    if (type == "list") {
+        property.length = whole_type_of(next_word(line), place, "the length of a list");
+        type = next_word(line);
+    }
+    property.item = type_of(type, place);
+    const std::string_view name = read_name(line, place, "property");
+    check_end(line, place);
+    property.role = role_of(element.name, name);
+    if (property.role != no_role) {
+        if (element.has_role[property.role]) fail_at(place, "a second property " + shown(name));
+        element.has_role[property.role] = true;
+        const bool is_face = element.name == "face";
+        if (is_face != property.is_list())
+            fail_at(place, "property " + shown(name) + (is_face ? " must be a list" : " must be a number, not a list"));
+        if (is_face) whole_type_of(type, place, "a vertex index");
+    }
+    element.properties.push_back(property);
+}
+
+void read_format(std::string_view line, const TextPlace& place, PlyHeader& header) {
+    using enum PlyHeader::Format;
+    const std::string_view format = next_word(line);
+    if (header.format != unknown) fail_at(place, "a second format");
+    if (format == "ascii") header.format = text;
+    if (format == "binary_little_endian") header.format = little_endian;
+    if (format == "binary_big_endian") header.format = big_endian;
+    if (header.format == unknown)
+        fail_at(place, "unknown PLY format " + shown(format) + ": ascii, binary_little_endian or binary_big_endian");
+    const std::string_view version = next_word(line);
+    if (version != "1.0") fail_at(place, "unknown PLY version " + shown(version) + ": only 1.0 is read");
+    check_end(line, place);
+}
+
+const PlyElement* find_element(const PlyHeader& header, std::string_view name) {
+    const auto found = std::find_if(header.elements.begin(), header.elements.end(),
+                                    [&](const PlyElement& element) { return element.name == name; });
+    return found == header.elements.end() ? nullptr : &*found;
+}
+
+void read_element(std::string_view line, const TextPlace& place, PlyHeader& header) {
+    const std::string_view name = read_name(line, place, "element");
+    const long long count = to_integer(next_word(line), place, "element count"), most = std::numeric_limits<int>::max();
+    if (count < 0 || count > most)
+        fail_at(place, "element count " + std::to_string(count) + " is out of range 0 ... " + std::to_string(most));
+    check_end(line, place);
+    const bool is_known = name == "vertex" || name == "face";
+    if (is_known && find_element(header, name) != nullptr) fail_at(place, "a second element " + shown(name));
+    header.elements.push_back({name, place.line, static_cast<std::size_t>(count)});
+}
+
+/// What must be there for a mesh.
+void check_needed(const PlyHeader& header, const std::string& name) {
+    const PlyElement *vertex = find_element(header, "vertex"), *face = find_element(header, "face");
+    if (vertex == nullptr) throw SceneError(name + ": no vertices: the header has no element \"vertex\"");
+    for (int axis = 0; axis < 3; ++axis)
+        if (!vertex->has_role[axis])
+            fail_at({name, vertex->line}, std::string("element \"vertex\" has no property \"") + "xyz"[axis] + "\"");
+    if (vertex->count == 0) fail_at({name, vertex->line}, "no vertices: their count is 0");
+    if (face == nullptr) throw SceneError(name + ": no triangles: the header has no element \"face\"");
+    if (!face->has_role[0]) fail_at({name, face->line}, "element \"face\" has no list \"vertex_indices\" or \"vertex_index\"");
+    if (face->count == 0) fail_at({name, face->line}, "no triangles: the count of faces is 0");
+}
+
+/// The least that an element takes: in text a digit and a blank for each number, in binary an empty list its length alone.
+std::size_t least_bytes(const PlyElement& element, bool text) {
+    if (text) return 2 * element.properties.size();
+    std::size_t bytes = 0;
+    for (const PlyProperty& property : element.properties) bytes += (property.is_list() ? property.length : property.item).bytes;
+    return bytes;
+}
+
+void check_counts(const PlyHeader& header, const PlyText& text) {
+    const bool is_text = header.format == PlyHeader::Format::text;
+    std::size_t left = text.rest.size() + (is_text ? 1 : 0);  // the last line may lack its line end
+    for (const PlyElement& element : header.elements) {
+        const std::size_t each = least_bytes(element, is_text);
+        if (each == 0) continue;
+        if (element.count > left / each)
+            fail_at({text.name, element.line}, "the header claims " + std::to_string(element.count) + " elements " +
+                                                   shown(element.name) + ", but the file can hold " +
+                                                   std::to_string(left / each) + " at most");
+        left -= element.count * each;
+    }
+}
+
+/// False at the header's end.
+bool read_header_line(std::string_view line, const TextPlace& place, PlyHeader& header) {
+    const std::string_view keyword = next_word(line);
+    if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) return true;
+    if (keyword == "end_header") return check_end(line, place), false;
+    if (keyword == "property") return read_property(line, place, header), true;
+    if (keyword == "format") return read_format(line, place, header), true;
+    if (keyword == "element") return read_element(line, place, header), true;
+    fail_at(place, "unknown word in the header of a PLY file: " + shown(keyword));
+}
+
+PlyHeader read_header(PlyText& text) {
+    text.line = 1;
+    std::string_view first = take_line(text.rest);
+    const std::string_view magic = next_word(first);
+    if (magic != "ply") fail_at(text.place(), "not a PLY file: it starts with " + shown(magic));
+    check_end(first, text.place());
+    PlyHeader header;
+    for (bool goes_on = true; goes_on;) {
+        if (text.rest.empty()) throw SceneError(text.name + ": not a PLY file: its header has no end");
+        ++text.line;
+        goes_on = read_header_line(take_line(text.rest), text.place(), header);
+    }
+    if (header.format == PlyHeader::Format::unknown) throw SceneError(text.name + ": the header names no format");
+    check_needed(header, text.name);
+    check_counts(header, text);
+    return header;
+}
+
+/// What stands behind the header, number by number.
+class PlyBody {
+public:
+    PlyBody(const PlyText& text, PlyHeader::Format format)
+        : text_(text), is_text_(format == PlyHeader::Format::text), big_endian_(format == PlyHeader::Format::big_endian) {}
+
+    /// An element with properties; text has a line for it.
+    void begin(const PlyElement& element, std::size_t number);
+    void end() const;
+    double coordinate(PlyType type, const char* what);
+    long long whole(PlyType type, const char* what);
+    void skip(const PlyProperty& property);
+    [[noreturn]] void fail(const std::string& message) const;
+
+private:
+    std::uint64_t bits(std::size_t bytes);
+
+    PlyText text_;
+    bool is_text_ = false, big_endian_ = false;
+    std::string_view words_;  // of the element's line that are still to be read
+    std::string_view element_;
+    std::size_t number_ = 0;
+};
+
+void PlyBody::begin(const PlyElement& element, std::size_t number) {
+    element_ = element.name;
+    number_ = number;
+    words_ = {};
+    for (std::string_view look; is_text_ && next_word(look = words_).empty();) {
+        if (text_.rest.empty())
+            fail("the file ends after " + std::to_string(number) + " of " + std::to_string(element.count) + " elements " +
+                 shown(element_));
+        words_ = take_line(text_.rest);
+        ++text_.line;
+    }
+}
+
+void PlyBody::end() const {
+    std::string_view words = words_;
+    const std::string_view word = next_word(words);
+    if (!word.empty()) fail("more on this line than the header says of element " + shown(element_) + ": " + shown(word));
+}
+
+void PlyBody::fail(const std::string& message) const {
+    if (is_text_) fail_at(text_.place(), message);
+    throw SceneError(text_.name + ": element " + shown(element_) + " " + std::to_string(number_) + ": " + message);
+}
+
+std::uint64_t PlyBody::bits(std::size_t bytes) {
+    if (bytes > text_.rest.size()) fail("the file ends within it");
+    std::uint64_t value = 0;
+    for (std::size_t k = 0; k < bytes; ++k)
+        value = value << 8 | static_cast<unsigned char>(text_.rest[big_endian_ ? k : bytes - 1 - k]);
+    text_.rest.remove_prefix(bytes);
+    return value;
+}
+
+long long PlyBody::whole(PlyType type, const char* what) {
+    if (is_text_) return to_integer(next_word(words_), text_.place(), what);
+    const std::uint64_t value = bits(type.bytes);
+    if (type.kind == PlyType::Kind::unsigned_whole) return static_cast<long long>(value);
+    // The sign bit goes to the top and is drawn down again.
+    const std::size_t unused = 64 - 8 * type.bytes;
+    return static_cast<std::int64_t>(value << unused) >> unused;
+}
+
+double PlyBody::coordinate(PlyType type, const char* what) {
+    if (is_text_) return to_double(next_word(words_), text_.place(), what);
+    if (type.kind != PlyType::Kind::real) return static_cast<double>(whole(type, what));
+    const std::uint64_t value = bits(type.bytes);
+    const double number =
+        type.bytes == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(value)) : std::bit_cast<double>(value);
+    if (!std::isfinite(number)) fail(std::string(what) + " is not finite");
+    return number;
+}
+
+void PlyBody::skip(const PlyProperty& property) {
+    const long long count = property.is_list() ? whole(property.length, "length of a list") : 1;
+    if (count < 0) fail("length of a list is " + std::to_string(count));
+    if (!is_text_) {
+        if (static_cast<std::uint64_t>(count) > text_.rest.size() / property.item.bytes) fail("the file ends within it");
+        text_.rest.remove_prefix(static_cast<std::size_t>(count) * property.item.bytes);
+        return;
+    }
+    for (long long k = 0; k < count; ++k)
+        if (next_word(words_).empty()) fail("a number is missing");
+}
+
+Vec3 read_vertex(PlyBody& body, const PlyElement& element) {
+    constexpr const char* names[] = {"coordinate x", "coordinate y", "coordinate z"};
+    Vec3 x;
+    for (const PlyProperty& property : element.properties) {
+        if (property.role == no_role)
+            body.skip(property);
+        else
+            x[property.role] = body.coordinate(property.item, names[property.role]);
+    }
+    return x;
+}
+
+void read_corners(PlyBody& body, const PlyProperty& list, std::size_t vertex_count, std::vector<Triangle>& triangles) {
+    const long long corners = body.whole(list.length, "number of corners");
+    if (corners < 3) body.fail("a face needs 3 corners or more, this one has " + std::to_string(corners));
+    Triangle fan{};
+    for (long long k = 0; k < corners; ++k) {
+        const long long index = body.whole(list.item, "vertex index");
+        if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
+            body.fail("vertex index " + std::to_string(index) + " is out of range 0 ... " + std::to_string(vertex_count - 1));
+        fan = {k == 0 ? static_cast<int>(index) : fan[0], fan[2], static_cast<int>(index)};
+        if (k >= 2) triangles.push_back(fan);
+    }
+}
+
+void read_elements(PlyBody& body, const PlyElement& element, std::size_t vertex_count, TriangleMesh& mesh) {
+    for (std::size_t k = 0; k < element.count; ++k) {
+        body.begin(element, k);
+        if (element.name == "vertex") {
+            mesh.vertices.push_back(read_vertex(body, element));
+        } else {
+            for (const PlyProperty& property : element.properties)
+                property.role == no_role ? body.skip(property) : read_corners(body, property, vertex_count, mesh.triangles);
+        }
+        body.end();
+    }
+}
+
+}  // namespace
+
+TriangleMesh read_ply(std::istream& in, const std::string& name) {
+    const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    if (in.bad()) throw SceneError(name + ": cannot be read");
+    PlyText text{name, content};
+    const PlyHeader header = read_header(text);
+    const std::size_t vertex_count = find_element(header, "vertex")->count;
+    TriangleMesh mesh;
+    mesh.vertices.reserve(vertex_count);
+    mesh.triangles.reserve(find_element(header, "face")->count);
+    PlyBody body(text, header.format);
+    for (const PlyElement& element : header.elements)
+        if (!element.properties.empty()) read_elements(body, element, vertex_count, mesh);
+    return mesh;
+}
+
+}  // namespace percale::scenes

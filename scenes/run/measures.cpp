@@ -1,0 +1,110 @@
+#include "run/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace percale::scenes {
+
+void add_certificate(FrameCheck& check, const Certificate& certificate) {
+    check.intersections += static_cast<int>(certificate.pairs.size());
+    check.touching_pairs += certificate.touching_pairs;
+    check.vertices_inside += certificate.vertices_inside;
+    check.deepest_penetration = std::max(check.deepest_penetration, certificate.deepest_penetration);
+    check.smallest_distance = std::min(check.smallest_distance, certificate.smallest_distance);
+}
+
+void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths) {
+    TriangleMesh all;
+    for (const TriangleMesh& cloth : cloths) {
+        const int first = static_cast<int>(all.vertices.size());
+        all.vertices.insert(all.vertices.end(), cloth.vertices.begin(), cloth.vertices.end());
+        for (const auto& [a, b, c] : cloth.triangles) all.triangles.push_back({first + a, first + b, first + c});
+    }
+    const ClothCertificate certificate = certify_cloth(all);
+    check.intersections += static_cast<int>(certificate.crossing.size());
+    check.touching_pairs += static_cast<int>(certificate.touching.size());
+}
+
+namespace {
+
+bool worse(const FrameCheck& a, const FrameCheck& b) {
+    if (a.smallest_distance != b.smallest_distance) return a.smallest_distance < b.smallest_distance;
+    return a.intersections > b.intersections;
+}
+
+/// Adds to the sums and extremes that frames and steps share; whether this is the worst so far.
+template <class Totals>
+bool add_check(Totals& totals, const FrameCheck& check) {
+    totals.intersections += check.intersections;
+    totals.deepest_penetration = std::max(totals.deepest_penetration, check.deepest_penetration);
+    totals.smallest_distance = std::min(totals.smallest_distance, check.smallest_distance);
+    if (!worse(check, totals.worst)) return false;
+    totals.worst = check;
+    return true;
+}
+
+}  // namespace
+
+void add_frame(Measures& measures, int index, const FrameCheck& check) {
+    if (add_check(measures, check)) measures.worst_frame = index;
+}
+
+void add_state(StepChecks& checks, int step, double time, const FrameCheck& check) {
+    ++checks.states;
+    if (!add_check(checks, check)) return;
+    checks.worst_step = step;
+    checks.worst_time = time;
+}
+
+void add_step(Measures& measures, const StepReport& report, double energy_before) {
+    measures.smallest_distance = std::min(measures.smallest_distance, report.smallest_distance);
+    measures.largest_strain = std::max(measures.largest_strain, report.largest_strain);
+    measures.energy_gain = std::max(measures.energy_gain, report.energy.total() - energy_before - report.energy.work);
+}
+
+void add_end(Measures& measures, const Simulation& simulation, std::span<const ClothId> cloths) {
+    double largest_squared = 0.0, sum_squared = 0.0;
+    std::size_t count = 0;
+    for (const ClothId cloth : cloths) {
+        for (const Vec3& v : simulation.velocities(cloth)) {
+            largest_squared = std::max(largest_squared, v.squaredNorm());
+            sum_squared += v.squaredNorm();
+            ++count;
+        }
+        for (const Vec3& x : simulation.positions(cloth)) measures.lowest_vertex = std::min(measures.lowest_vertex, x.y());
+    }
+    measures.speed_at_end = std::sqrt(largest_squared);
+    measures.rms_speed_at_end = count > 0 ? std::sqrt(sum_squared / static_cast<double>(count)) : 0.0;
+}
+
+double largest_vertex_distance(const Simulation& simulation, std::span<const ClothId> cloths, std::span<const Vec3> reference) {
+    double largest = 0.0;
+    std::size_t next = 0;
+    for (const ClothId cloth : cloths)
+        for (const Vec3& x : simulation.positions(cloth)) largest = std::max(largest, (x - reference[next++]).norm());
+    return largest;
+}
+
+std::map<std::string, double> measure_values(const Measures& measures) {
+    std::map<std::string, double> values = {
+        {"intersections", static_cast<double>(measures.intersections)},
+        {"deepest_penetration", measures.deepest_penetration},
+        {"smallest_distance", measures.smallest_distance},
+        {"worst_frame", static_cast<double>(measures.worst_frame)},
+        {"largest_strain", measures.largest_strain},
+        {"speed_at_end", measures.speed_at_end},
+        {"rms_speed_at_end", measures.rms_speed_at_end},
+        {"energy_gain", measures.energy_gain},
+        {"lowest_vertex", measures.lowest_vertex},
+    };
+    std::erase_if(values, [](const auto& value) { return std::isnan(value.second); });
+    if (measures.steps) {
+        values["intersections_at_every_step"] = measures.steps->intersections;
+        values["deepest_penetration_at_every_step"] = measures.steps->deepest_penetration;
+    }
+    if (measures.matches) values["matches"] = *measures.matches;
+    return values;
+}
+
+}  // namespace percale::scenes

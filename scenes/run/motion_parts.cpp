@@ -1,0 +1,117 @@
+#include "run/motion_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "run/obstacle_motion.h"
+
+namespace percale::scenes {
+namespace {
+
+constexpr double largest_turn = std::numbers::pi / 12.0;  // rad, in one part
+constexpr double largest_way = 4.0;                       // thicknesses, in one part
+constexpr double most_parts = 1e5;                        // what moves still farther in a part may block the cloth
+constexpr double rounding = 1e-9;                         // of a part
+
+/// Of the shortest turn from one to the other, rad.
+double angle_between(const Rotation& p, const Rotation& q) {
+    return 2.0 * std::acos(std::min(1.0, std::abs(p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z)));
+}
+
+/// How long two stretches of time have in common, s.
+double overlap(double from, double to, double other_from, double other_to) {
+    return std::max(0.0, std::min(to, other_to) - std::max(from, other_from));
+}
+
+struct Extent {
+    Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+
+    void add(const Vec3& x, double reach = 0.0) {
+        low = low.cwiseMin((x.array() - reach).matrix());
+        high = high.cwiseMax((x.array() + reach).matrix());
+    }
+    bool overlaps(const Extent& other) const {
+        return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+    }
+};
+
+/// A cloth during the coming step, if it went on as it moves.
+struct ClothAhead {
+    Extent extent;
+    Vec3 way = Vec3::Zero();  // m, mean over the vertices
+    double thickness = 0.0;   // m
+};
+
+ClothAhead cloth_ahead(const BuiltScene& built, std::size_t cloth, double dt) {
+    ClothAhead ahead;
+    ahead.thickness = built.scene.fabrics.at(built.scene.cloths[cloth].fabric).thickness;
+    const auto positions = built.simulation.positions(built.cloths[cloth]);
+    const auto velocities = built.simulation.velocities(built.cloths[cloth]);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        ahead.extent.add(positions[i], ahead.thickness);
+        ahead.extent.add(positions[i] + dt * velocities[i], ahead.thickness);
+        ahead.way += dt * velocities[i];
+    }
+    ahead.way /= static_cast<double>(positions.size());
+    return ahead;
+}
+
+/// Distance of the farthest vertex from the mesh's origin, m.
+double reach_of(const BuiltScene& built, std::size_t obstacle) {
+    double squared = 0.0;
+    for (const Vec3& x : built.obstacle_meshes[obstacle].vertices) squared = std::max(squared, x.squaredNorm());
+    return built.scene.obstacles[obstacle].pose.scale * std::sqrt(squared);
+}
+
+/// Parts that an obstacle's translation asks for, not rounded.
+double parts_of_way(const BuiltScene& built, std::size_t obstacle, double path, double dt) {
+    const ObstacleSpec& spec = built.scene.obstacles[obstacle];
+    const double now = built.simulation.time();
+    const Vec3 start = obstacle_pose_at(spec, now).translation, end = obstacle_pose_at(spec, now + dt).translation;
+    const double reach = reach_of(built, obstacle);
+    Extent swept;
+    for (const Vec3& x : {start, end}) swept.add(x, reach);
+    double parts = 0.0;
+    for (std::size_t i = 0; i < built.cloths.size(); ++i) {
+        const ClothAhead cloth = cloth_ahead(built, i, dt);
+        const double relative = path - (end - start).norm() + (end - start - cloth.way).norm();
+        if (swept.overlaps(cloth.extent)) parts = std::max(parts, relative / (largest_way * cloth.thickness));
+    }
+    return parts;
+}
+
+}  // namespace
+
+MotionAmount motion_between(const ObstacleSpec& obstacle, double from, double to) {
+    MotionAmount amount;
+    Pose before = obstacle.pose;
+    for (std::size_t i = 0; i < obstacle.motion.size(); ++i) {
+        const Keyframe& frame = obstacle.motion[i];
+        const Pose after{frame.translation.value_or(before.translation), frame.rotation.value_or(before.rotation)};
+        if (i > 0) {
+            const double first = obstacle.motion[i - 1].time, last = frame.time;
+            const double share = overlap(from, to, first, last) / (last - first);
+            amount.angle += share * angle_between(before.rotation, after.rotation);
+            amount.path += share * (after.translation - before.translation).norm();
+        }
+        before = after;
+    }
+    if (!obstacle.spin) return amount;
+    const double turning = std::max(0.0, to - std::max(from, obstacle.spin->from));
+    amount.angle += 2.0 * std::numbers::pi * std::abs(obstacle.spin->turns_per_s) * turning;
+    return amount;
+}
+
+int motion_parts(const BuiltScene& built, double dt) {
+    const double now = built.simulation.time();
+    double parts = 1.0;
+    for (std::size_t i = 0; i < built.obstacles.size(); ++i) {
+        const MotionAmount amount = motion_between(built.scene.obstacles[i], now, now + dt);
+        parts = std::max(parts, amount.angle / largest_turn);
+        if (amount.path > 0.0) parts = std::max(parts, parts_of_way(built, i, amount.path, dt));
+    }
+    return static_cast<int>(std::ceil(std::min(parts, most_parts) - rounding));
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,360 @@
+#include "run/run_scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "common/text.h"
+#include "meshes/mesh_import.h"
+#include "percale/error.h"
+#include "run/motion_parts.h"
+#include "run/scene_plan.h"
+#include "run/step_count.h"
+#include "run/timeline.h"
+
+namespace percale::scenes {
+
+const char* status_word(RunStatus status) {
+    switch (status) {
+        case RunStatus::finished:
+            return "finished";
+        case RunStatus::failed:
+            return "failed";
+        case RunStatus::stopped:
+            return "stopped";
+    }
+    return "unknown";
+}
+
+namespace {
+
+TriangleMesh reference_mesh(const std::string& file, const Expectation& expectation) {
+    try {
+        return import_mesh(file);
+    } catch (const SceneError& error) {
+        fail_at(expectation.place, std::string("matches: ") + error.what());
+    }
+}
+
+}  // namespace
+
+std::optional<std::vector<Vec3>> read_reference(const BuiltScene& built) {
+    for (const Expectation& expectation : built.scene.expectations) {
+        if (expectation.measure != "matches") continue;
+        const std::string file = path_beside(built.scene, expectation.file);
+        std::vector<Vec3> vertices = reference_mesh(file, expectation).vertices;
+        std::size_t expected = 0;
+        for (const TriangleMesh& mesh : built.cloth_meshes) expected += mesh.vertices.size();
+        if (vertices.size() != expected)
+            fail_at(expectation.place, "matches: " + file + " has " + std::to_string(vertices.size()) +
+                                           " vertices, the cloth has " + std::to_string(expected));
+        return vertices;
+    }
+    return std::nullopt;
+}
+
+namespace {
+
+/// Beyond this the certificate need not say how far apart the surfaces are.
+double distance_limit(const BuiltScene& built, std::size_t cloth) {
+    const auto fabric = built.scene.fabrics.find(built.scene.cloths[cloth].fabric);
+    return fabric == built.scene.fabrics.end() ? std::numeric_limits<double>::infinity() : 4.0 * fabric->second.thickness;
+}
+
+Frame first_frame(const BuiltScene& built) {
+    Frame frame;
+    frame.cloths = built.cloth_meshes;
+    frame.obstacles = built.obstacle_meshes;
+    return frame;
+}
+
+void place_and_certify(const BuiltScene& built, Frame& frame) {
+    const Simulation& simulation = built.simulation;
+    frame.time = simulation.time();
+    frame.check = {};
+    for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
+        const std::span<const Vec3> positions = simulation.positions(built.cloths[i]);
+        frame.cloths[i].vertices.assign(positions.begin(), positions.end());
+    }
+    for (std::size_t i = 0; i < frame.obstacles.size(); ++i)
+        frame.obstacles[i].vertices =
+            transform(simulation.obstacle_pose(built.obstacles[i]), std::span<const Vec3>(built.obstacle_meshes[i].vertices));
+    for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth)
+        for (const TriangleMesh& obstacle : frame.obstacles)
+            add_certificate(frame.check, certify(frame.cloths[cloth], obstacle, distance_limit(built, cloth)));
+    std::vector<TriangleMesh> meeting;
+    for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth)
+        if (built.scene.meets_cloth(built.scene.cloths[cloth])) meeting.push_back(frame.cloths[cloth]);
+    if (!meeting.empty()) add_cloth_certificate(frame.check, meeting);
+}
+
+/// Looks at the state after each step: certificates, frames.
+class Observer {
+public:
+    Observer(const BuiltScene& built, const RunHooks& hooks, Measures& measures, int next_frame)
+        : built_(built), hooks_(hooks), measures_(measures), frame_(first_frame(built)) {
+        frame_.index = next_frame;
+    }
+
+    int next_frame() const { return frame_.index; }
+
+    /// The state after so many steps.
+    void look(int steps) {
+        seen_ = false;
+        if (measures_.steps) {
+            see();
+            add_state(*measures_.steps, steps, frame_.time, frame_.check);
+        }
+        make_due_frames();
+    }
+
+private:
+    void see() {
+        if (!seen_) place_and_certify(built_, frame_);
+        seen_ = true;
+    }
+
+    /// Frames due by now; several where the frame rate is higher than the step rate.
+    void make_due_frames() {
+        const double fps = built_.scene.output.fps;
+        const double slack = 1e-6 * built_.scene.step.time_step;  // accumulated rounding of the time
+        while (static_cast<double>(frame_.index) / fps <= built_.simulation.time() + slack) {
+            see();
+            add_frame(measures_, frame_.index, frame_.check);
+            if (hooks_.frame) hooks_.frame(frame_);
+            ++frame_.index;
+        }
+    }
+
+    const BuiltScene& built_;
+    const RunHooks& hooks_;
+    Measures& measures_;
+    Frame frame_;
+    bool seen_ = false;  // the frame shows the current state
+};
+
+void add_cost(RunTotals& totals, const StepReport& report) {
+    totals.newton_iterations += report.newton_iterations;
+    totals.linear_iterations += report.linear_iterations;
+    totals.rejected_steps += report.halvings + report.rejected;
+    if (report.linear_solver != LinearSolver::automatic) totals.linear_solver = report.linear_solver;
+    totals.contacts_most = std::max(totals.contacts_most, report.contacts);
+    totals.contact_stiffness = std::max(totals.contact_stiffness, report.contact_stiffness);
+    totals.stages += report.stages;
+}
+
+void add_accepted(RunTotals& totals, const StepReport& report) {
+    totals.steps += report.parts;
+    totals.sleeping_steps += report.slept;
+    totals.smallest_step_s = std::min(totals.smallest_step_s, report.smallest_dt);
+    totals.largest_step_s = std::max(totals.largest_step_s, report.largest_dt);
+    totals.largest_residual = std::max(totals.largest_residual, report.residual);
+    add_step_energy(report.energy, totals.energy);
+}
+
+bool changes_gravity(const Scene& scene) {
+    return std::any_of(scene.events.begin(), scene.events.end(),
+                       [](const EventSpec& event) { return std::holds_alternative<GravityEvent>(event.what); });
+}
+
+/// One step of the simulation: script, simulation, figures. False if it failed.
+bool make_step(BuiltScene& built, const RunHooks& hooks, Timeline& timeline, double dt, RunResult& result) {
+    RunTotals& totals = result.totals;
+    timeline.apply(built, built.simulation.time(), dt);
+    // A gravity event changes the potential energy without any work, so the energy before the step is taken after it.
+    const double before = changes_gravity(built.scene) ? built.simulation.energy().total() : totals.energy.total();
+    const StepReport report = built.simulation.step();
+    totals.cpu_s += report.cpu_s;
+    add_cost(totals, report);
+    if (hooks.step) hooks.step(report, built.simulation);
+    if (!report.ok()) {
+        result.status = RunStatus::failed;
+        result.reason = report.explanation();
+        return false;
+    }
+    add_step(result.measures, report, before);
+    add_accepted(totals, report);
+    return true;
+}
+
+/// What happens beside the steps.
+struct Script {
+    Timeline timeline;
+    Observer observer;
+};
+
+/// One step of the scene, in parts where an obstacle moves far; looks at the state after each. False if it failed.
+bool make_parts(BuiltScene& built, const RunHooks& hooks, Script& script, double dt, RunResult& result) {
+    const int parts = motion_parts(built, dt);
+    built.simulation.set_time_step(dt / parts);
+    for (int part = 0; part < parts; ++part) {
+        if (!make_step(built, hooks, script.timeline, dt / parts, result)) return false;
+        script.observer.look(result.totals.steps);
+    }
+    return true;
+}
+
+/// The next time at which adaptive steps have to end: that of a frame or an event, or the scene's end.
+double next_stop(const Scene& scene, double now) {
+    const double after = now + 1e-9 * scene.step.time_step;
+    double stop = scene.duration;
+    const double frame = (std::floor(after * scene.output.fps) + 1.0) / scene.output.fps;
+    if (frame > after) stop = std::min(stop, frame);
+    for (const EventSpec& event : scene.events)
+        if (event.time > after) stop = std::min(stop, event.time);
+    return stop;
+}
+
+/// Tells how long steps are: `time_step`, the last one shorter; with "auto" equal ones from stop to stop.
+class StepLengths {
+public:
+    StepLengths(const Scene& scene, const RunState* from)
+        : scene_(scene),
+          count_(count_steps(scene.duration, scene.step.time_step)),
+          length_(from ? from->step_length : scene.step.time_step),
+          made_(from ? from->steps_made : 0) {}
+
+    long made() const { return made_; }
+    double length() const { return length_; }
+
+    bool over(double now) const { return scene_.step.adaptive ? left(now) <= rounding : made_ >= count_.steps; }
+
+    double next(double now) {
+        ++made_;
+        if (!scene_.step.adaptive) return made_ >= count_.steps ? count_.last_dt : scene_.step.time_step;
+        const double way = next_stop(scene_, now) - now;
+        const double length = way / std::max(1.0, std::ceil(way / scene_.step.time_step - 1e-9));
+        // The same length in every bit as before: another one would be a change of the scene.
+        if (std::abs(length - length_) > 1e-9 * length) length_ = length;
+        return length_;
+    }
+
+    std::string made_text(double now) const {
+        if (scene_.step.adaptive) return "stopped at " + std::to_string(now) + " of " + std::to_string(scene_.duration) + " s";
+        return "stopped after " + std::to_string(made_) + " of " + std::to_string(count_.steps) + " steps";
+    }
+
+private:
+    static constexpr double rounding = 1e-7;  // of a step
+    double left(double now) const { return (scene_.duration - now) / scene_.step.time_step; }
+
+    const Scene& scene_;
+    StepCount count_;
+    double length_;
+    long made_;
+};
+
+/// Tells when checkpoints are due: whenever another so many seconds of the scene are over.
+class CheckpointTimes {
+public:
+    CheckpointTimes(double every, double now) : every_(every), made_(count(now)) {}
+
+    bool due(double now) {
+        const double before = made_;
+        made_ = count(now);
+        return made_ > before;
+    }
+
+private:
+    double count(double now) const { return every_ > 0.0 ? std::floor(now / every_ + 1e-9) : 0.0; }
+
+    double every_, made_;
+};
+
+/// A scene on its way from its start, or from where it was left, to its end.
+class Run {
+public:
+    Run(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings, RunResult& result)
+        : built_(built),
+          hooks_(hooks),
+          result_(result),
+          lengths_(built.scene, settings.from),
+          script_{Timeline(built), Observer(built, hooks, result.measures, settings.from ? settings.from->next_frame : 0)},
+          checkpoints_(settings.checkpoint_every, settings.from ? settings.from->totals.simulated_s : 0.0) {
+        if (settings.from) {
+            go_on_from(settings);
+        } else {
+            result.totals.energy = built.simulation.energy();
+            if (settings.certify_steps) result.measures.steps.emplace();
+        }
+    }
+
+    void make_steps() {
+        if (lengths_.made() == 0) script_.observer.look(0);
+        while (!lengths_.over(built_.simulation.time())) {
+            if (!make_parts(built_, hooks_, script_, lengths_.next(built_.simulation.time()), result_)) return;
+            const bool stop = !lengths_.over(built_.simulation.time()) && hooks_.stop_asked && hooks_.stop_asked();
+            const bool due = checkpoints_.due(built_.simulation.time());
+            if ((stop || due) && hooks_.checkpoint) hooks_.checkpoint(state());
+            if (!stop) continue;
+            result_.status = RunStatus::stopped;
+            result_.reason = lengths_.made_text(built_.simulation.time());
+            return;
+        }
+    }
+
+    /// Brings the totals up to date that are no sums over steps.
+    void measure() {
+        result_.totals.simulated_s = built_.simulation.time();
+        result_.totals.wall_s =
+            earlier_wall_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    void go_on_from(const RunSettings& settings) {
+        const RunState& from = *settings.from;
+        try {
+            script_.timeline.go_on_from(built_, from.timeline);
+            built_.simulation.restore(from.simulation);
+        } catch (const SceneError& error) {
+            throw SceneError(settings.from_file + ": " + error.what());
+        }
+        result_.totals = from.totals;
+        result_.measures = from.measures;
+        result_.resumed_at = from.resumed_at;
+        result_.resumed_at.push_back(built_.simulation.time());
+        earlier_wall_s_ = from.totals.wall_s;
+    }
+
+    RunState state() {
+        measure();
+        return {.totals = result_.totals,
+                .measures = result_.measures,
+                .resumed_at = result_.resumed_at,
+                .steps_made = lengths_.made(),
+                .step_length = lengths_.length(),
+                .next_frame = script_.observer.next_frame(),
+                .timeline = script_.timeline.state(),
+                .simulation = built_.simulation.save()};
+    }
+
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    double earlier_wall_s_ = 0.0;
+    BuiltScene& built_;
+    const RunHooks& hooks_;
+    RunResult& result_;
+    StepLengths lengths_;
+    Script script_;
+    CheckpointTimes checkpoints_;
+};
+
+}  // namespace
+
+RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings) {
+    const std::optional<std::vector<Vec3>> reference = read_reference(built);
+    RunResult result;
+    result.plan = plan_of(built);
+    Run run(built, hooks, settings, result);
+    if (hooks.begin) hooks.begin();
+    run.make_steps();
+    if (std::isnan(result.totals.energy.elastic))
+        result.measures.largest_strain = result.measures.energy_gain = result.totals.energy.elastic;
+    add_end(result.measures, built.simulation, built.cloths);
+    if (reference) result.measures.matches = largest_vertex_distance(built.simulation, built.cloths, *reference);
+    run.measure();
+    return result;
+}
+
+}  // namespace percale::scenes

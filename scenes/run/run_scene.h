@@ -1,0 +1,99 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/measures.h"
+#include "run/scene_build.h"
+#include "run/timeline.h"
+
+// Runs a scene from its start to its end: steps, output frames, certificates, measures. Writes and prints nothing.
+namespace percale::scenes {
+
+enum class RunStatus { finished, failed, stopped };
+const char* status_word(RunStatus status);
+
+/// Cloth and obstacles at one output time in world coordinates: what is certified and what is written are these same numbers.
+struct Frame {
+    int index = 0;
+    double time = 0.0;                    // s, of the state shown
+    std::vector<TriangleMesh> cloths;     // in the order of the scene
+    std::vector<TriangleMesh> obstacles;  // in the order of the scene
+    FrameCheck check;
+};
+
+/// Sums and extremes over the steps of a run.
+struct RunTotals {
+    int steps = 0;           // accepted
+    int rejected_steps = 0;  // steps that were redone as shorter ones
+    int sleeping_steps = 0;  // in which all cloth was at rest: not solved
+    double simulated_s = 0.0;
+    double smallest_step_s =
+        std::numeric_limits<double>::infinity();  // of the parts that steps were solved in; infinity if none was accepted
+    double largest_step_s = 0.0;
+    long newton_iterations = 0;
+    long linear_iterations = 0;
+    double largest_residual = 0.0;
+    LinearSolver linear_solver = LinearSolver::automatic;  // last in use; automatic if nothing was solved
+    int contacts_most = 0;
+    double contact_stiffness = 0.0;  // N/m, largest
+    StageTimes stages;               // CPU seconds
+    double cpu_s = 0.0;              // CPU seconds of all threads inside steps only
+    double wall_s = 0.0;             // whole run, output included
+    StepEnergy energy;               // J, at the end; what flows is summed over the run
+};
+
+struct RunResult {
+    RunStatus status = RunStatus::finished;
+    std::string reason;  // why it failed or was stopped
+    RunTotals totals;
+    ScenePlan plan;  // before the first step
+    Measures measures;
+    std::vector<double> resumed_at;  // s, where the run was resumed; empty for one that was not
+};
+
+/// Where a run stands between two steps of the scene: together with the scene, all that it takes to go on.
+struct RunState {
+    RunTotals totals;
+    Measures measures;
+    std::vector<double> resumed_at;  // s
+    long steps_made = 0;             // of the scene, undivided
+    double step_length = 0.0;        // s, of the last one
+    int next_frame = 0;
+    Timeline::State timeline;
+    std::vector<std::byte> simulation;  // Simulation::save
+};
+
+/// What the caller does meanwhile; each may be empty.
+struct RunHooks {
+    std::function<void()> begin;                                     // once, when nothing that was given can be wrong any more
+    std::function<void(const Frame&)> frame;                         // each output frame, after it was certified
+    std::function<void(const StepReport&, const Simulation&)> step;  // each step, a failed one too
+    std::function<bool()> stop_asked;                                // asked after each step
+    std::function<void(const RunState&)> checkpoint;                 // where one is due, and when the run is stopped
+};
+
+struct RunSettings {
+    bool certify_steps = false;      // certify every state, not only those of output frames: Measures::steps
+    double checkpoint_every = 0.0;   // s of simulated time, counted from 0; 0: none are due
+    const RunState* from = nullptr;  // where to go on; null: from the start
+    std::string from_file = {};      // where that was read, for messages
+};
+
+/// Steps until the scene's duration is over (where the duration is no multiple of the time step the last step is shorter, or up
+/// to a thousandth longer), a step fails or a stop is asked for. Adaptive steps (time_step = "auto") end at every frame's and
+/// event's time. Frame k follows the first step that ends at or after k / fps; frame 0 is the start. Every frame is certified
+/// against every obstacle, and cloth that meets cloth against that, also when nothing is written. A step in which an obstacle
+/// moves far is made in equal parts (motion_parts), each a step of the simulation and of the totals. Throws SceneError if the
+/// reference of a `matches` expectation cannot be read or has another number of vertices, or if the state to go on from is not
+/// one of this scene, before the first step; what a hook throws passes through. A run that goes on from a state ends with the
+/// same bits and figures as one that was never interrupted; the scene must have been built anew.
+RunResult run_scene(BuiltScene& built, const RunHooks& hooks = {}, const RunSettings& settings = {});
+
+/// The vertices of the file that `matches` names, if the scene expects that. Throws SceneError where it cannot be read or has
+/// another number of vertices than the cloth.
+std::optional<std::vector<Vec3>> read_reference(const BuiltScene& built);
+
+}  // namespace percale::scenes

@@ -1,0 +1,211 @@
+#include "run/scene_build.h"
+
+#include <filesystem>
+
+#include "common/text.h"
+#include "meshes/mesh_import.h"
+#include "percale/detectors.h"
+#include "percale/error.h"
+#include "percale/fabric_presets.h"
+#include "run/event_script.h"
+#include "run/obstacle_motion.h"
+#include "run/start_fault.h"
+#include "run/vertex_selection.h"
+
+namespace percale::scenes {
+namespace {
+
+constexpr int sphere_level = 4;
+constexpr int segments_around = 48;
+
+// Where a mesh is its own place, its file would be said twice.
+std::string without(const std::string& start, const std::string& what) {
+    return what.starts_with(start) ? what.substr(start.size()) : what;
+}
+
+// The message with the name of its cloth or obstacle in front, in quotes, unless it says that already.
+std::string named(const std::string& name, const std::string& what) {
+    const std::string quoted = "'" + name + "'";
+    if (what.find(quoted) != std::string::npos) return what;
+    return quoted + (what.starts_with(name + ":") ? what.substr(name.size()) : ": " + what);
+}
+
+// Builds a cloth or an obstacle; what is wrong with it is told with its place in the scene file.
+template <class Spec, class Work>
+void at_place_of(const Spec& spec, Work work) {
+    try {
+        work();
+    } catch (const SceneError& error) {
+        fail_at(spec.place, named(spec.name, without(spec.place.file + ": ", error.what())));
+    }
+}
+
+TriangleMesh shape_mesh(const Shape& shape) {
+    if (const auto* sphere = std::get_if<SphereShape>(&shape)) return make_sphere(sphere->radius, sphere_level);
+    if (const auto* box = std::get_if<BoxShape>(&shape)) return make_box(box->size);
+    if (const auto* cylinder = std::get_if<CylinderShape>(&shape))
+        return make_cylinder(cylinder->radius, cylinder->height, segments_around);
+    if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
+        return make_capsule(capsule->radius, capsule->height, segments_around);
+    if (const auto* plane = std::get_if<PlaneShape>(&shape)) return make_plane(plane->half_size);
+    throw SceneError("an obstacle needs a mesh or a shape");
+}
+
+std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {
+    if (!scene.has_contact() && (scene.step.skip || scene.detector == Detector::none)) return nullptr;
+    switch (scene.detector) {
+        case Detector::fcl:
+            return make_fcl_detector();
+        case Detector::bullet:
+            return make_bullet_detector();
+        case Detector::brute_force:
+            return make_brute_force_detector();
+        case Detector::none:
+            break;
+    }
+    std::vector<std::string> valid(detector_words.begin(), detector_words.end());
+    std::erase(valid, word_of(Detector::none));
+    const std::string lacks = " needs a detector, but step.detector is none; valid: " + joined(valid);
+    const ClothSpec* cloth = scene.cloth_that_meets_cloth();
+    if (!scene.obstacles.empty()) fail_at(scene.obstacles[0].place, "obstacle '" + scene.obstacles[0].name + "'" + lacks);
+    fail_at(cloth->place, "cloth '" + cloth->name + "': self_contact" + lacks);
+}
+
+const Fabric& fabric_of(const Scene& scene, const ClothSpec& cloth) {
+    const auto found = scene.fabrics.find(cloth.fabric);
+    if (found == scene.fabrics.end()) throw SceneError("no fabric '" + cloth.fabric + "'");
+    return found->second;
+}
+
+void check_shear(const ClothSpec& cloth, const TriangleMesh& mesh, double shear) {
+    if (mesh.is_grid() || shear == 0.0) return;
+    throw SceneError("cloth '" + cloth.name + "': fabric." + cloth.fabric + ".springs.shear = " + number_text(shear) +
+                     " N/m, but a free mesh has no shear springs; it must be 0");
+}
+
+/// A preset has a warp, a mesh does not say where: there it is isotropic, which is not silent.
+Fabric fabric_on(BuiltScene& built, const ClothSpec& cloth, const TriangleMesh& mesh) {
+    const Fabric& fabric = fabric_of(built.scene, cloth);
+    if (mesh.is_grid() || !built.scene.preset_moduli.contains(cloth.fabric)) return fabric;
+    const Fabric result = isotropic(fabric);
+    const auto [warp, weft] = *fabric.stretch_stiffness;
+    built.warnings.push_back("cloth '" + cloth.name + "': a mesh does not say where warp is; instead of stretch_stiffness = [" +
+                             number_text(warp) + ", " + number_text(weft) + "] N/m, fabric." + cloth.fabric + " has " +
+                             number_text(result.stretch_stiffness->front()) +
+                             " N/m in every direction there, what belongs to its shear_stiffness");
+    return result;
+}
+
+void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
+    TriangleMesh mesh = rest_mesh(built.scene, cloth);
+    check_mesh(mesh, "cloth '" + cloth.name + "'", true);
+    const Fabric fabric = fabric_on(built, cloth, mesh);
+    check_shear(cloth, mesh, fabric.springs.shear);
+    const ClothId id = built.simulation.add_cloth(mesh, fabric, {}, cloth.name);
+    built.cloths.push_back(id);
+    built.cloth_meshes.push_back(std::move(mesh));
+}
+
+void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
+    try {
+        for (const int vertex : select_vertices(cloth.pin, built.cloth_meshes.back(), cloth.name))
+            built.simulation.pin(built.cloths.back(), vertex);
+    } catch (const SceneError& error) {
+        fail_at(cloth.pin_place, std::string("pin: ") + error.what());
+    }
+}
+
+void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
+    TriangleMesh mesh = obstacle_mesh(built.scene, obstacle);
+    check_mesh(mesh, "obstacle '" + obstacle.name + "'", false);
+    const ObstacleSettings settings{.friction = obstacle.friction, .name = obstacle.name};
+    built.obstacles.push_back(built.simulation.add_obstacle(mesh, obstacle_pose_at(obstacle, 0.0), settings));
+    built.obstacle_meshes.push_back(std::move(mesh));
+}
+
+ClothId cloth_named(const BuiltScene& built, const std::string& name) {
+    for (std::size_t i = 0; i < built.scene.cloths.size(); ++i)
+        if (built.scene.cloths[i].name == name) return built.cloths[i];
+    throw SceneError("no cloth '" + name + "'");
+}
+
+void add_seam(BuiltScene& built, const SeamSpec& seam) {
+    try {
+        const ClothId first = cloth_named(built, seam.cloths[0]), second = cloth_named(built, seam.cloths[1]);
+        built.simulation.add_seam(first, second, seam.vertices, {.over = seam.over, .stiffness = seam.stiffness});
+    } catch (const SceneError& error) {
+        fail_at(seam.place, error.what());
+    }
+}
+
+// Cloths have the same numbers in the scene and in the simulation; triangles are counted through all of them.
+const SourcePlace& place_of_triangle(const BuiltScene& built, int triangle) {
+    std::size_t cloth = 0, end = built.cloth_meshes[0].triangles.size();
+    while (static_cast<std::size_t>(triangle) >= end) end += built.cloth_meshes[++cloth].triangles.size();
+    return built.scene.cloths[cloth].place;
+}
+
+// So have obstacles.
+[[noreturn]] void refuse_start(const BuiltScene& built, const StartError& error) {
+    const auto at = [&](const SourcePlace& place) {
+        const std::string where = place_text(place);
+        return (where.empty() ? "" : where + ": ") + error.what();
+    };
+    if (error.fault().between_cloths()) throw StartRefused(at(place_of_triangle(built, error.fault().cloth_triangle)), {});
+    const auto number = static_cast<std::size_t>(error.fault().obstacle);
+    TriangleMesh obstacle = built.obstacle_meshes.at(number);
+    obstacle.vertices =
+        transform(built.simulation.obstacle_pose(built.obstacles[number]), std::span<const Vec3>(obstacle.vertices));
+    throw StartRefused(at(built.scene.obstacles.at(number).place), offending_triangles(built.cloth_meshes, obstacle));
+}
+
+void check_start(BuiltScene& built) {
+    const Scene& scene = built.scene;
+    try {
+        built.simulation.prepare();
+    } catch (const StartError& error) {
+        refuse_start(built, error);
+    } catch (const SceneError& error) {
+        fail_at(scene.scheme_place, std::string("step.scheme: ") + error.what());
+    }
+}
+
+}  // namespace
+
+std::string path_beside(const Scene& scene, const std::string& path) {
+    return (std::filesystem::path(scene.file).parent_path() / path).string();
+}
+
+TriangleMesh rest_mesh(const Scene& scene, const ClothSpec& cloth) {
+    TriangleMesh mesh =
+        cloth.grid ? make_grid(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->vertices[0], cloth.grid->vertices[1])
+                   : import_mesh(path_beside(scene, cloth.mesh), cloth.unit);
+    mesh.vertices = transform(cloth.pose, mesh.vertices);
+    return mesh;
+}
+
+TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle) {
+    return obstacle.mesh.empty() ? shape_mesh(obstacle.shape) : import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit);
+}
+
+BuiltScene build_scene(const Scene& scene) {
+    std::unique_ptr<ContactDetector> detector = make_detector(scene);
+    BuiltScene built{.scene = scene,
+                     .simulation = Simulation(scene.step, std::move(detector)),
+                     .cloths = {},
+                     .cloth_meshes = {},
+                     .obstacles = {},
+                     .obstacle_meshes = {},
+                     .warnings = {}};
+    for (const ClothSpec& cloth : scene.cloths) {
+        at_place_of(cloth, [&] { add_cloth(built, cloth); });
+        pin_cloth(built, cloth);
+    }
+    for (const ObstacleSpec& obstacle : scene.obstacles) at_place_of(obstacle, [&] { add_obstacle(built, obstacle); });
+    for (const SeamSpec& seam : scene.seams) add_seam(built, seam);
+    script_events(scene, built.cloth_meshes);
+    check_start(built);
+    return built;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,111 @@
+#include "run/scene_plan.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "common/text.h"
+#include "run/start_fault.h"
+#include "run/step_count.h"
+
+namespace percale::scenes {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ScriptedChanges changes_of(const Scene& scene) {
+    ScriptedChanges changes;
+    changes.obstacles = std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
+                                    [](const ObstacleSpec& obstacle) { return !obstacle.motion.empty() || obstacle.spin; });
+    for (const EventSpec& event : scene.events) {
+        const bool gravity = std::holds_alternative<GravityEvent>(event.what),
+                   wind = std::holds_alternative<WindEvent>(event.what);
+        changes.gravity = changes.gravity || gravity;
+        changes.wind = changes.wind || wind;
+        changes.pins = changes.pins || !(gravity || wind);
+    }
+    return changes;
+}
+
+std::string line(const std::string& label, const std::string& value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%-11s", label.c_str());
+    return text + value + "\n";
+}
+
+std::string springs_text(const SpringCounts& springs) {
+    return std::to_string(springs.total()) + " (" + std::to_string(springs.structural) + " structural, " +
+           std::to_string(springs.shear) + " shear, " + std::to_string(springs.bend) + " bending" +
+           (springs.seam > 0 ? ", " + std::to_string(springs.seam) + " of seams)" : ")");
+}
+
+}  // namespace
+
+std::string steps_text(const Scene& scene) {
+    const StepSettings& step = scene.step;
+    if (step.adaptive) return "steps as long as an error of " + short_number(step.tolerance) + " m a second allows";
+    const StepCount count = count_steps(scene.duration, step.time_step);
+    return counted(count.steps, "step") + " of " + short_number(step.time_step) + " s";
+}
+
+ScenePlan plan_of(const BuiltScene& built) {
+    ScenePlan plan = built.simulation.plan(changes_of(built.scene));
+    plan.warnings.insert(plan.warnings.begin(), built.warnings.begin(), built.warnings.end());
+    return plan;
+}
+
+std::string plan_text(const BuiltScene& built) {
+    const ScenePlan plan = plan_of(built);
+    std::string text = line("title", built.scene.title) + line("steps", steps_text(built.scene) + ", " + plan.scheme_word);
+    if (!plan.scheme_reason.empty()) text += line("scheme", plan.scheme_word + ": " + plan.scheme_reason);
+    for (const std::string& warning : plan.warnings) text += line("warning", warning);
+    text += line("vertices", std::to_string(plan.vertices) + ", " + std::to_string(plan.pinned_vertices) + " pinned");
+    text += line("springs", springs_text(plan.springs));
+    if (plan.springs.triangle > 0) text += line("membrane", counted(plan.springs.triangle, "triangle"));
+    if (plan.springs.hinge > 0) text += line("hinges", std::to_string(plan.springs.hinge));
+    for (std::size_t i = 0; i < built.obstacles.size(); ++i)
+        text += line("obstacle", built.scene.obstacles[i].name + ", " +
+                                     counted(static_cast<long>(built.obstacle_meshes[i].triangles.size()), "triangle"));
+    for (const StartMove& move : built.simulation.start_repair()) text += line("start", start_move_text(move));
+    const bool detects = built.scene.has_contact();
+    text += line("memory",
+                 short_number(1e-6 * plan.memory_bytes) + " MB predicted" + (detects ? ", lists of near pairs on top" : ""));
+    text += line("cost", short_number(plan.evaluations_a_step) + " evaluations of all springs a step predicted" +
+                             (detects ? ", detection on top" : ""));
+    text += plan.skipped.empty() ? line("skipped", "nothing") : "skipped\n";
+    for (const Skip& skip : plan.skipped) text += "  " + skip.what + ": " + skip.why + "\n";
+    return text;
+}
+
+std::string plan_json(const BuiltScene& built) {
+    const ScenePlan plan = plan_of(built);
+    const StepCount count = count_steps(built.scene.duration, built.scene.step.time_step);
+    ordered_json json;
+    json["title"] = built.scene.title;
+    json["scene"] = built.scene.file;
+    json["scheme"] = plan.scheme_word;
+    if (!plan.scheme_reason.empty()) json["scheme_reason"] = plan.scheme_reason;
+    json["warnings"] = plan.warnings;
+    json["time_step_s"] = built.scene.step.adaptive ? ordered_json("auto") : ordered_json(built.scene.step.time_step);
+    json["steps"] = built.scene.step.adaptive ? ordered_json(nullptr) : ordered_json(count.steps);
+    json["vertices"] = plan.vertices;
+    json["pinned_vertices"] = plan.pinned_vertices;
+    json["springs"] = {{"structural", plan.springs.structural},
+                       {"shear", plan.springs.shear},
+                       {"bend", plan.springs.bend},
+                       {"seam", plan.springs.seam},
+                       {"hinge", plan.springs.hinge},
+                       {"triangle", plan.springs.triangle}};
+    json["obstacles"] = ordered_json::array();
+    for (std::size_t i = 0; i < built.obstacles.size(); ++i)
+        json["obstacles"].push_back(
+            {{"name", built.scene.obstacles[i].name}, {"triangles", built.obstacle_meshes[i].triangles.size()}});
+    json["memory_bytes"] = plan.memory_bytes;
+    json["evaluations_a_step"] = plan.evaluations_a_step;
+    json["skipped"] = ordered_json::array();
+    for (const Skip& skip : plan.skipped) json["skipped"].push_back({{"what", skip.what}, {"why", skip.why}});
+    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "percale/plan.h"
+#include "run/scene_build.h"
+
+namespace percale::scenes {
+
+/// How many steps of what length a scene is run in.
+std::string steps_text(const Scene& scene);
+
+/// The plan of a built scene before its first step, with the motion and events that its file holds.
+ScenePlan plan_of(const BuiltScene& built);
+
+/// The plan for people: title, scheme, counts, obstacles with their triangles, what is left out and why, predicted memory and
+/// cost.
+std::string plan_text(const BuiltScene& built);
+
+/// The same as a JSON object; SI units, memory in bytes.
+std::string plan_json(const BuiltScene& built);
+
+}  // namespace percale::scenes

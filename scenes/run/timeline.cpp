@@ -1,0 +1,81 @@
+#include "run/timeline.h"
+
+#include <algorithm>
+
+#include "percale/error.h"
+#include "run/obstacle_motion.h"
+
+namespace percale::scenes {
+namespace {
+
+constexpr double rounding = 1e-9;  // of a step: times are sums of steps
+
+void move_obstacles(BuiltScene& built, double end) {
+    for (std::size_t i = 0; i < built.obstacles.size(); ++i) {
+        const Pose pose = obstacle_pose_at(built.scene.obstacles[i], end);
+        if (pose != built.simulation.obstacle_pose(built.obstacles[i])) built.simulation.move_obstacle(built.obstacles[i], pose);
+    }
+}
+
+}  // namespace
+
+Timeline::Timeline(const BuiltScene& built) : events_(script_events(built.scene, built.cloth_meshes)) {}
+
+void Timeline::apply(BuiltScene& built, double time, double dt) {
+    while (next_event_ < events_.size() && events_[next_event_].time <= time + rounding * dt) act(built, events_[next_event_++]);
+    move_pins(built, time + dt);
+    move_obstacles(built, time + dt);
+}
+
+void Timeline::go_on_from(const BuiltScene& built, const State& state) {
+    const auto known = [&](const MovingPin& pin) {
+        if (pin.cloth < 0 || pin.cloth >= static_cast<int>(built.cloth_meshes.size())) return false;
+        const auto vertices = static_cast<int>(built.cloth_meshes[static_cast<std::size_t>(pin.cloth)].vertices.size());
+        return pin.vertex >= 0 && pin.vertex < vertices;
+    };
+    const bool fits = state.next_event >= 0 && state.next_event <= static_cast<long>(events_.size()) &&
+                      std::all_of(state.moving_pins.begin(), state.moving_pins.end(), known);
+    if (!fits) throw SceneError("the state of the script is that of another scene");
+    next_event_ = static_cast<std::size_t>(state.next_event);
+    moving_pins_ = state.moving_pins;
+}
+
+void Timeline::act(BuiltScene& built, const ScriptedEvent& event) {
+    const auto id = [&](int cloth) { return built.cloths[static_cast<std::size_t>(cloth)]; };
+    if (const auto* pin = std::get_if<ScriptedPin>(&event.what)) {
+        for (const int vertex : pin->vertices) built.simulation.pin(id(pin->cloth), vertex);
+    } else if (const auto* unpin = std::get_if<ScriptedUnpin>(&event.what)) {
+        forget_moves(unpin->cloth, unpin->vertices);
+        for (const int vertex : unpin->vertices) built.simulation.unpin(id(unpin->cloth), vertex);
+    } else if (const auto* move = std::get_if<ScriptedMove>(&event.what)) {
+        forget_moves(move->cloth, move->vertices);
+        start_move(built, *move, event.time);
+    } else if (const auto* wind = std::get_if<ScriptedWind>(&event.what)) {
+        built.simulation.set_wind(wind->wind);
+    } else {
+        built.simulation.set_gravity(std::get<ScriptedGravity>(event.what).gravity);
+    }
+}
+
+void Timeline::start_move(const BuiltScene& built, const ScriptedMove& move, double from) {
+    const std::span<const Vec3> positions = built.simulation.positions(built.cloths[static_cast<std::size_t>(move.cloth)]);
+    for (const int vertex : move.vertices)
+        moving_pins_.push_back({move.cloth, vertex, positions[static_cast<std::size_t>(vertex)], move.to, from, move.over});
+}
+
+void Timeline::forget_moves(int cloth, const std::vector<int>& vertices) {
+    std::erase_if(moving_pins_, [&](const MovingPin& pin) {
+        return pin.cloth == cloth && std::binary_search(vertices.begin(), vertices.end(), pin.vertex);
+    });
+}
+
+void Timeline::move_pins(BuiltScene& built, double end) {
+    const auto fraction = [&](const MovingPin& pin) { return std::min(1.0, (end - pin.from) / pin.over); };
+    for (const MovingPin& pin : moving_pins_) {
+        const Vec3 target = pin.start + fraction(pin) * pin.displacement;
+        built.simulation.move_pin(built.cloths[static_cast<std::size_t>(pin.cloth)], pin.vertex, target);
+    }
+    std::erase_if(moving_pins_, [&](const MovingPin& pin) { return fraction(pin) >= 1.0; });
+}
+
+}  // namespace percale::scenes

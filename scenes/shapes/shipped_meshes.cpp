@@ -1,0 +1,30 @@
+#include "shapes/shipped_meshes.h"
+
+#include <cmath>
+
+#include "shapes/funnel.h"
+#include "shapes/mannequin.h"
+#include "shapes/poncho.h"
+#include "shapes/spikes.h"
+
+namespace percale::scenes {
+
+namespace {
+
+/// Short numbers keep the files small, and hide the last bits, in which compilers may differ.
+TriangleMesh rounded(TriangleMesh mesh) {
+    for (Vec3& x : mesh.vertices)
+        for (double& coordinate : x) coordinate = std::round(coordinate * 1e6) / 1e6 + 0.0;
+    return mesh;
+}
+
+}  // namespace
+
+std::vector<ShippedMesh> make_shipped_meshes() {
+    const SpikeBed needles{.width = 0.6, .count = 10, .height = 0.1, .base = 0.03, .thickness = 0.02};
+    return {{"funnel.obj", rounded(make_funnel())},         {"mannequin.obj", rounded(make_mannequin(0.02))},
+            {"needles.obj", rounded(make_spikes(needles))}, {"poncho.obj", rounded(make_poncho())},
+            {"sphere.obj", rounded(make_sphere(0.25, 4))},  {"spikes.obj", rounded(make_spikes())}};
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/compare_run.h"
+#include "stress/stress_watch.h"
+
+// Cloth stepped in ways that break schemes: where each is stable, and whether what is not says so.
+namespace percale::scenes {
+
+struct StressRow {
+    StressCell cell;  // of a scene: scheme, time step, and its stiffness as a factor
+    StressFigures figures;
+    StressVerdict verdict = StressVerdict::stable;
+};
+
+struct StressRun {
+    std::string title;
+    bool of_scene = false;  // stiffness is a factor on that of the scene
+    int steps = 0;          // of each cell, at most; cells of the matrix: run_cell
+    std::vector<StressRow> rows;
+
+    /// Rows with a verdict that their scheme must not have.
+    int failures() const;
+};
+
+struct StressHooks {
+    std::function<bool()> stop_asked;        // asked after each cell
+    std::function<void(int, int)> progress;  // cells made, of how many; may be empty
+};
+
+/// The default matrix: a base sweep of time step, stiffness and scheme, and sweeps of masses, damping, meshes, starts and contact
+/// around some of its points. Always the same cells in the same order.
+std::vector<StressCell> stress_matrix();
+
+/// Of a cell, if not said otherwise.
+constexpr int usual_steps = 16;
+
+/// Just beyond their limit explicit schemes grow slowly, and their steps are cheap: they make so many times more of them.
+constexpr int explicit_factor = 8;
+
+/// Runs one cell for so many steps, of an explicit scheme `explicit_factor` times as many.
+StressRow run_cell(const StressCell& cell, int steps);
+
+/// Runs cells in turn. Throws ComparisonStopped after a stop.
+StressRun stress_cells(std::span<const StressCell> cells, int steps, const StressHooks& hooks);
+
+/// Which steps, stiffness factors and schemes a scene is run with.
+struct SceneStress {
+    std::vector<std::string> schemes = {};                           // empty: all
+    std::vector<double> time_steps = {1e-4, 1e-3, 1e-2, 1e-1, 1.0};  // s
+    std::vector<double> factors = {1e-2, 1.0, 1e2, 1e4};             // on all constants of springs and moduli
+    int steps = usual_steps;                                         // of each run, at most
+};
+
+/// The same with a scene: each run ends with the scene's duration or after so many steps. Throws SceneError where the scene is
+/// wrong, ComparisonStopped after a stop.
+StressRun stress_scene(const SceneSource& source, const SceneStress& settings, const StressHooks& hooks);
+
+}  // namespace percale::scenes

@@ -1,0 +1,67 @@
+#include "scenes/common/text.h"
+
+#include <cstdlib>
+#include <limits>
+#include <random>
+
+#include "tests/scenes/scene_texts.h"
+#include "tests/support/catch.h"
+
+using namespace percale::scenes;
+
+TEST_CASE("number texts are short") {
+    CHECK(number_text(0.3) == "0.3");
+    CHECK(number_text(0.0) == "0");
+    CHECK(number_text(33.0) == "33");
+    CHECK(number_text(-9.81) == "-9.81");
+    CHECK(number_text(1e-6) == "1e-6");
+    CHECK(number_text(1e6) == "1e6");
+    CHECK(number_text(1e-14) == "1e-14");
+    CHECK(number_text(1e20) == "1e20");
+    CHECK(number_text(2.5e-103) == "2.5e-103");
+    CHECK(number_text(std::numeric_limits<double>::infinity()) == "inf");
+    CHECK(number_text(-std::numeric_limits<double>::infinity()) == "-inf");
+    CHECK(number_text(std::numeric_limits<double>::quiet_NaN()) == "nan");
+}
+
+TEST_CASE("number texts read back as the same number") {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> mantissa(-10.0, 10.0);
+    std::uniform_int_distribution<int> exponent(-300, 300);
+    for (int i = 0; i < 2000; ++i) {
+        const double value = mantissa(random) * std::pow(10.0, exponent(random));
+        REQUIRE(std::strtod(number_text(value).c_str(), nullptr) == value);
+    }
+}
+
+TEST_CASE("a distance is told in metres, an infinite one in words") {
+    CHECK(nearness_text(0.00321) == "smallest distance 0.00321 m");
+    CHECK(nearness_text(0.0) == "smallest distance 0 m");
+    CHECK(nearness_text(std::numeric_limits<double>::infinity()) == "never near");
+}
+
+TEST_CASE("a place with a line is file, line and column, without one the file") {
+    CHECK(place_text({.file = "a.toml", .line = 3, .column = 7}) == "a.toml:3:7");
+    CHECK(place_text({.file = "a.toml"}) == "a.toml");
+    CHECK(place_text({}).empty());
+}
+
+TEST_CASE("an error at a place begins with the place, and has no colon where there is none") {
+    CHECK(error_of([] { fail_at({.file = "a.toml", .line = 3, .column = 7}, "is wrong"); }) == "a.toml:3:7: is wrong");
+    CHECK(error_of([] { fail_at({}, "is wrong"); }) == "is wrong");
+}
+
+TEST_CASE("joined words have commas between them") {
+    const std::string words[] = {"a", "b", "c"};
+    CHECK(joined(words) == "a, b, c");
+    CHECK(joined({}).empty());
+}
+
+TEST_CASE("short numbers have three digits, and one of a thing has no s") {
+    CHECK(short_number(1.0 / 60.0) == "0.0167");
+    CHECK(short_number(12345678.0) == "1.23e+07");
+    CHECK(short_number(30.0) == "30");
+    CHECK(counted(1, "step") == "1 step");
+    CHECK(counted(0, "step") == "0 steps");
+    CHECK(counted(12, "step") == "12 steps");
+}

@@ -1,0 +1,134 @@
+#include "run/scene_plan.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "format/scene_file.h"
+#include "run/run_scene.h"
+#include "tests/scenes/small_scenes.h"
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::scenes;
+using namespace percale::scenes::test;
+
+namespace {
+
+BuiltScene built(const std::string& text, const std::vector<Override>& overrides = {}) {
+    return build_scene(parse_scene(text, "test.toml", overrides));
+}
+
+bool skips(const BuiltScene& scene, const std::string& what) {
+    const ScenePlan plan = plan_of(scene);
+    return std::any_of(plan.skipped.begin(), plan.skipped.end(), [&](const Skip& skip) { return skip.what == what; });
+}
+
+const std::string lift = "[[obstacle.motion]]\ntime = 0.0\n[[obstacle.motion]]\ntime = 1.0\ntranslation = [0.1, -0.2, 0.03]\n";
+const std::string pin_event = "[[event]]\ntime = 0.05\npin = { cloth = \"sheet\", vertices = [0] }\n";
+
+}  // namespace
+
+TEST_CASE("the plan of a scene counts what it holds") {
+    const ScenePlan plan = plan_of(built(sheet_on_box(), {{"cloth.sheet.pin", "[0, 5]"}}));
+    CHECK(plan.vertices == 36);
+    CHECK(plan.pinned_vertices == 2);
+    CHECK(plan.springs.structural == 60);
+    CHECK(plan.springs.shear == 50);
+    CHECK(plan.springs.bend == 48);
+    CHECK(plan.obstacles == 1);
+    CHECK(plan.obstacle_triangles == 12);
+}
+
+TEST_CASE("motion and events of the file are known before the first step") {
+    const std::string box = sheet_on_box();
+    CHECK(skips(built(box), "motion of obstacles"));
+    CHECK_FALSE(skips(built(box + lift), "motion of obstacles"));
+    CHECK(skips(built(box), "motion and work of pins"));
+    CHECK_FALSE(skips(built(box + pin_event), "motion and work of pins"));
+    CHECK(skips(built(box, {{"gravity", "[0, 0, 0]"}}), "energy of gravity"));
+    const std::string gravity = "[[event]]\ntime = 0.05\ngravity = [0.0, -1.0, 0.0]\n";
+    CHECK_FALSE(skips(built(box + gravity, {{"gravity", "[0, 0, 0]"}}), "energy of gravity"));
+}
+
+TEST_CASE("the plan tells what the start needed") {
+    CHECK(plan_text(built(sheet_on_box())).find("moved out of") == std::string::npos);
+    std::string inside = sheet_on_box();
+    inside.replace(inside.find("0.015"), 5, "-0.01");
+    const std::string text = plan_text(built(inside));
+    CAPTURE(text);
+    CHECK(text.find("start      36 vertices of sheet moved out of box before the start") != std::string::npos);
+}
+
+TEST_CASE("a run lists what its plan lists") {
+    BuiltScene scene = built(sheet_on_box() + pin_event);
+    const ScenePlan plan = plan_of(scene);
+    const RunResult result = run_scene(scene);
+    REQUIRE(result.plan.skipped.size() == plan.skipped.size());
+    for (std::size_t i = 0; i < plan.skipped.size(); ++i) CHECK(result.plan.skipped[i].what == plan.skipped[i].what);
+}
+
+TEST_CASE("a run that skips nothing ends where one ends that skips what it can") {
+    for (const std::string& text : {sheet_on_box(), sheet_on_box() + lift, sheet_on_box() + pin_event}) {
+        // The box is shifted so that none of its edges lies below one of the sheet, where contacts would change to and fro.
+        const std::vector<Override> longer = {{"duration", "1.5"}, {"obstacle.box.pose.translation", "[0.1, -0.25, 0.03]"}};
+        std::vector<Override> everything = longer;
+        everything.push_back({"step.skip", "false"});
+        BuiltScene skipping = built(text, longer), whole = built(text, everything);
+        run_scene(skipping);
+        run_scene(whole);
+        const auto reference = whole.simulation.positions(whole.cloths[0]);
+        CHECK(largest_vertex_distance(skipping.simulation, skipping.cloths, reference) < 1e-4);
+    }
+}
+
+TEST_CASE("a scene without obstacles has a detector only if nothing is skipped, and ends the same") {
+    const std::vector<Override> implicit = {{"step.scheme", "backward_euler"}, {"step.newton_tolerance", "1e-8"}};
+    std::vector<Override> everything = implicit;
+    everything.push_back({"step.skip", "false"});
+    BuiltScene skipping = built(falling_sheet(), implicit), whole = built(falling_sheet(), everything);
+    CHECK(skips(skipping, "contact detection, rows, cuts and predicted positions"));
+    CHECK_FALSE(skips(whole, "contact detection, rows, cuts and predicted positions"));
+    run_scene(skipping);
+    run_scene(whole);
+    const auto reference = whole.simulation.positions(whole.cloths[0]);
+    CHECK(largest_vertex_distance(skipping.simulation, skipping.cloths, reference) < 1e-9);
+}
+
+TEST_CASE("a plan says which scheme was chosen and why, and warns of steps that are too long") {
+    const BuiltScene open = built(falling_sheet(), {{"step.scheme", "auto"}});
+    CHECK(plan_text(open).find(plan_of(open).scheme_reason) != std::string::npos);
+    CHECK(nlohmann::json::parse(plan_json(open)).at("scheme_reason") == plan_of(open).scheme_reason);
+    CHECK(plan_of(open).scheme != Scheme::automatic);
+    CHECK(plan_of(open).warnings.empty());
+    const BuiltScene stiff = built(falling_sheet(), {{"fabric.sheet.springs.structural", "1e5"}});
+    REQUIRE(plan_of(stiff).warnings.size() == 1);
+    CHECK(plan_text(stiff).find("warning    " + plan_of(stiff).warnings[0]) != std::string::npos);
+    CHECK(nlohmann::json::parse(plan_json(stiff)).at("warnings").size() == 1);
+    const BuiltScene adaptive = built(sheet_on_box(), {{"step.time_step", "auto"}, {"step.tolerance", "0.002"}});
+    CHECK(plan_text(adaptive).find("an error of 0.002 m a second allows, tr_bdf2") != std::string::npos);
+    CHECK(nlohmann::json::parse(plan_json(adaptive)).at("time_step_s") == "auto");
+}
+
+TEST_CASE("text and JSON say the same") {
+    const BuiltScene scene = built(sheet_on_box());
+    const std::string text = plan_text(scene);
+    const auto json = nlohmann::json::parse(plan_json(scene));
+    for (const char* part : {"sheet on a box", "12 steps of 0.0167 s, backward_euler", "36, 0 pinned",
+                             "158 (60 structural, 50 shear, 48 bending)", "box, 12 triangles", "MB predicted"})
+        CHECK(text.find(part) != std::string::npos);
+    CHECK(json.at("title") == "sheet on a box");
+    CHECK(json.at("scheme") == "backward_euler");
+    CHECK(json.at("steps") == 12);
+    CHECK(json.at("vertices") == 36);
+    CHECK(json.at("springs").at("bend") == 48);
+    CHECK(json.at("obstacles").at(0).at("name") == "box");
+    CHECK(json.at("obstacles").at(0).at("triangles") == 12);
+    CHECK(json.at("memory_bytes").get<double>() == plan_of(scene).memory_bytes);
+    for (const auto& skip : json.at("skipped"))
+        CHECK(text.find("  " + skip.at("what").get<std::string>() + ": " + skip.at("why").get<std::string>()) !=
+              std::string::npos);
+    CHECK(text.find("  contact of sheet with cloth: self_contact is false") != std::string::npos);
+    const std::string all = plan_text(built(sheet_on_box(), {{"step.skip", "false"}, {"fabric.sheet.self_contact", "true"}}));
+    for (const char* skip : {"motion", "work", "energy", "matrix", "contact"})
+        CHECK(all.find(std::string("\n  ") + skip) == std::string::npos);
+}

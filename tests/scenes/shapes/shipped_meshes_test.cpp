@@ -1,0 +1,49 @@
+#include "scenes/shapes/shipped_meshes.h"
+
+#include <filesystem>
+
+#include "percale/certify.h"
+#include "scenes/meshes/mesh_import.h"
+#include "tests/scenes/mesh_laws.h"
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::scenes;
+using namespace percale::scenes::test;
+
+namespace {
+
+const std::string folder = PERCALE_DATA_DIR "/meshes/";
+
+}  // namespace
+
+TEST_CASE("the mesh files in data are what the code makes today, and nothing else is there") {
+    std::set<std::string> made, stored_files;
+    for (const auto& [file, mesh] : make_shipped_meshes()) {
+        INFO(file);
+        made.insert(file);
+        const TriangleMesh stored = import_mesh(folder + file);
+        REQUIRE(stored.vertices.size() == mesh.vertices.size());
+        CHECK(stored.triangles == mesh.triangles);
+        double largest = 0.0;
+        for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+            largest = std::max(largest, (stored.vertices[v] - mesh.vertices[v]).lpNorm<Eigen::Infinity>());
+        CHECK(largest <= 1e-6);
+        CHECK(std::filesystem::file_size(folder + file) < 1 << 20);
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) stored_files.insert(entry.path().filename().string());
+    CHECK(stored_files == made);
+}
+
+TEST_CASE("the shipped files hold closed bodies and meshes fit for use, with six decimals") {
+    for (const std::string file : {"funnel.obj", "mannequin.obj", "needles.obj", "poncho.obj", "sphere.obj", "spikes.obj"}) {
+        INFO(file);
+        const TriangleMesh mesh = import_mesh(folder + file);
+        CHECK_NOTHROW(check_mesh(mesh, file, true));
+        CHECK(is_watertight(mesh) == (file != "poncho.obj"));
+        CHECK(self_intersections(mesh).empty());
+        CHECK(sharpest_angle(mesh) > 15.0);
+        for (const Vec3& x : mesh.vertices)
+            for (const double coordinate : x) REQUIRE(std::abs(coordinate * 1e6 - std::round(coordinate * 1e6)) < 1e-6);
+    }
+}
