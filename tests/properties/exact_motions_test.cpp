@@ -29,16 +29,16 @@ World thrown_links(const StepSettings& settings, double damping) {
     for (Link& link : links) link.stiffness = 50.0;
     const std::vector<double> masses(8, 0.1);
     World world = make_world(linked_masses(masses, links), random_points(random, 8, 1.0), settings);
-    world.state.velocities = to_vectors(random_points(random, 8, 1.0));
+    world.state.cloth.velocities = to_vectors(random_points(random, 8, 1.0));
     return world;
 }
 
 Vec3 centre(const World& world) {
     Vec3 sum = Vec3::Zero();
     double mass = 0.0;
-    for (int i = 0; i < world.model.vertex_count(); ++i) {
-        sum += world.model.mass[i] * world.state.positions.at(i);
-        mass += world.model.mass[i];
+    for (int i = 0; i < world.scene.model.vertex_count(); ++i) {
+        sum += world.scene.model.mass[i] * world.state.cloth.positions.at(i);
+        mass += world.scene.model.mass[i];
     }
     return sum / mass;
 }
@@ -91,7 +91,7 @@ TEST_CASE("Cloth with rusty springs falls as cloth with clean ones, in every sch
         const StepSettings settings{.time_step = 2e-3, .scheme = scheme, .newton_tolerance = 1e-10, .newton_iterations = 200};
         World clean = thrown_links(settings, 0.0), rusty = thrown_links(settings, 1.0);
         for (int n = 0; n < 200; ++n) REQUIRE((step(clean).ok() && step(rusty).ok()));
-        const double apart = (clean.state.positions.at(0) - rusty.state.positions.at(0)).norm();
+        const double apart = (clean.state.cloth.positions.at(0) - rusty.state.cloth.positions.at(0)).norm();
         CHECK(apart > 0.01);  // the damping did something
         check_law("rusty springs fall as clean ones, " + std::string(facts_of(scheme).word) + ": centres apart, m",
                   (centre(clean) - centre(rusty)).norm(), 1e-11);

@@ -119,7 +119,7 @@ World hung_chain(int links, double length, double mass, double k) {
     World world =
         make_world(linked_masses(std::vector<double>(links + 1, mass), list), places,
                    {.time_step = 0.1, .newton_tolerance = 1e-9, .newton_iterations = 200, .linear_solver = LinearSolver::direct});
-    for (const int end : {0, links}) world.script.free[end] = 0.0;
+    for (const int end : {0, links}) world.scene.script.free[end] = 0.0;
     for (int n = 0; n < 250; ++n) REQUIRE(step(world).ok());
     return world;
 }
@@ -175,9 +175,9 @@ TEST_CASE("A chain between two points hangs as the funicular polygon", "[law]") 
         const int links = static_cast<int>(row[0]);
         if (links != 4 && links != 10 && links != 20) continue;
         const World world = hung_chain(links, row[1], mass, k);
-        const Vec3 first = world.state.positions.at(1) - world.state.positions.at(0);
+        const Vec3 first = world.state.cloth.positions.at(1) - world.state.cloth.positions.at(0);
         const double tension = k * (first.norm() - row[1] / links);
-        worst_sag = std::max(worst_sag, std::abs(-world.state.positions.y[links / 2] / row[3] - 1.0));
+        worst_sag = std::max(worst_sag, std::abs(-world.state.cloth.positions.y[links / 2] / row[3] - 1.0));
         worst_pull = std::max(worst_pull, std::abs(tension * first.normalized().x() / (mass * 9.81) / row[2] - 1.0));
     }
     check_law("hung chains of 4, 10, 20 links: relative error of the sag", worst_sag, 1e-3);

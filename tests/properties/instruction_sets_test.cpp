@@ -39,13 +39,13 @@ World scene_world(const Scene& scene, const Kernels& kernels) {
     std::vector<Vec3> places = scene.model.rest;
     for (Vec3& x : places) x.y() += scene.floor ? 0.05 : 0.0;
     World world = make_world(scene.model, places, scene.settings);
-    world.compute.kernels = &kernels;
-    for (const int pin : scene.pins) world.script.free[pin] = 0.0;
+    world.scene.compute.kernels = &kernels;
+    for (const int pin : scene.pins) world.scene.script.free[pin] = 0.0;
     if (!scene.floor) return world;
-    world.detector = std::make_unique<PlaneDetector>();
-    world.detector->set_cloth(world.model.triangles, world.model.thickness);
-    world.detector->add_obstacle(make_plane(2.0), {}, 0.3);
-    world.script.obstacles.push_back({"plane", {}, {}});
+    world.scene.detector = std::make_unique<PlaneDetector>();
+    world.scene.detector->set_cloth(world.scene.model.triangles, world.scene.model.thickness);
+    world.scene.detector->add_obstacle(make_plane(2.0), {}, 0.3);
+    world.scene.script.obstacles.push_back({"plane", {}, {}});
     return world;
 }
 
@@ -57,10 +57,10 @@ std::uint64_t run(const Scene& scene, const Kernels& kernels) {
         const StepReport report = step(world);
         REQUIRE(report.ok());
         hash.add(report.linear_iterations);
-        for (int i = 0; i < world.model.vertex_count(); ++i) {
+        for (int i = 0; i < world.scene.model.vertex_count(); ++i) {
             for (int axis = 0; axis < 3; ++axis) {
-                hash.add(world.state.positions.at(i)[axis]);
-                hash.add(world.state.velocities.at(i)[axis]);
+                hash.add(world.state.cloth.positions.at(i)[axis]);
+                hash.add(world.state.cloth.velocities.at(i)[axis]);
             }
         }
     }

@@ -32,7 +32,7 @@ std::vector<Vec3> string_after(StepSettings settings, double time, int steps) {
     if (!settings.newton_tolerance) settings.newton_tolerance = 1e-10;
     World world = taut_string(settings);
     for (int n = 0; n < steps; ++n) REQUIRE(step(world).ok());
-    return to_points(world.state.positions, world.model.vertex_count());
+    return to_points(world.state.cloth.positions, world.scene.model.vertex_count());
 }
 
 /// Three masses thrown about, nothing held, no gravity.
@@ -41,22 +41,23 @@ World thrown_masses(Scheme scheme, double time_step) {
         make_world(linked_masses({0.2, 0.3, 0.1}, {{0, 1, 1.0, 40.0, 0.1}, {1, 2, 0.7, 60.0, 0.1}, {2, 0, 0.8, 50.0, 0.1}}),
                    {Vec3(0, 0, 0), Vec3(1.1, 0, 0), Vec3(0.5, 0.8, 0.1)},
                    {.time_step = time_step, .scheme = scheme, .newton_tolerance = 1e-12, .gravity = Vec3::Zero()});
-    world.state.velocities.set(0, Vec3(0.5, -1.0, 0.2));
-    world.state.velocities.set(1, Vec3(-0.3, 1.5, 0.4));
-    world.state.velocities.set(2, Vec3(0.1, 0.2, -1.1));
+    world.state.cloth.velocities.set(0, Vec3(0.5, -1.0, 0.2));
+    world.state.cloth.velocities.set(1, Vec3(-0.3, 1.5, 0.4));
+    world.state.cloth.velocities.set(2, Vec3(0.1, 0.2, -1.1));
     return world;
 }
 
 Vec3 momentum(const World& world) {
     Vec3 sum = Vec3::Zero();
-    for (int i = 0; i < world.model.vertex_count(); ++i) sum += world.model.mass[i] * world.state.velocities.at(i);
+    for (int i = 0; i < world.scene.model.vertex_count(); ++i)
+        sum += world.scene.model.mass[i] * world.state.cloth.velocities.at(i);
     return sum;
 }
 
 Vec3 angular_momentum(const World& world) {
     Vec3 sum = Vec3::Zero();
-    for (int i = 0; i < world.model.vertex_count(); ++i) {
-        sum += world.model.mass[i] * world.state.positions.at(i).cross(world.state.velocities.at(i));
+    for (int i = 0; i < world.scene.model.vertex_count(); ++i) {
+        sum += world.scene.model.mass[i] * world.state.cloth.positions.at(i).cross(world.state.cloth.velocities.at(i));
     }
     return sum;
 }
@@ -94,8 +95,8 @@ TEST_CASE("In free fall Euler's schemes are off by g dt^2 n/2 either way, all of
         CAPTURE(facts.word);
         double worst = 0.0;
         for (int i = 0; i < 9; ++i) {
-            worst = std::max(worst, (world.state.positions.at(i) - grid.vertices[i] + Vec3(0, fall, 0)).norm());
-            CHECK(world.state.velocities.at(i).y() == Approx(-9.81e-3 * n).epsilon(1e-9));
+            worst = std::max(worst, (world.state.cloth.positions.at(i) - grid.vertices[i] + Vec3(0, fall, 0)).norm());
+            CHECK(world.state.cloth.velocities.at(i).y() == Approx(-9.81e-3 * n).epsilon(1e-9));
         }
         check_law("free fall, " + std::string(facts.word) + ": distance from the exact sum, m", worst, 1e-9);
     }
@@ -119,8 +120,8 @@ TEST_CASE("A rotating pair keeps its angular momentum by the implicit midpoint a
     const auto kept = [](Scheme scheme) {
         World world = make_world(linked_masses({0.2, 0.2}, {{0, 1, 0.8, 400.0, 0.0}}), {Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)},
                                  {.time_step = 1.0 / 60.0, .scheme = scheme, .newton_tolerance = 1e-12, .gravity = Vec3::Zero()});
-        world.state.velocities.set(0, Vec3(0, 0, -5.0));
-        world.state.velocities.set(1, Vec3(0, 0, 5.0));
+        world.state.cloth.velocities.set(0, Vec3(0, 0, -5.0));
+        world.state.cloth.velocities.set(1, Vec3(0, 0, 5.0));
         const double start = angular_momentum(world).norm();
         for (int n = 0; n < 120; ++n) REQUIRE(step(world).ok());
         return angular_momentum(world).norm() / start;

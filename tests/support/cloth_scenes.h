@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "engine/model/cloth_model.h"
+#include "engine/plan/planning.h"
 #include "engine/plan/step_plan.h"
 #include "engine/solve/explicit_update.h"
 #include "engine/solve/newton.h"
+#include "engine/step/motion.h"
 #include "engine/step/world.h"
 #include "percale/percale.h"
 #include "tests/support/collision_random.h"
@@ -123,45 +125,29 @@ inline double largest_difference(const std::vector<Vec3>& a, const std::vector<V
     return largest;
 }
 
-/// A model with its state and all that a solver wants beside it. Not to be moved after the first solve.
-struct SolverScene {
-    StepSettings settings;
-    ClothModel model;
-    ClothState state;
-    StepPlan plan;
-    AlignedVector<double> free;
+/// A scene with its state and all that a solver wants beside it. Not to be moved after the first solve.
+struct SolverScene : StepScene {
+    ClothState state, before;  // now, and before the last step
     Vectors targets;
-    std::unique_ptr<ContactDetector> detector;
+    ContactMemory contact;
     NewtonOptions options;
     NewtonSpace newton;
     ExplicitSpace explicit_space;
+    StageBase base;
     StageTimes stages;
 
-    void pin(int vertex) { free[vertex] = 0.0; }
+    void pin(int vertex) { script.free[vertex] = 0.0; }
 
     NewtonReport step_implicit() {
-        const ImplicitPart part{.compute = &compute,
-                                .model = &model,
-                                .settings = &settings,
-                                .plan = &plan,
-                                .detector = detector.get(),
-                                .targets = &targets,
-                                .free = &free,
-                                .dt = settings.time_step,
-                                .full_step = settings.time_step,
-                                .span = {},
-                                .options = options};
-        return solve_implicit(part, newton, state, stages);
+        before = state;
+        set_euler_base(before, settings.time_step, base);
+        const ImplicitStage stage{.scene = *this, .base = base, .start = before, .targets = targets, .options = options};
+        return solve_stage(stage, newton, {state, contact}, stages);
     }
 
     void step_explicit() {
-        const ExplicitPart part{.compute = &compute,
-                                .model = &model,
-                                .settings = &settings,
-                                .targets = &targets,
-                                .free = &free,
-                                .dt = settings.time_step};
-        percale::step_explicit(settings.scheme == Scheme::backward_euler ? Scheme::symplectic_euler : settings.scheme, part,
+        const ExplicitStep step{.scene = *this, .targets = targets, .dt = settings.time_step};
+        percale::step_explicit(settings.scheme == Scheme::backward_euler ? Scheme::symplectic_euler : settings.scheme, step,
                                explicit_space, state);
     }
 
@@ -180,8 +166,8 @@ inline SolverScene solver_scene(ClothModel model, const std::vector<Vec3>& posit
     scene.state.velocities.resize(scene.model.vertex_count());
     scene.state.points = positions;
     scene.plan = make_step_plan(settings, {.cloth_vertices = scene.model.vertex_count()});
-    scene.free.assign(scene.state.positions.padded_size(), 0.0);
-    for (int i = 0; i < scene.model.vertex_count(); ++i) scene.free[i] = 1.0;
+    scene.script.free.assign(scene.state.positions.padded_size(), 0.0);
+    for (int i = 0; i < scene.model.vertex_count(); ++i) scene.script.free[i] = 1.0;
     scene.targets = scene.state.positions;
     return scene;
 }
@@ -194,11 +180,11 @@ inline SolverScene solver_scene(const TriangleMesh& mesh, const Fabric& fabric, 
 inline World make_world(ClothModel model, const std::vector<Vec3>& positions, const StepSettings& settings) {
     SolverScene scene = solver_scene(std::move(model), positions, settings);
     World world;
-    world.settings = settings;
-    world.model = std::move(scene.model);
-    world.state = std::move(scene.state);
-    world.script.free = std::move(scene.free);
-    world.script.pin_targets = std::move(scene.targets);
+    world.scene.settings = settings;
+    world.scene.model = std::move(scene.model);
+    world.state.cloth = std::move(scene.state);
+    world.scene.script.free = std::move(scene.script.free);
+    world.scene.script.pin_targets = std::move(scene.targets);
     return world;
 }
 
@@ -206,8 +192,24 @@ inline World make_world(ClothModel model, const std::vector<Vec3>& positions, co
 inline World linked_world(ClothModel model, const std::vector<Vec3>& positions, const std::vector<int>& held,
                           const StepSettings& settings) {
     World world = make_world(std::move(model), positions, settings);
-    for (const int vertex : held) world.script.free[vertex] = 0.0;
+    for (const int vertex : held) world.scene.script.free[vertex] = 0.0;
     return world;
+}
+
+/// The plan of the coming step, as step() makes it.
+inline void plan_step(World& world) {
+    renew_plan(world.scene, world.state.cloth);
+    set_motion_of_step(world.scene, world.state.cloth, world.state.time);
+    if (world.scene.detector) tell_obstacles(world.scene);
+}
+
+/// One span of the coming step; what it leads to becomes the state.
+inline SpanResult advance_world(World& world, StepFraction fraction, bool last_try = false) {
+    const StepState start = world.state;
+    StepState end;
+    const SpanResult result = advance({world.scene, start.cloth.positions, fraction, last_try}, start, world.work, end);
+    world.state = end;
+    return result;
 }
 
 /// What a SceneError says; empty if nothing was thrown.

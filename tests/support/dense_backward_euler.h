@@ -22,7 +22,7 @@ public:
         start_.resize(3 * static_cast<Eigen::Index>(mass_.size()));
         for (std::size_t i = 0; i < mass_.size(); ++i) {
             start_.segment<3>(3 * static_cast<Eigen::Index>(i)) = scene.state.velocities.at(static_cast<int>(i));
-            for (int axis = 0; axis < 3 && scene.free[i] > 0.0; ++axis) rows_.push_back(3 * static_cast<int>(i) + axis);
+            for (int axis = 0; axis < 3 && scene.script.free[i] > 0.0; ++axis) rows_.push_back(3 * static_cast<int>(i) + axis);
         }
     }
 

@@ -38,7 +38,7 @@ struct RandomSystem {
     ClothModel model;
     Vectors positions, velocities;
     SpringTerms terms;
-    std::vector<ContactBlock> contacts;
+    std::vector<CoupledBlock> contacts;
     BlockMatrix matrix;
 
     explicit RandomSystem(unsigned seed, int count) : random(seed) {
@@ -69,8 +69,8 @@ struct RandomSystem {
         evaluate();
     }
 
-    ContactBlock random_contact(int count) {
-        ContactBlock block{.vertex = {-1, -1, -1, -1}, .weight = {}, .k = {}};
+    CoupledBlock random_contact(int count) {
+        CoupledBlock block{.vertex = {-1, -1, -1, -1}, .weight = {}, .k = {}};
         const int corners = std::min(count, 1 + random.index(3)), first = random.index(count);
         double sum = 0.0;
         for (int k = 0; k < corners; ++k) {
@@ -114,7 +114,7 @@ struct RandomSystem {
             add(i, j, -block);
             add(j, i, -block);
         }
-        for (const ContactBlock& contact : contacts) {
+        for (const CoupledBlock& contact : contacts) {
             for (int k = 0; k < 4 && contact.vertex[k] >= 0; ++k) {
                 for (int l = 0; l < 4 && contact.vertex[l] >= 0; ++l) {
                     add(contact.vertex[k], contact.vertex[l], contact.weight[k] * contact.weight[l] * full_block(contact.k));

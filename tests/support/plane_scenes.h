@@ -30,10 +30,10 @@ inline SolverScene sheet_on_plane(double angle, double friction, double height, 
 
 /// A plane at 0 under the cloth that a world has.
 inline void add_plane(World& world) {
-    world.detector = std::make_unique<PlaneDetector>();
-    world.detector->set_cloth(world.model.triangles, world.model.thickness);
-    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
-    world.script.obstacles.push_back({"plane", {}, {}});
+    world.scene.detector = std::make_unique<PlaneDetector>();
+    world.scene.detector->set_cloth(world.scene.model.triangles, world.scene.model.thickness);
+    world.scene.detector->add_obstacle(make_plane(1.0), {}, 0.3);
+    world.scene.script.obstacles.push_back({"plane", {}, {}});
 }
 
 /// Of the mass, m/s.

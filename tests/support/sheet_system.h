@@ -15,7 +15,7 @@ struct SheetSystem {
 
     Random random;
     ClothModel model;
-    std::vector<ContactBlock> contacts;
+    std::vector<CoupledBlock> contacts;
     SpringTerms terms;
     BlockMatrix matrix;
     Vectors right;  // dt f, kg m/s
@@ -61,7 +61,7 @@ struct SheetSystem {
             const double size = matrix.diagonal[0][i] + matrix.diagonal[3][i] + matrix.diagonal[5][i];
             const double stiffness = random.decades(least_factor, most_factor) * size / 3.0;
             const Vec3 n = random.unit();
-            ContactBlock block{.vertex = {i, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
+            CoupledBlock block{.vertex = {i, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
             int entry = 0;
             for (int a = 0; a < 3; ++a) {
                 for (int b = a; b < 3; ++b) block.k[entry++] = stiffness * n[a] * n[b];

@@ -32,7 +32,9 @@ struct OneRow {
     Vectors velocities, total;
     ContactTerms terms;
     std::vector<RowForce> forces;
-    ContactProjection projection;
+    double potential = 0.0;
+    ProjectedContact projection;
+    ContactMemory memory;
 
     explicit OneRow(double distance, const Vec3& velocity = Vec3::Zero()) {
         diagonal.resize(16);
@@ -48,20 +50,23 @@ struct OneRow {
         rows.friction = {mu};
         rows.share = {1.0};
         rows.obstacle = rows.feature = {0};
-        const ContactRows far;
-        projection.keep(far, {});  // nothing was nearer than the thickness before
+        projection.end({}, {}, memory);  // nothing was nearer than the thickness before
+        projection.begin(memory);
     }
 
-    ProjectedPoint point() const {
-        return {.step = {.dt = dt, .obstacle_rate = 1.0 / dt, .mass = nullptr, .diagonal = &diagonal},
-                .rows = &rows,
-                .velocities = &velocities};
+    ContactPoint point() const {
+        return {.rows = rows,
+                .positions = velocities,
+                .velocities = velocities,
+                .step = {.dt = dt, .obstacle_rate = 1.0 / dt, .mass = nullptr, .diagonal = &diagonal}};
     }
+    ContactForces result() { return {total, potential, terms, forces}; }
     void add() {
         total.resize(1);
-        projection.add(point(), {total, terms, forces});
+        projection.evaluate(point(), result());
     }
-    void advance() { projection.advance(point(), {total, terms, forces}); }
+    void advance() { projection.correct(point(), result(), 0.0); }
+    void keep() { projection.end(rows, forces, memory); }
 };
 
 }  // namespace
@@ -106,15 +111,15 @@ TEST_CASE("A force that went on to another row of its cloth feature lasts there"
     OneRow row(0.95 * h);
     row.add();
     const double push = row.forces[0].normal;
-    for (int part = 0; part < 2; ++part) row.projection.keep(row.rows, row.forces);
+    for (int part = 0; part < 2; ++part) row.keep();
     row.rows.feature = {1};
     row.rows.distance = {h};
     for (int part = 0; part < 2; ++part) {
-        row.projection.start_part();
+        row.projection.begin(row.memory);
         row.projection.meet(row.rows);
         row.add();
         CHECK(row.forces[0].normal == Approx(push));
-        row.projection.keep(row.rows, row.forces);
+        row.keep();
     }
 }
 
@@ -156,22 +161,22 @@ TEST_CASE("Multipliers match where rows are at the thickness without slip") {
     CHECK(row.projection.mismatch(row.rows, row.forces) < 1e-12);
 }
 
-TEST_CASE("A step begins with contact forces that lasted for two parts") {
+TEST_CASE("A step begins with contact forces that lasted for two spans") {
     OneRow row(0.95 * h);
     row.add();
     const double push = row.forces[0].normal;
-    row.projection.keep(row.rows, row.forces);
+    row.keep();
     row.rows.distance = {h};
-    row.projection.start_part();
+    row.projection.begin(row.memory);
     row.add();
     CHECK(row.forces[0].normal == 0.0);
     row.forces[0].normal = 3.0 * push;
-    row.projection.keep(row.rows, row.forces);
-    row.projection.start_part();
+    row.keep();
+    row.projection.begin(row.memory);
     row.add();
     CHECK(row.forces[0].normal == Approx(push));
-    row.projection.forget();
-    row.projection.start_part();
+    row.memory.forget();
+    row.projection.begin(row.memory);
     row.add();
     CHECK(row.forces[0].normal == 0.0);
 }
@@ -239,17 +244,17 @@ TEST_CASE("On a steeper incline projected cloth slides with g (sin a - mu cos a)
 
 TEST_CASE("A plane that moves carries projected cloth along and up") {
     SolverScene scene = sheet_on_plane(0.0, 0.5, h, projected());
-    const Vec3 way(0.01, 0.002, 0.0);  // m a step
+    const Vec3 move(0.01, 0.002, 0.0);  // m a step
     const Vec3 start = scene.state.positions.at(5);
     scene.plan.obstacles_move = true;
     for (int n = 0; n < 120; ++n) {
-        scene.detector->move_obstacle(0, {.translation = n * way}, {.translation = (n + 1) * way});
+        scene.detector->move_obstacle(0, {.translation = n * move}, {.translation = (n + 1) * move});
         run(scene, 1);
     }
-    const Vec3 speed = 60.0 * way;
+    const Vec3 speed = 60.0 * move;
     CAPTURE(mean_velocity(scene).transpose());
     CHECK((mean_velocity(scene) - speed).norm() < 1e-6);
-    CHECK(scene.state.positions.at(5).y() == Approx(start.y() + 120 * way.y()).margin(1e-6));
+    CHECK(scene.state.positions.at(5).y() == Approx(start.y() + 120 * move.y()).margin(1e-6));
 }
 
 TEST_CASE("The threshold between sticking and sliding of projected cloth is the tangent of the angle", "[law]") {

@@ -1,5 +1,6 @@
-#include "engine/step/shape_loss.h"
+#include "engine/forces/elastic.h"
 
+#include "engine/forces/hinge_bending.h"
 #include "engine/schemes/schemes.h"
 #include "tests/support/bent_cloth.h"
 #include "tests/support/catch.h"
@@ -63,18 +64,21 @@ TEST_CASE("What the force of a flat hinge at the end takes is the energy of the 
     const ClothModel model = bending_model(make_grid(0.3, 0.3, 6, 6));
     Random random(3);
     const std::vector<Vec3> start = random_points(random, 36, 0.3), end = random_points(random, 36, 0.3);
-    std::vector<Vec3> way;
-    for (int i = 0; i < 36; ++i) way.push_back(end[i] - start[i]);
-    World world = make_world(model, start, {});
+    std::vector<Vec3> move;
+    for (int i = 0; i < 36; ++i) move.push_back(end[i] - start[i]);
+    ElasticSpace space;
     const Vectors from = to_vectors(start), to = to_vectors(end);
-    CHECK(shape_loss(world, {from, to, to}) == Approx(hinge_energy(model.hinges, to_vectors(way))).epsilon(1e-9));
-    CHECK(shape_loss(world, {from, to, from}) == Approx(-hinge_energy(model.hinges, to_vectors(way))).epsilon(1e-9));
+    CHECK(shape_loss(compute, model, {from, to, to, {}}, space) ==
+          Approx(hinge_energy(model.hinges, to_vectors(move))).epsilon(1e-9));
+    CHECK(shape_loss(compute, model, {from, to, from, {}}, space) ==
+          Approx(-hinge_energy(model.hinges, to_vectors(move))).epsilon(1e-9));
 }
 
 TEST_CASE("Cloth of raw springs has no loss of shapes") {
-    World world = make_world(cloth_model(make_grid(0.3, 0.3, 4, 4), sheet_fabric()), make_grid(0.4, 0.4, 4, 4).vertices, {});
-    const Vectors end = to_vectors(make_grid(0.2, 0.2, 4, 4).vertices);
-    CHECK(shape_loss(world, {world.state.positions, end, end}) == 0.0);
+    const ClothModel model = cloth_model(make_grid(0.3, 0.3, 4, 4), sheet_fabric());
+    const Vectors start = to_vectors(make_grid(0.4, 0.4, 4, 4).vertices), end = to_vectors(make_grid(0.2, 0.2, 4, 4).vertices);
+    ElasticSpace space;
+    CHECK(shape_loss(compute, model, {start, end, end, {}}, space) == 0.0);
 }
 
 }  // namespace percale::test

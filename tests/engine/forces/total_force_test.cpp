@@ -64,31 +64,4 @@ TEST_CASE("Evaluating twice gives the same bits") {
     CHECK(once.potential == twice.potential);
 }
 
-TEST_CASE("Contact is added on top") {
-    const Crumpled sheet;
-    Forces forces;
-    evaluate_forces(sheet.input, forces);
-    const Forces before = forces;
-    forces.rows.vertex = {{4, -1, -1, -1}};
-    forces.rows.weight = {{1.0, 0.0, 0.0, 0.0}};
-    forces.rows.direction = {Vec3(0, 1, 0)};
-    forces.rows.obstacle_point = forces.rows.obstacle_displacement = {Vec3(0, 0, 0)};
-    forces.rows.distance = {0.003};
-    forces.rows.thickness = {0.005};
-    forces.rows.friction = {0.0};
-    forces.rows.share = {1.0};
-    forces.rows.obstacle = forces.rows.feature = {0};
-    DiagonalBlocks diagonal;
-    diagonal.resize(32);
-    for (double& entry : diagonal.data) entry = 0.01;
-    const ContactStep step{.dt = 0.01, .gravity = sheet.input.gravity, .mass = &sheet.model.mass, .diagonal = &diagonal};
-    add_contact_forces(sheet.input, step, forces);
-    const ContactPotential push = contact_potential(0.003, 0.005, forces.contact.largest_stiffness);
-    for (int i = 0; i < 30; ++i) {
-        const Vec3 added = i == 4 ? Vec3(0.0, push.slope, 0.0) : Vec3(Vec3::Zero());
-        CHECK((forces.total.at(i) - before.total.at(i) - added).norm() <= 1e-13 * push.slope);
-    }
-    CHECK(forces.potential == Approx(before.potential + push.energy).epsilon(1e-14));
-}
-
 }  // namespace percale::test

@@ -115,23 +115,4 @@ TEST_CASE("Drag is minus the derivative of its potential by velocity, and its bl
     }
 }
 
-TEST_CASE("Blocks of the wind stand before those of contact and belong to no row") {
-    const TriangleMesh mesh = make_grid(1.0, 0.6, 6, 5);
-    const ClothModel model = cloth_model(mesh, fabric_for(mesh));
-    Random random(2);
-    const Blown blown = blow(model, model.rest, random_velocities(random, model.vertex_count()), {1.0, 2.0, 3.0});
-    ContactTerms contact;
-    contact.blocks.resize(50);
-    set_wind_blocks(blown.terms, contact);
-    REQUIRE(contact.blocks.size() == 30);
-    Vectors forces;
-    add_contact({}, {}, to_vectors(model.rest), forces, contact);
-    REQUIRE(contact.blocks.size() == 30);
-    for (int i = 0; i < 30; ++i) {
-        CHECK(contact.blocks[i].vertex == std::array<int, 4>{i, -1, -1, -1});
-        CHECK(contact.blocks[i].k == blown.terms.blocks[i]);
-        CHECK(contact.blocks[i].row == -1);
-    }
-}
-
 }  // namespace percale::test

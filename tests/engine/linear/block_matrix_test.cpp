@@ -37,10 +37,10 @@ TEST_CASE("The matrix is symmetric and positive definite, contact included") {
 TEST_CASE("The preconditioner inverts the diagonal blocks, every contact row taken whole by weight") {
     RandomSystem system(2, 21);
     std::vector<Eigen::Matrix3d> blocks;
-    const std::vector<ContactBlock> contacts = std::exchange(system.contacts, {});
+    const std::vector<CoupledBlock> contacts = std::exchange(system.contacts, {});
     const Eigen::MatrixXd dense = system.dense();
     for (int i = 0; i < 21; ++i) blocks.emplace_back(dense.block<3, 3>(3 * i, 3 * i));
-    for (const ContactBlock& contact : contacts) {
+    for (const CoupledBlock& contact : contacts) {
         for (int k = 0; k < 4 && contact.vertex[k] >= 0; ++k) {
             blocks[contact.vertex[k]] += contact.weight[k] * full_block(contact.k);
         }
@@ -108,7 +108,7 @@ TEST_CASE("Refilling the matrix leaves nothing of what was there") {
 
 TEST_CASE("A row between cloths enters the product exactly and the diagonal as an upper bound") {
     RandomSystem system(8, 24);
-    const ContactBlock row{.vertex = {1, 20, 7, 13}, .weight = {1.0, -0.2, -0.5, -0.3}, .k = {5.0, 1.0, -0.5, 4.0, 0.3, 6.0}};
+    const CoupledBlock row{.vertex = {1, 20, 7, 13}, .weight = {1.0, -0.2, -0.5, -0.3}, .k = {5.0, 1.0, -0.5, 4.0, 0.3, 6.0}};
     std::fill(system.matrix.free.begin(), system.matrix.free.begin() + 24, 1.0);
     system.contacts = {row};
     fill_matrix(system.terms, system.contacts, system.matrix);

@@ -47,7 +47,7 @@ TEST_CASE("A system that the preconditioner inverts takes one iteration") {
     // Masses and contacts of single vertices: the matrix is its block diagonal.
     RandomSystem system(31, 17);
     system.slacken();
-    for (ContactBlock& block : system.contacts) {
+    for (CoupledBlock& block : system.contacts) {
         block.vertex = {block.vertex[0], -1, -1, -1};
         block.weight = {1.0, 0.0, 0.0, 0.0};
     }

@@ -15,10 +15,10 @@ World sheet_world(const Fabric& fabric = sheet_fabric(), const StepSettings& set
 }
 
 void add_plane(World& world) {
-    world.detector = std::make_unique<PlaneDetector>();
-    world.detector->set_cloth(world.model.triangles, world.model.thickness);
-    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
-    world.script.obstacles.push_back({"plane", {}, {}, 2});
+    world.scene.detector = std::make_unique<PlaneDetector>();
+    world.scene.detector->set_cloth(world.scene.model.triangles, world.scene.model.thickness);
+    world.scene.detector->add_obstacle(make_plane(1.0), {}, 0.3);
+    world.scene.script.obstacles.push_back({"plane", {}, {}, 2});
 }
 
 /// Where a sheet is after half a second: pinned at two corners, one of them moving, over a plane or in the air.
@@ -41,15 +41,15 @@ std::vector<Vec3> end_of_run(StepSettings settings, const Fabric& fabric, bool p
 TEST_CASE("Facts are counted from the model and the script") {
     World world = sheet_world({.springs = {.structural = 100.0, .shear = 50.0, .bend = 0.0}, .spring_damping = 0.0});
     add_plane(world);
-    world.script.free[3] = 0.0;
-    const SceneFacts facts = scene_facts(world);
+    world.scene.script.free[3] = 0.0;
+    const SceneFacts facts = scene_facts(world.scene, world.state.cloth);
     CHECK(facts.cloth_vertices == 20);
     CHECK(facts.pinned_vertices == 1);
     CHECK(facts.cloth_triangles == 24);
     CHECK(facts.springs.structural == 4 * 4 + 5 * 3);
     CHECK(facts.springs.shear == 2 * 4 * 3);
     CHECK(facts.springs.bend == 0);
-    CHECK(facts.springs.total() == static_cast<int>(world.model.springs.size()));
+    CHECK(facts.springs.total() == static_cast<int>(world.scene.model.springs.size()));
     CHECK_FALSE(facts.damped);
     CHECK(facts.obstacles == 1);
     CHECK(facts.obstacle_triangles == 2);
@@ -66,41 +66,53 @@ TEST_CASE("What the script holds now and what is known to come both count as cha
     add_plane(world);
     ScriptedChanges to_come;
     to_come.gravity = true;
-    CHECK(scene_facts(world, to_come).changes.gravity);
-    CHECK_FALSE(scene_facts(world, to_come).changes.obstacles);
-    world.script.obstacles[0].end.translation = Vec3(0, -0.1, 0);
-    CHECK(scene_facts(world).changes.obstacles);
-    world.script.free[2] = 0.0;
-    world.script.pin_targets.set(2, Vec3(0, 1, 0));
-    CHECK(scene_facts(world).changes.pins);
+    CHECK(scene_facts(world.scene, world.state.cloth, to_come).changes.gravity);
+    CHECK_FALSE(scene_facts(world.scene, world.state.cloth, to_come).changes.obstacles);
+    world.scene.script.obstacles[0].end.translation = Vec3(0, -0.1, 0);
+    CHECK(scene_facts(world.scene, world.state.cloth).changes.obstacles);
+    world.scene.script.free[2] = 0.0;
+    world.scene.script.pin_targets.set(2, Vec3(0, 1, 0));
+    CHECK(scene_facts(world.scene, world.state.cloth).changes.pins);
+}
+
+TEST_CASE("Pins move only if a target differs from where the pinned vertex is") {
+    World world = sheet_world();
+    plan_step(world);
+    CHECK_FALSE(world.scene.plan.pins_move);
+    world.scene.script.pin_targets.set(4, Vec3(0, 1, 0));  // not pinned
+    plan_step(world);
+    CHECK_FALSE(world.scene.plan.pins_move);
+    world.scene.script.free[4] = 0.0;
+    plan_step(world);
+    CHECK(world.scene.plan.pins_move);
 }
 
 TEST_CASE("A plan is made anew when the scene has changed, and only motion is looked at in between") {
     World world = sheet_world();
-    update_plan(world);
-    CHECK_FALSE(world.plan.pins);
-    world.script.free[2] = 0.0;
-    world.script.pin_targets.set(2, Vec3(0, 1, 0));
-    update_plan(world);
-    CHECK_FALSE(world.plan.pins_move);  // nobody said that the scene changed
+    REQUIRE(step(world).ok());
+    CHECK_FALSE(world.scene.plan.pins);
+    world.scene.script.free[2] = 0.0;
+    world.scene.script.pin_targets.set(2, world.state.cloth.positions.at(2) + Vec3(0, 1e-3, 0));
+    REQUIRE(step(world).ok());
+    CHECK_FALSE(world.scene.plan.pins_move);  // nobody said that the scene changed
     scene_changed(world);
-    update_plan(world);
-    CHECK(world.plan.pins_move);
-    world.script.pin_targets.set(2, world.state.positions.at(2));
-    update_plan(world);
-    CHECK_FALSE(world.plan.pins_move);
+    world.scene.script.pin_targets.set(2, world.state.cloth.positions.at(2) + Vec3(0, 1e-3, 0));
+    REQUIRE(step(world).ok());
+    CHECK(world.scene.plan.pins_move);
+    REQUIRE(step(world).ok());
+    CHECK_FALSE(world.scene.plan.pins_move);
 }
 
 TEST_CASE("The plan of a simulation holds counts, skips and predictions and runs nothing") {
     World world = sheet_world();
-    const ScenePlan plan = scene_plan(world, {});
+    const ScenePlan plan = scene_plan(world.scene, world.state.cloth, {});
     CHECK(plan.vertices == 20);
-    CHECK(plan.springs.total() == static_cast<int>(world.model.springs.size()));
+    CHECK(plan.springs.total() == static_cast<int>(world.scene.model.springs.size()));
     CHECK(plan.scheme == Scheme::backward_euler);
     CHECK(plan.memory_bytes > 1e4);
     CHECK(plan.evaluations_a_step > 1.0);
     CHECK_FALSE(plan.skipped.empty());
-    CHECK(world.time == 0.0);
+    CHECK(world.state.time == 0.0);
     CHECK(world.plan_outdated);
 }
 
@@ -126,8 +138,8 @@ TEST_CASE("A detector without obstacles is asked only if nothing is skipped") {
         World world = sheet_world(sheet_fabric(), {.skip = skip});
         auto detector = std::make_unique<PlaneDetector>();
         PlaneDetector& plane = *detector;
-        world.detector = std::move(detector);
-        world.detector->set_cloth(world.model.triangles, world.model.thickness);
+        world.scene.detector = std::move(detector);
+        world.scene.detector->set_cloth(world.scene.model.triangles, world.scene.model.thickness);
         for (int n = 0; n < 3; ++n) CHECK(step(world).ok());
         CHECK(plane.refreshes == (skip ? 0 : 3));
     }
@@ -135,18 +147,18 @@ TEST_CASE("A detector without obstacles is asked only if nothing is skipped") {
 
 TEST_CASE("Where every vertex is pinned and nothing moves a step solves nothing") {
     World world = sheet_world();
-    for (int i = 0; i < 20; ++i) world.script.free[i] = 0.0;
-    world.state.velocities.set(7, Vec3(0, 1, 0));
-    const std::vector<Vec3> before = world.state.points;
+    for (int i = 0; i < 20; ++i) world.scene.script.free[i] = 0.0;
+    world.state.cloth.velocities.set(7, Vec3(0, 1, 0));
+    const std::vector<Vec3> before = world.state.cloth.points;
     const StepReport report = step(world);
     CHECK(report.ok());
     CHECK(report.newton_iterations == 0);
     CHECK(report.largest_speed == 0.0);
-    CHECK(world.state.points == before);
-    CHECK(world.newton.current.points.empty());
-    world.script.pin_targets.set(3, before[3] + Vec3(0, 0.01, 0));
+    CHECK(world.state.cloth.points == before);
+    CHECK(world.work.newton.current.points.empty());
+    world.scene.script.pin_targets.set(3, before[3] + Vec3(0, 0.01, 0));
     CHECK(step(world).ok());
-    CHECK(world.state.positions.at(3) == before[3] + Vec3(0, 0.01, 0));
+    CHECK(world.state.cloth.positions.at(3) == before[3] + Vec3(0, 0.01, 0));
 }
 
 TEST_CASE("A plan made again from what a saved state keeps of it is the same in all it says") {
@@ -155,7 +167,7 @@ TEST_CASE("A plan made again from what a saved state keeps of it is the same in 
             script(n);
             step(world);
             REQUIRE_FALSE(world.plan_outdated);
-            CHECK(plan_again(world, world.plan) == world.plan);
+            CHECK(plan_again(world.scene, world.state.cloth, world.scene.plan) == world.scene.plan);
         }
     };
     const auto nothing = [](int) {};
@@ -169,12 +181,14 @@ TEST_CASE("A plan made again from what a saved state keeps of it is the same in 
     bending.springs.bend = 0.0;
     bending.bend_stiffness = 1e-3;
     World held = sheet_world(bending, {.measure = StepMeasures::ledger});
-    held.script.free[0] = 0.0;
-    held.script.pin_targets = held.state.positions;
-    check(held, [&](int n) { held.script.pin_targets.set(0, held.state.positions.at(0) + Vec3(0, n % 2 == 0 ? 1e-3 : 0.0, 0)); });
+    held.scene.script.free[0] = 0.0;
+    held.scene.script.pin_targets = held.state.cloth.positions;
+    check(held, [&](int n) {
+        held.scene.script.pin_targets.set(0, held.state.cloth.positions.at(0) + Vec3(0, n % 2 == 0 ? 1e-3 : 0.0, 0));
+    });
     World plane = sheet_world();
     add_plane(plane);
-    check(plane, [&](int n) { plane.script.obstacles[0].end.translation = Vec3(0, 0, n < 2 ? 1e-3 * n : 1e-3); });
+    check(plane, [&](int n) { plane.scene.script.obstacles[0].end.translation = Vec3(0, 0, n < 2 ? 1e-3 * n : 1e-3); });
 }
 
 }  // namespace percale::test

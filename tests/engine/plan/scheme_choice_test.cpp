@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/schemes/schemes.h"
 #include "engine/plan/planning.h"
+#include "engine/schemes/schemes.h"
 #include "engine/step/step.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
@@ -20,7 +20,7 @@ World sheet(const StepSettings& settings, int side = 9, double stiffer = 1.0) {
     fabric.spring_damping = 0.0;
     const TriangleMesh grid = make_grid(1.0, 1.0, side, side);
     World world = make_world(cloth_model(grid, fabric), grid.vertices, settings);
-    update_plan(world);
+    plan_step(world);
     return world;
 }
 
@@ -28,7 +28,7 @@ World sheet(const StepSettings& settings, int side = 9, double stiffer = 1.0) {
 double speed_after(Scheme scheme, double dt, int steps) {
     World world = sheet({.time_step = dt, .scheme = scheme, .gravity = Vec3::Zero()});
     Random random(3);
-    for (int i = 0; i < world.model.vertex_count(); ++i) world.state.velocities.set(i, 1e-6 * random.point(1.0));
+    for (int i = 0; i < world.scene.model.vertex_count(); ++i) world.state.cloth.velocities.set(i, 1e-6 * random.point(1.0));
     StepReport report;
     for (int n = 0; n < steps && (n == 0 || report.ok()); ++n) report = step(world);
     return report.ok() ? report.largest_speed : std::numeric_limits<double>::infinity();
@@ -42,15 +42,16 @@ TEST_CASE("The stable step of a pair of masses is that of the oscillator, less w
         const World world = make_world(linked_masses({m1, m2}, {{0, 1, 1.0, 40.0, damping}}), {Vec3(0, 0, 0), Vec3(1, 0, 0)}, {});
         const double zeta = 0.5 * damping * (1.0 / m1 + 1.0 / m2) / omega;
         const double a = 2.0 * (std::sqrt(1.0 + zeta * zeta) - zeta);
-        CHECK(stable_step(world, Scheme::symplectic_euler) == Approx(a / omega).epsilon(1e-9));
-        CHECK(stable_step(world, Scheme::forward_euler) == 0.0);
-        CHECK(std::isinf(stable_step(world, Scheme::tr_bdf2)));
+        CHECK(stable_step(world.scene, world.state.cloth, Scheme::symplectic_euler) == Approx(a / omega).epsilon(1e-9));
+        CHECK(stable_step(world.scene, world.state.cloth, Scheme::forward_euler) == 0.0);
+        CHECK(std::isinf(stable_step(world.scene, world.state.cloth, Scheme::tr_bdf2)));
     }
 }
 
 TEST_CASE("On a sheet steps are stable below the estimate and not far above it") {
     for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4}) {
-        const double stable = stable_step(sheet({}), scheme);
+        const World still = sheet({});
+        const double stable = stable_step(still.scene, still.state.cloth, scheme);
         CAPTURE(static_cast<int>(scheme), stable);
         CHECK(speed_after(scheme, 0.93 * stable, 300) < 1e-4);
         CHECK(speed_after(scheme, 1.1 * stable, 2000) > 1.0);
@@ -70,9 +71,9 @@ TEST_CASE("Steps of cloth of given moduli with hinges are stable below the estim
         append_hinges_of_last_cloth(model, 1e-3);
         finish_model(model);
         World world = make_world(model, grid.vertices, settings);
-        world.settings.time_step = share * stable_step(world, settings.scheme);
+        world.scene.settings.time_step = share * stable_step(world.scene, world.state.cloth, settings.scheme);
         Random random(3);
-        for (int i = 0; i < 81; ++i) world.state.velocities.set(i, 1e-6 * random.point(1.0));
+        for (int i = 0; i < 81; ++i) world.state.cloth.velocities.set(i, 1e-6 * random.point(1.0));
         StepReport report;
         for (int n = 0; n < steps && (n == 0 || report.ok()); ++n) report = step(world);
         return report.ok() ? report.largest_speed : std::numeric_limits<double>::infinity();
@@ -85,14 +86,16 @@ TEST_CASE("Steps far too long end in a status, never silently") {
     World world = sheet({.time_step = 0.02, .scheme = Scheme::rk4});
     StepReport report;
     for (int n = 0; n < 1000 && (n == 0 || report.ok()); ++n) {
-        for (int i = 0; n == 0 && i < 81; i += 7) world.state.velocities.set(i, Vec3(0.1, 0.05 * i, -0.1));
+        for (int i = 0; n == 0 && i < 81; i += 7) world.state.cloth.velocities.set(i, Vec3(0.1, 0.05 * i, -0.1));
         report = step(world);
     }
     CHECK(report.status == StepStatus::not_finite);
 }
 
 TEST_CASE("The choice is explicit for coarse soft cloth, implicit for stiff or fine cloth and with contact") {
-    const auto chosen = [](World world) { return choose_scheme(world, scene_facts(world)); };
+    const auto chosen = [](World world) {
+        return choose_scheme(world.scene, world.state.cloth, scene_facts(world.scene, world.state.cloth));
+    };
     const SchemeChoice soft = chosen(sheet({.scheme = Scheme::automatic}, 5, 0.05));
     CHECK(soft.scheme == Scheme::symplectic_euler);
     CHECK(soft.parts >= 1);
@@ -101,29 +104,32 @@ TEST_CASE("The choice is explicit for coarse soft cloth, implicit for stiff or f
     CHECK(chosen(sheet({.adaptive = true, .scheme = Scheme::automatic}, 17, 100.0)).scheme == Scheme::tr_bdf2);
     CHECK(chosen(sheet({.adaptive = true, .scheme = Scheme::automatic}, 5, 0.05)).scheme == Scheme::rk4);
     World over = sheet({.scheme = Scheme::automatic}, 5, 0.05);
-    over.script.obstacles.push_back({"ball", {}, {}});
-    CHECK(choose_scheme(over, scene_facts(over)).scheme == Scheme::backward_euler);
-    over.settings.adaptive = true;
-    CHECK(choose_scheme(over, scene_facts(over)).scheme == Scheme::tr_bdf2);
-    over.settings.contact_response = ContactResponse::projection;
-    CHECK(choose_scheme(over, scene_facts(over)).scheme == Scheme::backward_euler);
+    over.scene.script.obstacles.push_back({"ball", {}, {}});
+    CHECK(choose_scheme(over.scene, over.state.cloth, scene_facts(over.scene, over.state.cloth)).scheme ==
+          Scheme::backward_euler);
+    over.scene.settings.adaptive = true;
+    CHECK(choose_scheme(over.scene, over.state.cloth, scene_facts(over.scene, over.state.cloth)).scheme == Scheme::tr_bdf2);
+    over.scene.settings.contact_response = ContactResponse::projection;
+    CHECK(choose_scheme(over.scene, over.state.cloth, scene_facts(over.scene, over.state.cloth)).scheme ==
+          Scheme::backward_euler);
 }
 
 TEST_CASE("What is chosen takes as many parts as it needs to be stable") {
     World world = sheet({.time_step = 1.0 / 60.0, .scheme = Scheme::automatic}, 7, 0.1);
-    world.script.free[0] = 0.0;
-    for (int n = 0; n < 60; ++n) REQUIRE(step(world).ok());
-    CHECK(world.plan.scheme == Scheme::symplectic_euler);
-    CHECK(world.plan.parts > 1);
-    CHECK(world.report.smallest_dt == Approx(1.0 / 60.0 / world.plan.parts));
-    CHECK(world.report.largest_strain < 1.0);
+    world.scene.script.free[0] = 0.0;
+    StepReport report;
+    for (int n = 0; n < 60; ++n) REQUIRE((report = step(world)).ok());
+    CHECK(world.scene.plan.scheme == Scheme::symplectic_euler);
+    CHECK(world.scene.plan.parts > 1);
+    CHECK(report.smallest_dt == Approx(1.0 / 60.0 / world.scene.plan.parts));
+    CHECK(report.largest_strain < 1.0);
 }
 
 TEST_CASE("Warnings name what will go wrong, and there are none where nothing will") {
     const auto warnings = [](const StepSettings& settings, int side = 9) {
         const World world = sheet(settings, side);
         std::string text;
-        for (const std::string& warning : step_warnings(world, world.plan)) text += warning;
+        for (const std::string& warning : step_warnings(world.scene, world.state.cloth, world.scene.plan)) text += warning;
         return text;
     };
     CHECK(warnings({}).empty());
@@ -143,7 +149,7 @@ TEST_CASE("Slivers of cloth of moduli are warned of where the solver is iterativ
                           .triangles = {{0, 2, 1}, {0, 1, 3}}};
         const World world = make_world(cloth_model(mesh, fabric), mesh.vertices, {.linear_solver = solver});
         std::string text;
-        for (const std::string& warning : step_warnings(world, world.plan)) text += warning;
+        for (const std::string& warning : step_warnings(world.scene, world.state.cloth, world.scene.plan)) text += warning;
         return text;
     };
     const Fabric moduli = fabric_preset("silk");

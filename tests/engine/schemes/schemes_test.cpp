@@ -20,10 +20,10 @@ Eigen::Vector2d step_pair(Scheme scheme, double a, const Eigen::Vector2d& start)
     StepSettings settings{.time_step = a / omega, .scheme = scheme, .newton_tolerance = 1e-13, .gravity = Vec3::Zero()};
     World world =
         make_world(linked_masses({m1, m2}, {{0, 1, rest, k, 0.0}}), {Vec3(rest + start[0], 0, 0), Vec3::Zero()}, settings);
-    world.state.velocities.set(0, Vec3(start[1] * omega, 0, 0));
+    world.state.cloth.velocities.set(0, Vec3(start[1] * omega, 0, 0));
     step(world);
-    const double length = world.state.positions.x[0] - world.state.positions.x[1];
-    return {length - rest, (world.state.velocities.x[0] - world.state.velocities.x[1]) / omega};
+    const double length = world.state.cloth.positions.x[0] - world.state.cloth.positions.x[1];
+    return {length - rest, (world.state.cloth.velocities.x[0] - world.state.cloth.velocities.x[1]) / omega};
 }
 
 /// The eigenvalue of a step with the largest size: growth a step, and the phase it turns by.

@@ -63,7 +63,7 @@ TEST_CASE("With Jacobians of zero and more iterations backward Euler is a fixed-
     evaluate_springs(compute, springs, {once.state.positions, once.state.velocities, 1e-4}, false, forces, terms);
     twice.step_implicit();
     for (int i = 0; i < 25; ++i) {
-        const Vec3 gained = once.free[i] * 1e-4 * (forces.at(i) / once.model.mass[i] + once.settings.gravity);
+        const Vec3 gained = once.script.free[i] * 1e-4 * (forces.at(i) / once.model.mass[i] + once.settings.gravity);
         CHECK((twice.state.velocities.at(i) - start.at(i) - gained).norm() <= 1e-12);
     }
 }
@@ -96,7 +96,7 @@ TEST_CASE("The converged step is the minimum that a dense solver finds") {
         CHECK(dense.gradient(expected).norm() <= 1e-9 * dense.gradient(dense.start()).norm());
         CHECK((v - expected).norm() <= 1e-7 * expected.norm());
         for (int i = 0; i < 25; ++i) {
-            CHECK(scene.state.positions.at(i) == scene.newton.start_positions.at(i) + dt * scene.state.velocities.at(i));
+            CHECK(scene.state.positions.at(i) == scene.before.positions.at(i) + dt * scene.state.velocities.at(i));
         }
     }
 }
@@ -111,7 +111,7 @@ TEST_CASE("A step so long that it has several minima ends in one of them") {
     Random random(3);
     for (int trial = 0; trial < 100; ++trial) {
         Eigen::VectorXd beside = v;
-        for (int i = 0; i < v.size(); ++i) beside[i] += scene.free[i / 3] * random.number(-0.01, 0.01);
+        for (int i = 0; i < v.size(); ++i) beside[i] += scene.script.free[i / 3] * random.number(-0.01, 0.01);
         CHECK(dense.objective(beside) > dense.objective(v));
     }
 }
@@ -124,7 +124,7 @@ TEST_CASE("The residual is the gradient of the incremental potential") {
     const Eigen::VectorXd v = to_dense(scene.state.velocities, 25), residual = to_dense(scene.newton.current.residual, 25);
     CHECK(residual.norm() > 1e-6);
     for (int i = 0; i < v.size(); ++i) {
-        if (scene.free[i / 3] == 0.0) {
+        if (scene.script.free[i / 3] == 0.0) {
             CHECK(residual[i] == 0.0);
             continue;
         }

@@ -228,7 +228,7 @@ TEST_CASE("Damaged states are refused and change nothing") {
 TEST_CASE("No content of a well sealed state does harm") {
     Simulation simulation = on_plane({.measure = StepMeasures::ledger}, 0.0);
     for (int n = 0; n < 10; ++n) simulation.step();
-    const SealKind kind{.name = "PERCALES", .version = 2, .words = "saved state"};
+    const SealKind kind{.name = "PERCALES", .version = 3, .words = "saved state"};
     const Saved good = simulation.save();
     const std::span<const std::byte> view = unsealed(kind, good);
     Random random(7);
@@ -252,10 +252,10 @@ TEST_CASE("A state that no step could come to is refused with the reason, and no
     const auto make = [](Scheme scheme) {
         const TriangleMesh grid = make_grid(0.2, 0.2, 3, 3);
         World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.scheme = scheme});
-        world.detector = std::make_unique<PlaneDetector>();
-        world.detector->set_cloth(world.model.triangles, world.model.thickness);
-        world.detector->add_obstacle(make_plane(1.0), {.translation = {0, -0.1, 0}}, 0.3);
-        world.script.obstacles.push_back({"plane", {.translation = {0, -0.1, 0}}, {.translation = {0, -0.1, 0}}, 2});
+        world.scene.detector = std::make_unique<PlaneDetector>();
+        world.scene.detector->set_cloth(world.scene.model.triangles, world.scene.model.thickness);
+        world.scene.detector->add_obstacle(make_plane(1.0), {.translation = {0, -0.1, 0}}, 0.3);
+        world.scene.script.obstacles.push_back({"plane", {.translation = {0, -0.1, 0}}, {.translation = {0, -0.1, 0}}, 2});
         step(world);
         return world;
     };
@@ -267,30 +267,30 @@ TEST_CASE("A state that no step could come to is refused with the reason, and no
     };
     const StartMove move{.cloth = 1, .obstacle = 0};
     const std::vector<Fault> faults = {
-        {"time_step", [=](World& w) { w.settings.time_step = -1.0; }},
-        {"not finite", [=](World& w) { w.time = nan; }},
-        {"not finite", [=](World& w) { w.contact_energy = infinity; }},
-        {"not finite", [=](World& w) { w.contact_dt = nan; }},
-        {"not finite", [=](World& w) { w.state.velocities.set(3, Vec3(0, infinity, 0)); }},
-        {"wrong number of vertices", [=](World& w) { w.state.positions.resize(20); }},
-        {"grip", [=](World& w) { w.state.grips.push_back({.vertex = 9, .obstacle = 0, .stretch = Vec3::Zero()}); }},
-        {"grip", [=](World& w) { w.state.grips.push_back({.vertex = 0, .obstacle = 1, .stretch = Vec3::Zero()}); }},
-        {"grip", [=](World& w) { w.state.grips.push_back({.vertex = 0, .obstacle = 0, .stretch = Vec3(nan, 0, 0)}); }},
+        {"time_step", [=](World& w) { w.scene.settings.time_step = -1.0; }},
+        {"not finite", [=](World& w) { w.state.time = nan; }},
+        {"not finite", [=](World& w) { w.state.contact_energy = infinity; }},
+        {"not finite", [=](World& w) { w.state.contact_dt = nan; }},
+        {"not finite", [=](World& w) { w.state.cloth.velocities.set(3, Vec3(0, infinity, 0)); }},
+        {"wrong number of vertices", [=](World& w) { w.state.cloth.positions.resize(20); }},
+        {"grip", [=](World& w) { w.state.cloth.grips.push_back({.vertex = 9, .obstacle = 0, .stretch = Vec3::Zero()}); }},
+        {"grip", [=](World& w) { w.state.cloth.grips.push_back({.vertex = 0, .obstacle = 1, .stretch = Vec3::Zero()}); }},
+        {"grip", [=](World& w) { w.state.cloth.grips.push_back({.vertex = 0, .obstacle = 0, .stretch = Vec3(nan, 0, 0)}); }},
         {"move of nothing", [](World&) {}, Scheme::backward_euler, {move}},
-        {"neither pinned nor free", [=](World& w) { w.script.free[2] = 0.5; }},
-        {"neither pinned nor free", [=](World& w) { w.script.free.back() = 1.0; }},
-        {"other sizes", [=](World& w) { w.script.obstacles[0].end.scale = 2.0; }},
-        {"a pose that is none", [=](World& w) { w.script.obstacles[0].end.rotation.w = 2.0; }},
-        {"a pose that is none", [=](World& w) { w.script.obstacles[0].end.translation.x() = nan; }},
-        {"scheme of another kind", [=](World& w) { w.plan.scheme = Scheme::rk4; }},
-        {"scheme of another kind", [=](World& w) { w.plan.parts = 2; }},
+        {"neither pinned nor free", [=](World& w) { w.scene.script.free[2] = 0.5; }},
+        {"neither pinned nor free", [=](World& w) { w.scene.script.free.back() = 1.0; }},
+        {"other sizes", [=](World& w) { w.scene.script.obstacles[0].end.scale = 2.0; }},
+        {"a pose that is none", [=](World& w) { w.scene.script.obstacles[0].end.rotation.w = 2.0; }},
+        {"a pose that is none", [=](World& w) { w.scene.script.obstacles[0].end.translation.x() = nan; }},
+        {"scheme of another kind", [=](World& w) { w.scene.plan.scheme = Scheme::rk4; }},
+        {"scheme of another kind", [=](World& w) { w.scene.plan.parts = 2; }},
         {"wrong number of cloths", [=](World& w) { w.rest.cloths.resize(2); }},
-        {"negative time step", [=](World& w) { w.stages.earlier_length = -0.1; }},
-        {"wrong number of vertices", [=](World& w) { w.stages.earlier_length = 0.1; }},
-        {"wrong number of vertices", [=](World& w) { w.stages.unbalanced.resize(20); }, Scheme::tr_bdf2},
-        {"too short", [=](World& w) { w.stages.control.length = 1e-300; }},
-        {"below 0", [=](World& w) { w.stages.control.left = -1.0; }},
-        {"below 0", [=](World& w) { w.stages.control.share_before = nan; }},
+        {"negative time step", [=](World& w) { w.state.past.earlier_length = -0.1; }},
+        {"wrong number of vertices", [=](World& w) { w.state.past.earlier_length = 0.1; }},
+        {"wrong number of vertices", [=](World& w) { w.state.past.unbalanced.resize(20); }, Scheme::tr_bdf2},
+        {"too short", [=](World& w) { w.state.control.length = 1e-300; }},
+        {"below 0", [=](World& w) { w.state.control.left = -1.0; }},
+        {"below 0", [=](World& w) { w.state.control.share_before = nan; }},
     };
     for (const Fault& fault : faults) {
         World bad = make(fault.scheme), world = make(fault.scheme);

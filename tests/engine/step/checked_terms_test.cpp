@@ -16,17 +16,18 @@ World disturbed_world(const Fabric& fabric, StepSettings settings = {}) {
     for (Vec3& x : grid.vertices) x.y() += 0.02;
     settings.check_derivatives = true;
     World world = make_world(cloth_model(grid, fabric), grid.vertices, settings);
-    copy_in(disturbed(grid.vertices, 1.02, 0.01, 3), world.state.positions);
+    copy_in(disturbed(grid.vertices, 1.02, 0.01, 3), world.state.cloth.positions);
     for (int i = 0; i < 42; ++i) {
-        if (world.state.positions.y[i] < 0.004) world.state.positions.y[i] = 0.004;
+        if (world.state.cloth.positions.y[i] < 0.004) world.state.cloth.positions.y[i] = 0.004;
     }
-    update_points(world.state);
+    update_points(world.state.cloth);
     return world;
 }
 
 std::vector<std::string> names(const World& world) {
     std::vector<std::string> result;
-    for (const CheckedTerm& term : checked_terms(world)) result.push_back(term.name);
+    const StepEnd end{world.scene, world.state.cloth, world.state, world.work, world.scene.settings.time_step};
+    for (const CheckedTerm& term : checked_terms(end)) result.push_back(term.name);
     return result;
 }
 
@@ -39,7 +40,7 @@ TEST_CASE("All forces pass the check in every step of a disturbed sheet: springs
         for (const DampingForm form : {DampingForm::length_rate, DampingForm::velocity}) {
             World world = disturbed_world(fabric, {.damping_form = form});
             add_plane(world);
-            update_plan(world);
+            plan_step(world);
             int contacts = 0;
             for (int n = 0; n < 8; ++n) {
                 const StepReport report = step(world);
@@ -50,7 +51,7 @@ TEST_CASE("All forces pass the check in every step of a disturbed sheet: springs
             CHECK(contacts > 0);
         }
         World world = disturbed_world(fabric, {.time_step = 1e-4, .scheme = Scheme::rk4});
-        update_plan(world);
+        plan_step(world);
         for (int n = 0; n < 3; ++n) REQUIRE(step(world).ok());
     }
 }
@@ -71,7 +72,7 @@ TEST_CASE("Hinges of flat and of curved cloth, and wind, pass the check") {
         settings.check_derivatives = true;
         settings.wind = Vec3(3.0, 1.0, -0.5);
         World world = make_world(std::move(model), disturbed(mesh.vertices, 1.02, 0.01, 6), settings);
-        update_plan(world);
+        plan_step(world);
         for (int n = 0; n < 4; ++n) {
             const StepReport report = step(world);
             CAPTURE(n, report.wrong_derivative);
@@ -85,12 +86,12 @@ TEST_CASE("Hinges of flat and of curved cloth, and wind, pass the check") {
 
 TEST_CASE("Terms are those that act: contact where there is some, triangles where there are moduli") {
     World world = disturbed_world(woven_fabric());
-    update_plan(world);
+    plan_step(world);
     REQUIRE(step(world).ok());
     CHECK(names(world) == std::vector<std::string>{"gravity", "springs", "membrane"});
     World plain = disturbed_world(sheet_fabric());
     add_plane(plain);
-    update_plan(plain);
+    plan_step(plain);
     StepReport report;
     for (int n = 0; n < 20 && report.contacts == 0; ++n) report = step(plain);
     CHECK(names(plain) == std::vector<std::string>{"gravity", "springs", "damped springs", "contact"});
@@ -98,12 +99,14 @@ TEST_CASE("Terms are those that act: contact where there is some, triangles wher
 
 TEST_CASE("A wrong matrix planted in a real term is seen and named by its two vertices") {
     World world = disturbed_world(sheet_fabric());
-    update_plan(world);
+    plan_step(world);
     REQUIRE(step(world).ok());
     // All springs pull.
-    copy_in(disturbed(world.model.rest, 1.2, 0.002, 5), world.state.positions);
-    std::vector<CheckedTerm> terms = checked_terms(world);
-    const CheckedState state{world.state.positions, 42, 1e-6, world.settings.time_step};
+    copy_in(disturbed(world.scene.model.rest, 1.2, 0.002, 5), world.state.cloth.positions);
+    const ClothState start = world.state.cloth;
+    const StepEnd end{world.scene, start, world.state, world.work, world.scene.settings.time_step};
+    std::vector<CheckedTerm> terms = checked_terms(end);
+    const CheckedState state{world.state.cloth.positions, 42, 1e-6, world.scene.settings.time_step};
     CHECK_FALSE(find_wrong_derivative(terms, state).has_value());
     CheckedTerm& springs = terms.at(1);
     springs.multiply = [right = springs.multiply](const Vectors& d, Vectors& product) {
@@ -120,16 +123,16 @@ TEST_CASE("A wrong matrix planted in a real term is seen and named by its two ve
 
 TEST_CASE("A step whose derivatives do not fit fails with the state kept, and says where") {
     World world = disturbed_world(woven_fabric());
-    update_plan(world);
-    const ClothState before = world.state;
+    plan_step(world);
+    const ClothState before = world.state.cloth;
     // The rest lengths that only the energy of triangles takes.
-    for (double& square : world.model.adjacency.membrane.numbers[0]) square *= 1.01;
+    for (double& square : world.scene.model.adjacency.membrane.numbers[0]) square *= 1.01;
     const StepReport report = step(world);
     CHECK(report.status == StepStatus::wrong_derivative);
     CHECK_FALSE(report.ok());
     CHECK(mentions(report.explanation(),
                    {"wrong_derivative", "check_derivatives: membrane: force on vertex 0 of cloth", "energy"}));
-    CHECK(same_bits(world.state.positions, before.positions));
+    CHECK(same_bits(world.state.cloth.positions, before.positions));
 }
 
 }  // namespace percale::test

@@ -1,8 +1,7 @@
-#include "engine/step/implicit_stages.h"
+#include "engine/step/implicit_span.h"
 
 #include <cmath>
 
-#include "engine/step/scripted_motion.h"
 #include "engine/step/step.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
@@ -17,9 +16,7 @@ constexpr std::array implicit_schemes = {Scheme::backward_euler, Scheme::implici
 World sheet(const StepSettings& settings, double height = 0.0) {
     TriangleMesh grid = make_grid(0.2, 0.2, 5, 5);
     for (Vec3& x : grid.vertices) x.y() += height;
-    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, settings);
-    world.before = world.state;
-    return world;
+    return make_world(cloth_model(grid, sheet_fabric()), grid.vertices, settings);
 }
 
 /// A sheet above a plane at 0.
@@ -31,28 +28,45 @@ World sheet_over_plane(const StepSettings& settings, double height) {
 
 double mean_height_rate(const World& world) {
     double sum = 0.0;
-    for (int i = 0; i < world.model.vertex_count(); ++i) sum += world.model.mass[i] * world.state.velocities.y[i];
-    return sum / world.model.cloths[0].mass;
+    for (int i = 0; i < world.scene.model.vertex_count(); ++i)
+        sum += world.scene.model.mass[i] * world.state.cloth.velocities.y[i];
+    return sum / world.scene.model.cloths[0].mass;
 }
 
 }  // namespace
 
-TEST_CASE("A span goes to its end only, its pins to where they are then, and can be taken back") {
+TEST_CASE("A span goes to its end only, its pins to where they are then, and leaves its start as it is") {
     for (const Scheme scheme : implicit_schemes) {
         World world = sheet({.scheme = scheme});
-        world.script.free[0] = 0.0;
-        world.script.pin_targets.set(0, world.state.positions.at(0) + Vec3(0.01, 0, 0));
-        const ClothState start = world.state;
-        set_targets(world);
-        REQUIRE(solve_implicit_span(world, {0.0, 0.5}, false) == NewtonEnd::converged);
+        world.scene.script.free[0] = 0.0;
+        world.scene.script.pin_targets.set(0, world.state.cloth.positions.at(0) + Vec3(0.01, 0, 0));
+        plan_step(world);
+        const StepState start = world.state;
+        StepState end;
+        const SpanResult result = advance({world.scene, start.cloth.positions, {0.0, 0.5}}, world.state, world.work, end);
+        REQUIRE(result.end == SpanEnd::solved);
         CAPTURE(static_cast<int>(scheme));
-        CHECK((world.state.positions.at(0) - start.positions.at(0) - Vec3(0.005, 0, 0)).norm() < 1e-15);
-        CHECK((world.state.velocities.at(0) - Vec3(0.6, 0, 0)).norm() < 1e-12);
-        CHECK(world.state.velocities.y[24] == Approx(-9.81 / 120.0).epsilon(0.01));
-        restore_span_start(world);
-        CHECK(same_bits(world.state.positions, start.positions));
-        CHECK(same_bits(world.state.velocities, start.velocities));
-        CHECK(world.state.points == start.points);
+        CHECK((end.cloth.positions.at(0) - start.cloth.positions.at(0) - Vec3(0.005, 0, 0)).norm() < 1e-15);
+        CHECK((end.cloth.velocities.at(0) - Vec3(0.6, 0, 0)).norm() < 1e-12);
+        CHECK(end.cloth.velocities.y[24] == Approx(-9.81 / 120.0).epsilon(0.01));
+        CHECK(same_bits(world.state.cloth.positions, start.cloth.positions));
+        CHECK(same_bits(world.state.cloth.velocities, start.cloth.velocities));
+        CHECK(world.state.cloth.points == start.cloth.points);
+    }
+}
+
+TEST_CASE("A span is a function of its values: solved twice it ends in the same bits") {
+    for (const Scheme scheme : implicit_schemes) {
+        World world = sheet_over_plane({.scheme = scheme == Scheme::tr_bdf2 ? scheme : Scheme::backward_euler}, 0.006);
+        for (int n = 0; n < 5; ++n) REQUIRE(step(world).ok());
+        plan_step(world);
+        StepState first, second;
+        const Span span{world.scene, world.state.cloth.positions, {0.0, 1.0}};
+        REQUIRE(advance(span, world.state, world.work, first).end == SpanEnd::solved);
+        REQUIRE(advance(span, world.state, world.work, second).end == SpanEnd::solved);
+        CHECK(same_bits(first.cloth.positions, second.cloth.positions));
+        CHECK(same_bits(first.cloth.velocities, second.cloth.velocities));
+        CHECK(first.contact_energy == second.contact_energy);
     }
 }
 
@@ -60,14 +74,14 @@ TEST_CASE("BDF2 is the same whether a span is solved at once or its history is f
     World kept = sheet({.time_step = 1e-3, .scheme = Scheme::bdf2, .newton_tolerance = 1e-10});
     World forgetful = sheet({.time_step = 1e-3, .scheme = Scheme::bdf2, .newton_tolerance = 1e-10});
     for (World* world : {&kept, &forgetful}) {
-        world->script.free[0] = 0.0;
+        world->scene.script.free[0] = 0.0;
         for (int n = 0; n < 20; ++n) {
-            if (world == &forgetful) world->stages.earlier_length = 0.0;
+            if (world == &forgetful) world->state.past.earlier_length = 0.0;
             REQUIRE(step(*world).status == StepStatus::ok);
         }
     }
-    CHECK(kept.stages.earlier_length == 1e-3);
-    const double apart = largest_difference(kept.state.points, forgetful.state.points);
+    CHECK(kept.state.past.earlier_length == 1e-3);
+    const double apart = largest_difference(kept.state.cloth.points, forgetful.state.cloth.points);
     CHECK(apart > 0.0);
     CHECK(apart < 1e-5);
 }
@@ -88,8 +102,8 @@ TEST_CASE("TR-BDF2 on a plane: no energy is gained, impacts die out, cloth at re
     CHECK(met);
     CHECK(rebound < 0.35);  // of 1 m/s
     CHECK(std::abs(mean_height_rate(world)) < 1e-4);
-    CHECK(world.state.positions.y[12] > 0.74 * 0.005);
-    CHECK(world.state.positions.y[12] < 0.005);
+    CHECK(world.state.cloth.positions.y[12] > 0.74 * 0.005);
+    CHECK(world.state.cloth.positions.y[12] < 0.005);
 }
 
 TEST_CASE("A moving plane lifts cloth by TR-BDF2 and does the work that the energy gained") {
@@ -97,7 +111,7 @@ TEST_CASE("A moving plane lifts cloth by TR-BDF2 and does the work that the ener
         sheet_over_plane({.time_step = 1.0 / 240.0, .scheme = Scheme::tr_bdf2, .measure = StepMeasures::ledger}, 0.00375);
     double work = 0.0, taken = 0.0, before = 0.0, after = 0.0;
     for (int n = 0; n < 60; ++n) {
-        ObstacleState& plane = world.script.obstacles[0];
+        ObstacleState& plane = world.scene.script.obstacles[0];
         plane.end.translation = Vec3(0, 0.2 * (n + 1) / 240.0, 0);
         const StepReport report = step(world);
         REQUIRE(report.ok());
@@ -117,7 +131,7 @@ TEST_CASE("A stage that fails is redone in halves by every scheme") {
     for (const Scheme scheme : implicit_schemes) {
         World world = sheet({.time_step = 1.0 / 60.0, .scheme = scheme, .newton_tolerance = 1e-6, .newton_iterations = 3});
         Random random(5);
-        for (int i = 0; i < 25; ++i) world.state.velocities.set(i, random.point(2.0));
+        for (int i = 0; i < 25; ++i) world.state.cloth.velocities.set(i, random.point(2.0));
         const StepReport report = step(world);
         CAPTURE(static_cast<int>(scheme), report.residual);
         CHECK(report.status == StepStatus::halved);
@@ -130,30 +144,30 @@ TEST_CASE("The error that adaptive steps estimate is near the true one") {
         const auto pendulum = [&](const StepSettings& settings) {
             World world = linked_world(linked_masses({0.1, 0.2}, {{0, 1, 1.0, 50.0, 0.3}}), {Vec3(0, 0, 0), Vec3(1.0, 0, 0)}, {0},
                                        settings);
-            world.state.velocities.set(1, Vec3(0.5, -0.3, 0.2));
-            world.before = world.state;
-            set_targets(world);
+            world.state.cloth.velocities.set(1, Vec3(0.5, -0.3, 0.2));
+            plan_step(world);
             return world;
         };
         World world = pendulum({.time_step = 0.02, .adaptive = true, .scheme = scheme, .newton_tolerance = 1e-10});
         World exact = pendulum({.time_step = 1e-4, .scheme = Scheme::rk4});
+        double estimated = 0.0;
         if (scheme == Scheme::bdf2) {  // its first step is one of TR-BDF2
-            for (World* one : {&world, &exact}) REQUIRE(one->plan.implicit == (one == &world));
-            solve_implicit_span(world, {0.0, 0.5}, true);
-            world.stages.error = 0.0;
+            for (World* one : {&world, &exact}) REQUIRE(one->scene.plan.implicit == (one == &world));
+            advance_world(world, {0.0, 0.5}, true);
             for (int n = 0; n < 100; ++n) REQUIRE(step(exact).ok());
-            const Vec3 off = world.state.positions.at(1) - exact.state.positions.at(1);
-            solve_implicit_span(world, {0.5, 1.0}, true);
+            const Vec3 off = world.state.cloth.positions.at(1) - exact.state.cloth.positions.at(1);
+            estimated = advance_world(world, {0.5, 1.0}, true).error;
             for (int n = 0; n < 100; ++n) REQUIRE(step(exact).ok());
             CHECK(off.norm() < 1e-5);
         } else {
-            solve_implicit_span(world, {0.0, 1.0}, true);
+            estimated = advance_world(world, {0.0, 1.0}, true).error;
             for (int n = 0; n < 200; ++n) REQUIRE(step(exact).ok());
         }
-        const double error = (world.state.positions.at(1) - exact.state.positions.at(1)).norm() * std::sqrt(0.2 / 0.3);
-        CAPTURE(static_cast<int>(scheme), error, world.stages.error);
-        CHECK(world.stages.error > 0.4 * error);
-        CHECK(world.stages.error < 4.0 * error);
+        const double error =
+            (world.state.cloth.positions.at(1) - exact.state.cloth.positions.at(1)).norm() * std::sqrt(0.2 / 0.3);
+        CAPTURE(static_cast<int>(scheme), error, estimated);
+        CHECK(estimated > 0.4 * error);
+        CHECK(estimated < 4.0 * error);
     }
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 World moving_pair() {
     World world = make_world(linked_masses({2.0, 3.0}, {{0, 1, 1.0, 50.0, 0.0}}), {Vec3(0, 1, 0), Vec3(1.5, 2, 0)}, {});
-    world.state.velocities.set(0, Vec3(1, 2, 2));
-    world.state.velocities.set(1, Vec3(0, 0, -4));
+    world.state.cloth.velocities.set(0, Vec3(1, 2, 2));
+    world.state.cloth.velocities.set(1, Vec3(0, 0, -4));
     return world;
 }
 
@@ -22,7 +22,7 @@ World moving_pair() {
 
 TEST_CASE("Energies are those of the state") {
     const World world = moving_pair();
-    const StepEnergy energy = current_energy(world);
+    const StepEnergy energy = energy_of(world.scene, world.state);
     const double stretch = std::sqrt(1.5 * 1.5 + 1.0) - 1.0;
     CHECK(energy.kinetic == Approx(0.5 * 2.0 * 9.0 + 0.5 * 3.0 * 16.0).epsilon(1e-15));
     CHECK(energy.gravity == Approx(9.81 * (2.0 * 1.0 + 3.0 * 2.0)).epsilon(1e-15));
@@ -34,27 +34,29 @@ TEST_CASE("Energies are those of the state") {
 
 TEST_CASE("Strain and speed are the largest ones, without contact nothing is near") {
     World world = moving_pair();
-    world.report.energy.work = 7.0;
-    measure(world);
-    CHECK(world.report.largest_speed == 4.0);
-    CHECK(world.report.largest_strain == Approx(std::sqrt(3.25) - 1.0).epsilon(1e-14));
-    CHECK(world.report.smallest_distance == std::numeric_limits<double>::infinity());
-    CHECK(world.report.contacts == 0);
-    CHECK(world.report.energy.work == 7.0);  // counted by the solve, kept by the measure
-    CHECK(world.report.stages.measure >= 0.0);
+    plan_step(world);
+    StepReport report;
+    report.energy.work = 7.0;
+    StepMeasure(world.scene, world.state, 0.0).accepted(world.state, world.work, report);
+    CHECK(report.largest_speed == 4.0);
+    CHECK(report.largest_strain == Approx(std::sqrt(3.25) - 1.0).epsilon(1e-14));
+    CHECK(report.smallest_distance == std::numeric_limits<double>::infinity());
+    CHECK(report.contacts == 0);
+    CHECK(report.energy.work == 7.0);  // counted by the solve, kept by the measure
+    CHECK(world.work.times.measure >= 0.0);
 }
 
 TEST_CASE("What is not to be measured is NaN in the report and still told on demand") {
     for (const bool skip : {true, false}) {
         World world = moving_pair();
-        world.settings.measure = StepMeasures::none;
-        world.settings.skip = skip;
+        world.scene.settings.measure = StepMeasures::none;
+        world.scene.settings.skip = skip;
         const StepReport report = step(world);
         CHECK(std::isnan(report.energy.total()) == skip);
         CHECK(std::isnan(report.energy.work) == skip);
         CHECK(std::isnan(report.largest_strain) == skip);
         CHECK(std::isnan(report.largest_speed) == skip);
-        CHECK(std::isfinite(current_energy(world).total()));
+        CHECK(std::isfinite(energy_of(world.scene, world.state).total()));
     }
 }
 
@@ -62,23 +64,26 @@ TEST_CASE("Contacts are counted and hashed, and the hash follows their distances
     TriangleMesh grid = make_grid(0.2, 0.2, 3, 3);
     for (Vec3& x : grid.vertices) x.y() = 0.004;
     World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {});
-    world.detector = std::make_unique<PlaneDetector>();
-    world.detector->set_cloth(world.model.triangles, world.model.thickness);
-    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
-    world.script.obstacles.push_back({"plane", {}, {}});
+    world.scene.detector = std::make_unique<PlaneDetector>();
+    world.scene.detector->set_cloth(world.scene.model.triangles, world.scene.model.thickness);
+    world.scene.detector->add_obstacle(make_plane(1.0), {}, 0.3);
+    world.scene.script.obstacles.push_back({"plane", {}, {}});
     const StepReport first = step(world);
     CHECK(first.contacts == 9);
     CHECK(first.energy.contact > 0.0);
     CHECK(first.contact_stiffness > 0.0);
     double lowest = 1.0;
-    for (int i = 0; i < 9; ++i) lowest = std::min(lowest, world.state.positions.y[i]);
+    for (int i = 0; i < 9; ++i) lowest = std::min(lowest, world.state.cloth.positions.y[i]);
     CHECK(first.smallest_distance == lowest);
-    const std::uint64_t hash = world.report.contact_hash;
-    measure(world);
-    CHECK(world.report.contact_hash == hash);
-    world.newton.current.forces.rows.distance[3] = std::nextafter(world.newton.current.forces.rows.distance[3], 1.0);
-    measure(world);
-    CHECK(world.report.contact_hash != hash);
+    const auto hash = [&] {
+        StepReport report;
+        StepMeasure(world.scene, world.state, 0.0).accepted(world.state, world.work, report);
+        return report.contact_hash;
+    };
+    CHECK(hash() == first.contact_hash);
+    std::vector<double>& distances = world.work.newton.current.rows.distance;
+    distances[3] = std::nextafter(distances[3], 1.0);
+    CHECK(hash() != first.contact_hash);
 }
 
 }  // namespace percale::test

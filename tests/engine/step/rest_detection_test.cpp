@@ -155,29 +155,33 @@ TEST_CASE("What falls, swings or is pulled does not sleep, even where it is slow
 TEST_CASE("A still cloth whose forces are out of balance is not at rest") {
     TriangleMesh grid = make_grid(0.5, 0.5, 3, 3);
     World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.time_step = dt});
-    world.plan.rest = true;
-    world.newton.current.forces.total.resize(9);
-    for (int i = 0; i < 9; ++i) world.newton.current.forces.total.set(i, Vec3(0, 0.019 * 9.81 * world.model.mass[i], 0));
-    world.newton.current.forces.total.set(4, Vec3(0, 0.021 * 9.81 * world.model.mass[4], 0));
-    for (int n = 0; n < 60; ++n) update_rest(world);
+    world.scene.plan.rest = true;
+    Vectors forces;
+    StepReport report;
+    const auto follow = [&] { update_rest(world.scene, forces, world.state.cloth, world.rest, report); };
+    forces.resize(9);
+    for (int i = 0; i < 9; ++i) forces.set(i, Vec3(0, 0.019 * 9.81 * world.scene.model.mass[i], 0));
+    forces.set(4, Vec3(0, 0.021 * 9.81 * world.scene.model.mass[4], 0));
+    for (int n = 0; n < 60; ++n) follow();
     CHECK_FALSE(world.rest.asleep);
-    world.newton.current.forces.total.set(4, Vec3::Zero());
-    world.report = {};
-    update_rest(world);
+    forces.set(4, Vec3::Zero());
+    report = {};
+    follow();
     CHECK(world.rest.asleep);
-    CHECK(world.report.sleeping_cloths == 1);
+    CHECK(report.sleeping_cloths == 1);
 }
 
 TEST_CASE("Sleep comes half a second after the last move, however many steps that is") {
     for (const double step : {0.1, 0.01}) {
         TriangleMesh grid = make_grid(0.5, 0.5, 3, 3);
         World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.time_step = step});
-        world.newton.current.forces.total.resize(9);
+        Vectors forces;
+        forces.resize(9);
         int steps = 0;
         while (!world.rest.asleep && steps < 1000) {
-            world.report = {};
-            if (steps == 3) world.state.positions.set(2, world.state.positions.at(2) + Vec3(0, 1.1e-5, 0));
-            update_rest(world);
+            StepReport report;
+            if (steps == 3) world.state.cloth.positions.set(2, world.state.cloth.positions.at(2) + Vec3(0, 1.1e-5, 0));
+            update_rest(world.scene, forces, world.state.cloth, world.rest, report);
             ++steps;
         }
         CHECK((steps - 4) * step == Approx(0.5).margin(1.01 * step));

@@ -1,6 +1,5 @@
 #include "engine/step/solve_step.h"
 
-#include "engine/step/scripted_motion.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_scenes.h"
@@ -11,22 +10,21 @@ namespace {
 World sheet_world(const StepSettings& settings, double height = 0.0) {
     TriangleMesh grid = make_grid(0.5, 0.5, 4, 4);
     for (Vec3& x : grid.vertices) x.y() += height;
-    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, settings);
-    world.before = world.state;
-    return world;
+    return make_world(cloth_model(grid, sheet_fabric()), grid.vertices, settings);
 }
 
-void solve(World& world) {
-    world.report = {};
-    world.report.dt = world.report.smallest_dt = world.settings.time_step;
-    world.before = world.state;
-    set_targets(world);
-    solve_step(world);
+StepReport solve(World& world) {
+    StepReport report;
+    report.dt = report.smallest_dt = world.scene.settings.time_step;
+    plan_step(world);
+    if (const StepState* end = solve_step(world.scene, world.state, world.work, report)) world.state = *end;
+    finish_motion(world.scene);
+    return report;
 }
 
 void pin(World& world, int vertex, const Vec3& move) {
-    world.script.free[vertex] = 0.0;
-    world.script.pin_targets.set(vertex, world.state.positions.at(vertex) + move);
+    world.scene.script.free[vertex] = 0.0;
+    world.scene.script.pin_targets.set(vertex, world.state.cloth.positions.at(vertex) + move);
 }
 
 }  // namespace
@@ -34,48 +32,48 @@ void pin(World& world, int vertex, const Vec3& move) {
 TEST_CASE("Each scheme takes its own way through a step") {
     for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler}) {
         World world = sheet_world({.time_step = 1e-4, .scheme = scheme});
-        solve(world);
+        const StepReport report = solve(world);
         const double fall = scheme == Scheme::rk4 ? 0.5 : 1.0;
-        CHECK(world.state.positions.y[5] == Approx(-fall * 9.81e-8).epsilon(1e-9));
-        CHECK((world.report.newton_iterations > 0) == (scheme == Scheme::backward_euler));
-        CHECK(world.report.status == StepStatus::ok);
-        CHECK(world.report.smallest_dt == 1e-4);
+        CHECK(world.state.cloth.positions.y[5] == Approx(-fall * 9.81e-8).epsilon(1e-9));
+        CHECK((report.newton_iterations > 0) == (scheme == Scheme::backward_euler));
+        CHECK(report.status == StepStatus::ok);
+        CHECK(report.smallest_dt == 1e-4);
     }
 }
 
 TEST_CASE("A step that does not converge is redone in halves and says so") {
     World world = sheet_world({.time_step = 1.0 / 60.0, .newton_tolerance = 1e-6, .newton_iterations = 3});
     Random random(5);
-    for (int i = 0; i < 16; ++i) world.state.velocities.set(i, random.point(3.0));
+    for (int i = 0; i < 16; ++i) world.state.cloth.velocities.set(i, random.point(3.0));
     pin(world, 0, Vec3(0.01, 0, 0));
-    solve(world);
-    CAPTURE(world.report.residual, world.report.halvings);
-    CHECK(world.report.status == StepStatus::halved);
-    CHECK(world.report.halvings > 0);
-    CHECK(world.report.smallest_dt < world.settings.time_step);
-    CHECK(world.state.positions.at(0) == world.script.pin_targets.at(0));
-    const double parts = world.settings.time_step / world.report.smallest_dt;
+    const StepReport report = solve(world);
+    CAPTURE(report.residual, report.halvings);
+    CHECK(report.status == StepStatus::halved);
+    CHECK(report.halvings > 0);
+    CHECK(report.smallest_dt < world.scene.settings.time_step);
+    CHECK(world.state.cloth.positions.at(0) == world.scene.script.pin_targets.at(0));
+    const double parts = world.scene.settings.time_step / report.smallest_dt;
     CHECK(parts == std::round(parts));
 }
 
 TEST_CASE("A step of one iteration is linearly implicit and never redone") {
     World world = sheet_world({.newton_iterations = 1});
     Random random(5);
-    for (int i = 0; i < 16; ++i) world.state.velocities.set(i, random.point(3.0));
-    solve(world);
-    CHECK(world.report.status == StepStatus::ok);
-    CHECK(world.report.newton_iterations == 1);
-    CHECK(world.report.halvings == 0);
+    for (int i = 0; i < 16; ++i) world.state.cloth.velocities.set(i, random.point(3.0));
+    const StepReport report = solve(world);
+    CHECK(report.status == StepStatus::ok);
+    CHECK(report.newton_iterations == 1);
+    CHECK(report.halvings == 0);
 }
 
 TEST_CASE("If halving does not help, the last state is accepted as not converged") {
     World world = sheet_world({.time_step = 1.0 / 60.0, .newton_tolerance = 1e-14, .newton_iterations = 2});
     Random random(5);
-    for (int i = 0; i < 16; ++i) world.state.velocities.set(i, random.point(3.0));
-    solve(world);
-    CHECK(world.report.status == StepStatus::not_converged);
-    CHECK(world.report.smallest_dt == Approx(1.0 / 60.0 / 64.0));
-    CHECK(world.report.residual > 1e-14);
+    for (int i = 0; i < 16; ++i) world.state.cloth.velocities.set(i, random.point(3.0));
+    const StepReport report = solve(world);
+    CHECK(report.status == StepStatus::not_converged);
+    CHECK(report.smallest_dt == Approx(1.0 / 60.0 / 64.0));
+    CHECK(report.residual > 1e-14);
 }
 
 TEST_CASE("A pin that is pulled through a plane is blocked and named, with the plane") {
@@ -83,34 +81,34 @@ TEST_CASE("A pin that is pulled through a plane is blocked and named, with the p
     add_plane(world);
     pin(world, 3, Vec3(0, 0.001, 0));
     pin(world, 9, Vec3(0, -0.03, 0));
-    solve(world);
-    CHECK(world.report.status == StepStatus::pin_blocked);
-    CHECK(world.report.blocked_cloth == 0);
-    CHECK(world.report.blocked_vertex == 9);
-    CHECK(world.report.blocked_name == "cloth");
-    CHECK(world.report.blocking_obstacle == 0);
-    CHECK(world.report.blocking_name == "plane");
-    CHECK(world.report.smallest_fraction < 1.0);
+    const StepReport report = solve(world);
+    CHECK(report.status == StepStatus::pin_blocked);
+    CHECK(report.blocked_cloth == 0);
+    CHECK(report.blocked_vertex == 9);
+    CHECK(report.blocked_name == "cloth");
+    CHECK(report.blocking_obstacle == 0);
+    CHECK(report.blocking_name == "plane");
+    CHECK(report.smallest_fraction < 1.0);
 }
 
 TEST_CASE("A plane that drives through held cloth is too fast") {
     World world = sheet_world({}, 0.02);
     add_plane(world);
     for (int i = 0; i < 16; ++i) pin(world, i, Vec3::Zero());
-    world.script.obstacles[0].end.translation = Vec3(0, 0.05, 0);
-    solve(world);
-    CHECK(world.report.status == StepStatus::obstacle_too_fast);
-    CHECK(world.report.blocking_obstacle == 0);
+    world.scene.script.obstacles[0].end.translation = Vec3(0, 0.05, 0);
+    const StepReport report = solve(world);
+    CHECK(report.status == StepStatus::obstacle_too_fast);
+    CHECK(report.blocking_obstacle == 0);
 }
 
 TEST_CASE("A plane that drives under free cloth takes it along") {
     World world = sheet_world({}, 0.02);
     add_plane(world);
-    world.script.obstacles[0].end.translation = Vec3(0, 0.05, 0);
-    solve(world);
-    CHECK(world.report.ok());
-    for (int i = 0; i < 16; ++i) CHECK(world.state.positions.y[i] > 0.05);
-    CHECK(world.report.energy.work > 0.0);
+    world.scene.script.obstacles[0].end.translation = Vec3(0, 0.05, 0);
+    const StepReport report = solve(world);
+    CHECK(report.ok());
+    for (int i = 0; i < 16; ++i) CHECK(world.state.cloth.positions.y[i] > 0.05);
+    CHECK(report.energy.work > 0.0);
 }
 
 TEST_CASE("Steps that become shorter do not throw up cloth that rests") {
@@ -137,11 +135,11 @@ TEST_CASE("Lifting a whole sheet at constant speed takes the work m g h") {
     const double speed = 0.6, rise = speed / 60.0;
     for (int n = 0; n < 5; ++n) {
         for (int i = 0; i < 16; ++i) pin(world, i, Vec3(0, rise, 0));
-        solve(world);
-        const double mass = world.model.cloths[0].mass;
+        const StepReport report = solve(world);
+        const double mass = world.scene.model.cloths[0].mass;
         // Backward Euler pays m v for a change of velocity v, half of which is lost.
         const double expected = mass * 9.81 * rise + (n == 0 ? mass * speed * speed : 0.0);
-        CHECK(world.report.energy.work == Approx(expected).epsilon(1e-9));
+        CHECK(report.energy.work == Approx(expected).epsilon(1e-9));
     }
 }
 

@@ -96,9 +96,9 @@ TEST_CASE("What remains is divided evenly") {
 TEST_CASE("The size of an error is the worst cloth's mean by mass, held vertices left out") {
     World world = make_world(linked_masses({0.1, 0.3}, {{0, 1, 1.0, 10.0, 0.0}}), {Vec3(0, 0, 0), Vec3(1, 0, 0)}, {});
     const Vectors error = to_vectors({Vec3(3, 0, 0), Vec3(0, 4, 0)});
-    CHECK(mean_size(world, error) == Approx(std::sqrt((0.1 * 9.0 + 0.3 * 16.0) / 0.4)));
-    world.script.free[1] = 0.0;
-    CHECK(mean_size(world, error) == Approx(std::sqrt(0.1 * 9.0 / 0.4)));
+    CHECK(mean_size(world.scene, error) == Approx(std::sqrt((0.1 * 9.0 + 0.3 * 16.0) / 0.4)));
+    world.scene.script.free[1] = 0.0;
+    CHECK(mean_size(world.scene, error) == Approx(std::sqrt(0.1 * 9.0 / 0.4)));
 }
 
 }  // namespace percale::test

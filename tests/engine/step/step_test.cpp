@@ -24,54 +24,54 @@ TEST_CASE("A good step advances time and reports the length of the step") {
         CHECK(report.status == StepStatus::ok);
         CHECK(report.time == Approx(0.01 * n).epsilon(1e-14));
         CHECK(report.dt == 0.01);
-        CHECK(world.time == report.time);
+        CHECK(world.state.time == report.time);
     }
 }
 
 TEST_CASE("A step that would become infinite is not taken") {
     for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler}) {
         World world = sheet_world({.time_step = 0.01, .scheme = scheme});
-        world.state.positions.set(3, Vec3(1e200, 0, 0));
-        world.state.velocities.set(3, Vec3(1e308, 1e308, 0));
-        update_points(world.state);
-        const ClothState before = world.state;
+        world.state.cloth.positions.set(3, Vec3(1e200, 0, 0));
+        world.state.cloth.velocities.set(3, Vec3(1e308, 1e308, 0));
+        update_points(world.state.cloth);
+        const ClothState before = world.state.cloth;
         const StepReport report = step(world);
         CHECK(report.status == StepStatus::not_finite);
         CHECK_FALSE(report.ok());
         CHECK(report.time == 0.0);
-        CHECK(same_bits(world.state.positions, before.positions));
-        CHECK(same_bits(world.state.velocities, before.velocities));
-        CHECK(world.state.points == before.points);
+        CHECK(same_bits(world.state.cloth.positions, before.positions));
+        CHECK(same_bits(world.state.cloth.velocities, before.velocities));
+        CHECK(world.state.cloth.points == before.points);
     }
 }
 
 TEST_CASE("An explicit scheme that blows up ends in a status, with the last finite state kept") {
     World world = sheet_world({.time_step = 1.0 / 60.0, .scheme = Scheme::symplectic_euler});
-    world.script.free[0] = 0.0;
+    world.scene.script.free[0] = 0.0;
     StepReport report;
     for (int n = 0; n < 10000 && report.ok(); ++n) report = step(world);
     CHECK(report.status == StepStatus::not_finite);
-    for (const Vec3& x : world.state.points) CHECK(x.allFinite());
+    for (const Vec3& x : world.state.cloth.points) CHECK(x.allFinite());
 }
 
 TEST_CASE("A failed step leaves state, time and obstacles untouched and the next step may succeed") {
     World world = sheet_world({});
-    world.detector = std::make_unique<PlaneDetector>();
-    world.detector->set_cloth(world.model.triangles, world.model.thickness);
-    world.detector->add_obstacle(make_plane(1.0), {}, 0.3);
-    world.script.obstacles.push_back({"plane", {}, {}});
-    world.script.free[5] = 0.0;
+    world.scene.detector = std::make_unique<PlaneDetector>();
+    world.scene.detector->set_cloth(world.scene.model.triangles, world.scene.model.thickness);
+    world.scene.detector->add_obstacle(make_plane(1.0), {}, 0.3);
+    world.scene.script.obstacles.push_back({"plane", {}, {}});
+    world.scene.script.free[5] = 0.0;
     step(world);
-    const ClothState before = world.state;
-    const double time = world.time;
-    world.script.pin_targets.set(5, world.state.positions.at(5) - Vec3(0, 0.5, 0));
+    const ClothState before = world.state.cloth;
+    const double time = world.state.time;
+    world.scene.script.pin_targets.set(5, world.state.cloth.positions.at(5) - Vec3(0, 0.5, 0));
     const StepReport report = step(world);
     CHECK(report.status == StepStatus::pin_blocked);
-    CHECK(world.time == time);
-    CHECK(same_bits(world.state.positions, before.positions));
-    CHECK(same_bits(world.state.velocities, before.velocities));
-    CHECK(world.state.points == before.points);
-    world.script.pin_targets.set(5, world.state.positions.at(5));
+    CHECK(world.state.time == time);
+    CHECK(same_bits(world.state.cloth.positions, before.positions));
+    CHECK(same_bits(world.state.cloth.velocities, before.velocities));
+    CHECK(world.state.cloth.points == before.points);
+    world.scene.script.pin_targets.set(5, world.state.cloth.positions.at(5));
     CHECK(step(world).ok());
 }
 

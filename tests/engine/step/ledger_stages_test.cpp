@@ -1,4 +1,4 @@
-#include "engine/step/span_ledger.h"
+#include "engine/step/ledger.h"
 
 #include <cmath>
 
@@ -19,7 +19,7 @@ World thrown_links(Scheme scheme, double damping) {
     const std::vector<Vec3> places = random_points(random, 8, 1.0), velocities = random_points(random, 8, 1.0);
     World world =
         make_world(linked_masses(masses, links), places, {.time_step = 1e-3, .scheme = scheme, .measure = StepMeasures::ledger});
-    world.state.velocities = to_vectors(velocities);
+    world.state.cloth.velocities = to_vectors(velocities);
     return world;
 }
 
@@ -30,10 +30,10 @@ constexpr Scheme explicit_ones[] = {Scheme::forward_euler, Scheme::symplectic_eu
 TEST_CASE("An explicit scheme's account of a step is exact, pins that move included") {
     for (const Scheme scheme : explicit_ones) {
         World world = thrown_links(scheme, 0.5);
-        world.script.free[3] = 0.0;
-        world.state.velocities.set(3, Vec3::Zero());
+        world.scene.script.free[3] = 0.0;
+        world.state.cloth.velocities.set(3, Vec3::Zero());
         for (int n = 0; n < 20; ++n) {
-            world.script.pin_targets.set(3, world.state.positions.at(3) + 1e-3 * Vec3(1.0, -0.5 * n, 0.3));
+            world.scene.script.pin_targets.set(3, world.state.cloth.positions.at(3) + 1e-3 * Vec3(1.0, -0.5 * n, 0.3));
             const StepEnergy energy = step(world).energy;
             CAPTURE(static_cast<int>(scheme), n, energy.imbalance);
             CHECK(energy.closure() < 1e-13);
@@ -47,10 +47,11 @@ TEST_CASE("Free vertices get the momentum that the forces taken give") {
     for (const Scheme scheme : explicit_ones) {
         World world = thrown_links(scheme, 0.5);
         for (int n = 0; n < 20; ++n) {
+            const Vectors before = world.state.cloth.velocities;
             REQUIRE(step(world).ok());
             for (int i = 0; i < 8; ++i) {
-                const Vec3 change = world.state.velocities.at(i) - world.before.velocities.at(i);
-                CHECK((world.model.mass[i] * change - world.ledger.impulse.at(i)).norm() < 1e-14);
+                const Vec3 change = world.state.cloth.velocities.at(i) - before.at(i);
+                CHECK((world.scene.model.mass[i] * change - world.work.impulse.at(i)).norm() < 1e-14);
             }
         }
     }
@@ -60,7 +61,7 @@ TEST_CASE("RK4's own loss in a step falls at least with the fifth power of its l
     double before = 0.0;
     for (const double dt : {8e-3, 4e-3, 2e-3}) {
         World world = thrown_links(Scheme::rk4, 0.0);
-        world.settings.time_step = dt;
+        world.scene.settings.time_step = dt;
         const StepEnergy energy = step(world).energy;
         CHECK(energy.dissipated_material == 0.0);
         CAPTURE(dt, energy.dissipated_integrator);
@@ -73,14 +74,14 @@ TEST_CASE("An implicit scheme's account of a step is exact, pins that move and s
     for (const Scheme scheme : {Scheme::implicit_midpoint, Scheme::trapezoid, Scheme::bdf2, Scheme::tr_bdf2}) {
         for (const bool adaptive : {false, true}) {
             World world = thrown_links(scheme, 0.5);
-            world.settings.time_step = 0.01;
-            world.settings.adaptive = adaptive;
-            world.settings.tolerance = 1e-2;
-            world.script.free[3] = 0.0;
-            world.state.velocities.set(3, Vec3::Zero());
+            world.scene.settings.time_step = 0.01;
+            world.scene.settings.adaptive = adaptive;
+            world.scene.settings.tolerance = 1e-2;
+            world.scene.script.free[3] = 0.0;
+            world.state.cloth.velocities.set(3, Vec3::Zero());
             int parts = 0;
             for (int n = 0; n < 20; ++n) {
-                world.script.pin_targets.set(3, world.state.positions.at(3) + 1e-2 * Vec3(1.0, -0.1 * n, 0.3));
+                world.scene.script.pin_targets.set(3, world.state.cloth.positions.at(3) + 1e-2 * Vec3(1.0, -0.1 * n, 0.3));
                 const StepReport report = step(world);
                 REQUIRE(report.ok());
                 parts = std::max(parts, report.parts);

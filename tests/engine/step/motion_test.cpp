@@ -1,0 +1,72 @@
+#include "engine/step/motion.h"
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+#include "tests/support/plane_detector.h"
+
+namespace percale::test {
+namespace {
+
+World sheet_world() {
+    const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
+    return make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {});
+}
+
+/// A detector that remembers where it was told obstacles are.
+class MotionRecord : public PlaneDetector {
+public:
+    void move_obstacle(int obstacle, const Pose& start, const Pose& end) override {
+        PlaneDetector::move_obstacle(obstacle, start, end);
+        moves.push_back({obstacle, start.translation, end.translation});
+    }
+    struct Move {
+        int obstacle;
+        Vec3 start, end;
+    };
+    std::vector<Move> moves;
+};
+
+}  // namespace
+
+TEST_CASE("The detector is told both ends of a moving obstacle's path, and once where it stays") {
+    World world = sheet_world();
+    auto detector = std::make_unique<MotionRecord>();
+    MotionRecord& record = *detector;
+    world.scene.detector = std::move(detector);
+    for (int k = 0; k < 2; ++k) {
+        record.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -k - 1, 0)}, 0.3);
+        world.scene.script.obstacles.push_back(
+            {"plane", {.translation = Vec3(0, -k - 1, 0)}, {.translation = Vec3(0, -k - 1, 0)}});
+    }
+    plan_step(world);
+    CHECK(world.scene.plan.contacts);
+    CHECK_FALSE(world.scene.plan.obstacles_move);
+    CHECK(record.moves.empty());  // it knows where they are
+    world.scene.script.obstacles[1].end.translation = Vec3(0, -1.5, 0);
+    plan_step(world);
+    CHECK(world.scene.plan.obstacles_move);
+    REQUIRE(record.moves.size() == 1);
+    CHECK(record.moves[0].obstacle == 1);
+    CHECK(record.moves[0].start == Vec3(0, -2, 0));
+    CHECK(record.moves[0].end == Vec3(0, -1.5, 0));
+    finish_motion(world.scene);
+    for (int n = 0; n < 2; ++n) plan_step(world);  // told once that it stays
+    CHECK_FALSE(world.scene.plan.obstacles_move);
+    REQUIRE(record.moves.size() == 2);
+    CHECK(record.moves[1].start == Vec3(0, -1.5, 0));
+    CHECK(record.moves[1].end == Vec3(0, -1.5, 0));
+    world.scene.settings.skip = false;
+    plan_step(world);
+    CHECK(record.moves.size() == 4);  // nothing is skipped: both are told
+}
+
+TEST_CASE("An obstacle that only turns is on the move too") {
+    World world = sheet_world();
+    world.scene.detector = std::make_unique<PlaneDetector>();
+    world.scene.detector->add_obstacle(make_plane(1.0), {}, 0.3);
+    world.scene.script.obstacles.push_back({"plane", {}, {.translation = Vec3::Zero(), .rotation = {0.6, 0.0, 0.8, 0.0}}});
+    plan_step(world);
+    CHECK(world.scene.plan.obstacles_move);
+}
+
+}  // namespace percale::test
