@@ -32,7 +32,7 @@ void make_step(const Span& span, const StepState& start, Workspace& work, StepSt
 /// A step that counts.
 void make_kept_step(const Span& span, const StepState& start, Workspace& work, StepState& end, StepEnergy& flows) {
     make_step(span, start, work, end);
-    if (span.scene.plan.ledger) account_explicit(span, {start, end, work.middle}, work, flows);
+    if (span.scene.plan.ledger) account_explicit(span, {start, end}, work, flows);
     flows.work += seam_work(span, start, end.cloth);
 }
 

@@ -36,7 +36,7 @@ public:
         make_stages();
         if (!usable()) return result_;
         set_rest_length(span_, start_, work_, end_.cloth);
-        account_implicit(span_, {start_, end_, work_.middle, obstacle_work_}, work_, result_.flows);
+        account_implicit(span_, {start_, end_, middle_, obstacle_work_}, work_, result_.flows);
         return result_;
     }
 
@@ -177,6 +177,7 @@ private:
 
     void make_tr_bdf2() {
         ClothState& middle = work_.middle;
+        middle_ = &middle;
         const double first = trapezoid_share * length(), between = span_.at(trapezoid_share);
         set_old_accelerations();
         set_trapezoid_base(start_.cloth, work_.acceleration, first, work_.base);
@@ -234,6 +235,7 @@ private:
     Workspace& work_;
     StepState& end_;
     SpanResult result_;
+    const ClothState* middle_ = nullptr;  // between two stages
     double seam_place_ = 1.0;     // of the span, whose rest lengths the coming stage has
     double obstacle_work_ = 0.0;  // J
 };

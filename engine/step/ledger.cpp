@@ -96,12 +96,14 @@ private:
     StepEnergy& flows_;
 };
 
-/// Where an implicit scheme takes the forces of its stages, in the order of stage_weights, but for rest lengths.
-std::array<ForcePlace, 3> stage_places(const SpanStates& states, const StagePoint& last, bool two_stages) {
-    const ClothState &start = states.start.cloth, &middle = states.middle;
+/// Where an implicit scheme takes the forces of its stages, in the order of stage_weights, but for rest lengths. The air of a stage
+/// is that of its beginning.
+std::array<ForcePlace, 3> stage_places(const SpanStates& states, const StagePoint& last) {
+    const ClothState& start = states.start.cloth;
+    const ClothState& middle = states.middle ? *states.middle : start;
     return {{{start.positions, start.velocities, start.positions, {}},
              {middle.positions, middle.velocities, start.positions, {}},
-             {last.positions, last.velocities, two_stages ? middle.positions : start.positions, {}}}};
+             {last.positions, last.velocities, middle.positions, {}}}};
 }
 
 /// What contact took: by its own law where one stage is all there is, else all that its forces did.
@@ -140,10 +142,10 @@ void account_implicit(const Span& span, const SpanStates& states, Workspace& wor
     flows.work += seam_work(span, states.start, states.end.cloth) + states.obstacle_work;
 
     SpanAccount account(span, states, work, flows);
-    const bool weighs = plan.ledger || plan.pin_work, two_stages = facts_of(plan.scheme).stages == 2;
+    const bool weighs = plan.ledger || plan.pin_work;
     // The forces of the last stage are known, but not without contact where that has another weight.
-    const Vectors* known = two_stages ? nullptr : &last.forces.total;
-    std::array<ForcePlace, 3> places = stage_places(states, last, two_stages);
+    const Vectors* known = facts_of(plan.scheme).stages == 2 ? nullptr : &last.forces.total;
+    std::array<ForcePlace, 3> places = stage_places(states, last);
     const std::array<StageWeight, 3> weights = stage_weights(plan.scheme);
     for (std::size_t k = 0; k < places.size(); ++k) {
         if (weights[k].share == 0.0) continue;

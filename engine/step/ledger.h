@@ -8,7 +8,7 @@ namespace percale {
 struct SpanStates {
     const StepState& start;
     StepState& end;
-    const ClothState& middle;
+    const ClothState* middle = nullptr;  // between two stages; null: one stage
     double obstacle_work = 0.0;  // J, by the contacts of the stages
 };
 
