@@ -10,9 +10,9 @@
 namespace percale {
 namespace {
 
-constexpr double skin_share = 0.4;    // of the thickness: room around a vertex before its lists are built anew
-constexpr double least_share = 1e-4;  // of a move: below it lists are built however many packs they hold
-constexpr double skin_of_way = 0.2;   // of the move the list is built for
+constexpr double skin_share = 0.4;         // of the thickness: room around a vertex before its lists are built anew
+constexpr double least_move_share = 1e-4;  // of a move: below it lists are built however many packs they hold
+constexpr double skin_of_way = 0.2;        // of the move the list is built for
 
 double skin(double thickness, double way) { return skin_share * thickness + skin_of_way * way; }
 
@@ -216,7 +216,7 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) 
     if (dirty_.empty()) return 1.0;
     double share = 1.0;
     ClothMove covered = move;
-    while (!rebuild(covered, obstacles, share < least_share)) {
+    while (!rebuild(covered, obstacles, share < least_move_share)) {
         share *= 0.5;
         shortened_.resize(move.from.size());
         for (std::size_t i = 0; i < shortened_.size(); ++i) shortened_[i] = move.from[i] + share * (move.to[i] - move.from[i]);

@@ -10,8 +10,8 @@ namespace percale {
 namespace {
 
 constexpr std::size_t triangles_per_patch = 16;
-constexpr float rounded_up = 1.000001F;  // more than a number loses on its way to single precision
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr float single_rounded_up = 1.000001F;  // more than a number loses on its way to single precision
+constexpr double boundless = std::numeric_limits<double>::infinity();
 
 class PackMaker {
 public:
@@ -129,7 +129,7 @@ void place_points(const FeaturePack& pack, const ObstacleSurface& surface, const
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         x[k] = paths.at(vertices[k], placed.fraction) - placed.centre;
         set_row(placed.lanes, 3 * static_cast<int>(k), lane, x[k]);
-        placed.radius = std::max(placed.radius, rounded_up * static_cast<float>(x[k].cwiseAbs().maxCoeff()));
+        placed.radius = std::max(placed.radius, single_rounded_up * static_cast<float>(x[k].cwiseAbs().maxCoeff()));
     }
     if (pack.kind == PairKind::vertex_face)
         placed.sharpness = std::max(placed.sharpness, static_cast<float>(longest_over_area(x[0], x[1], x[2])));
@@ -175,7 +175,7 @@ float not_above(double x) {
 
 /// The hull of a pack with a plane of this normal.
 PackHull make_hull(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, const Vec3& normal) {
-    PackHull hull{.normal = normal, .offset = -infinity};
+    PackHull hull{.normal = normal, .offset = -boundless};
     Box box;
     for (int lane = 0; lane < pack.count; ++lane) {
         const std::span<const int> vertices = vertices_of(surface, pack.kind, pack.feature[lane]);
@@ -196,7 +196,7 @@ PackHull make_hull(const FeaturePack& pack, const ObstacleSurface& surface, cons
 double longest_over_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 u = b - a, v = c - a, w = c - b;
     const double area = u.cross(v).norm(), longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
-    return area > 1e-12 * longest ? std::sqrt(longest) / area : infinity;
+    return area > 1e-12 * longest ? std::sqrt(longest) / area : boundless;
 }
 
 ObstaclePacks make_packs(const ObstacleSurface& surface) {

@@ -9,7 +9,6 @@
 namespace percale {
 namespace {
 
-using certificate::Box;
 using certificate::BoxTree;
 using certificate::Corners;
 using certificate::Overlap;
@@ -56,25 +55,25 @@ PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std:
     std::vector<Corners> triangles;
     std::vector<double> gaps;
     std::vector<certificate::Slab> slabs;
-    std::vector<Box> boxes;
+    std::vector<certificate::Box> boxes;
     for (const Triangle& t : cloth.triangles) {
         triangles.push_back(corners(x, t));
         const bool any = !moved.empty() && (moved[t[0]] || moved[t[1]] || moved[t[2]]);
         gaps.push_back(any ? least_gap * cloth.thickness[t[0]] : 0.0);
         slabs.push_back(any ? certificate::slab_of(triangles.back()) : certificate::Slab{});
-        Box box = certificate::box_of(triangles.back());
+        certificate::Box box = certificate::box_of(triangles.back());
         box.low.array() -= gaps.back();
         box.high.array() += gaps.back();
         boxes.push_back(box);
     }
-    return {std::move(triangles), std::move(gaps), std::move(slabs), BoxTree(std::span<const Box>(boxes))};
+    return {std::move(triangles), std::move(gaps), std::move(slabs), BoxTree(std::span<const certificate::Box>(boxes))};
 }
 
 /// The cloth triangles that lie about an obstacle's box: all that can meet it, come too near or have a corner inside.
 std::vector<int> triangles_around(const PlacedCloth& placed, const SolidObstacle& obstacle) {
-    const Box bounds = obstacle.tree().bounds();
+    const certificate::Box bounds = obstacle.tree().bounds();
     std::vector<int> around;
-    placed.tree.walk([&](const Box& box) { return certificate::overlap(box, bounds); },
+    placed.tree.walk([&](const certificate::Box& box) { return certificate::overlap(box, bounds); },
                      [&](int item) { around.push_back(item); });
     return around;
 }
@@ -124,10 +123,10 @@ std::vector<bool> find_inside(const TangledCloth& cloth, const SolidObstacle& ob
 
 bool is_cut(const Vec3& a, const Vec3& b, const SolidObstacle& obstacle) {
     const Corners edge{a, b, b};
-    const Box box = certificate::box_of(edge);
+    const certificate::Box box = certificate::box_of(edge);
     bool cut = false;
     obstacle.tree().walk(
-        [&](const Box& other) { return !cut && certificate::overlap(box, other); },
+        [&](const certificate::Box& other) { return !cut && certificate::overlap(box, other); },
         [&](int item) { cut = cut || certificate::classify(edge, obstacle.triangles()[item]) != Overlap::disjoint; });
     return cut;
 }

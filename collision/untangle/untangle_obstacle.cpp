@@ -12,11 +12,10 @@
 namespace percale {
 namespace {
 
-using certificate::Box;
 using certificate::Corners;
 
 /// Whether the ray from `point` along `way` meets the box (slab test).
-bool meets(const Box& box, const Vec3& point, const Vec3& way) {
+bool meets(const certificate::Box& box, const Vec3& point, const Vec3& way) {
     double first = 0.0, last = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
         if (way[axis] == 0.0) {
@@ -59,7 +58,7 @@ bool SolidObstacle::inside(const Vec3& point) const {
 
 std::optional<double> SolidObstacle::exit(const Vec3& point, const Vec3& way) const {
     std::vector<double> places;
-    tree_.walk([&](const Box& box) { return meets(box, point, way); },
+    tree_.walk([&](const certificate::Box& box) { return meets(box, point, way); },
                [&](int item) {
                    if (const auto place = meeting(triangles_[item], point, way)) places.push_back(*place);
                });
@@ -71,9 +70,9 @@ std::optional<double> SolidObstacle::exit(const Vec3& point, const Vec3& way) co
 }
 
 Vec3 SolidObstacle::pushed_out(const Vec3& point, double clearance) const {
-    Box here;
+    certificate::Box here;
     here.add(point);
-    const auto box_distance = [&](const Box& box) { return certificate::distance(here, box) * (1.0 - 1e-9); };
+    const auto box_distance = [&](const certificate::Box& box) { return certificate::distance(here, box) * (1.0 - 1e-9); };
     const auto item_distance = [&](int i) { return certificate::point_triangle_distance(point, triangles_[i]); };
     const auto [nearest, distance] = tree_.nearest(std::numeric_limits<double>::infinity(), box_distance, item_distance);
     const bool within = inside(point);

@@ -12,10 +12,10 @@ struct Lacking {
     std::span<const std::string_view> words = {};
 };
 
-constexpr std::string_view frame_formats[] = {"ply", "glb", "pc2", "mdd", "vtp"};
+constexpr std::string_view later_frame_formats[] = {"ply", "glb", "pc2", "mdd", "vtp"};
 
 constexpr Lacking lacking[] = {
-    {.path = "output.frames", .words = frame_formats},
+    {.path = "output.frames", .words = later_frame_formats},
     {.path = "cloth.pattern"},
     {.path = "event.detach"},
 };
