@@ -16,19 +16,13 @@ namespace percale::program {
 
 namespace {
 
-const std::vector<std::string> commands_here = {"run",   "plan",    "check",  "explain", "certify",
-                                                "drape", "compare", "doctor", "replay",  "stress"};
-const std::vector<std::string> commands_later = {"report", "render"};
-
-bool holds(const std::vector<std::string>& list, const std::string& word) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-}
+const std::vector<std::string> commands = {"run",   "plan",    "check",  "explain", "certify",
+                                           "drape", "compare", "doctor", "replay",  "stress"};
 
 /// Says what is wrong with a command name better than the parser, which takes it for a stray argument.
 void check_command_name(const std::string& word) {
-    if (word.empty() || word.front() == '-' || holds(commands_here, word)) return;
-    if (holds(commands_later, word)) throw SceneError("this build lacks the command '" + word + "'");
-    throw SceneError("no such command '" + word + "'" + scenes::suggestion(word, commands_here));
+    if (word.empty() || word.front() == '-' || std::find(commands.begin(), commands.end(), word) != commands.end()) return;
+    throw SceneError("no such command '" + word + "'" + scenes::suggestion(word, commands));
 }
 
 /// Words that no option and no argument takes: the first that looks like an option, else the first, is named.
