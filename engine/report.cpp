@@ -48,6 +48,31 @@ std::string failure_text(const StepReport& report) {
 
 }  // namespace
 
+void DroppedSpans::add(SpanEnd end) {
+    if (end == SpanEnd::not_converged) ++not_converged;
+    if (end == SpanEnd::blocked) ++blocked;
+    if (end == SpanEnd::not_finite) ++not_finite;
+    if (end == SpanEnd::inexact) ++inexact;
+}
+
+DroppedSpans& DroppedSpans::operator+=(const DroppedSpans& more) {
+    not_converged += more.not_converged;
+    blocked += more.blocked;
+    not_finite += more.not_finite;
+    inexact += more.inexact;
+    return *this;
+}
+
+std::string DroppedSpans::text() const {
+    const std::pair<int, const char*> counts[] = {
+        {not_converged, "not converged"}, {blocked, "blocked"}, {not_finite, "not finite"}, {inexact, "not exact enough"}};
+    std::string text;
+    for (const auto& [count, words] : counts) {
+        if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + words;
+    }
+    return text;
+}
+
 double StepEnergy::closure() const {
     double largest = 0.0;
     for (const double entry : {kinetic, gravity, elastic, contact, work, dissipated_material, dissipated_friction,

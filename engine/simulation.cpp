@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "schemes/schemes.h"
 #include "percale/error.h"
 #include "percale/options.h"
-#include "step/measure.h"
 #include "plan/planning.h"
+#include "schemes/schemes.h"
 #include "state/saved_world.h"
+#include "step/measure.h"
 #include "step/start_check.h"
 #include "step/step.h"
 #include "support/hash.h"
@@ -51,6 +51,13 @@ void check_range(double value, double lowest, double highest, const std::string&
                      " ... " + number_text(highest));
 }
 
+/// Of springs that are new in the network, where the state has rest lengths of its own.
+void add_rest_lengths(const SpringNetwork& network, std::vector<double>& rest_length) {
+    if (rest_length.empty()) return;
+    const auto known = static_cast<long>(rest_length.size());
+    rest_length.insert(rest_length.end(), network.rest_length.begin() + known, network.rest_length.end());
+}
+
 void check_finite(const Vec3& value, const std::string& what) {
     if (!value.allFinite()) throw SceneError(what + " is not finite");
 }
@@ -62,15 +69,17 @@ struct Simulation::Implementation {
     std::vector<StartMove> start_moves;
 
     const ClothRange& cloth(ClothId id) const {
-        if (id.index >= 0 && id.index < static_cast<int>(world.model.cloths.size())) return world.model.cloths[id.index];
+        if (id.index >= 0 && id.index < static_cast<int>(world.scene.model.cloths.size()))
+            return world.scene.model.cloths[id.index];
         throw SceneError("there is no cloth " + std::to_string(id.index) + ", cloths are 0 ... " +
-                         std::to_string(static_cast<int>(world.model.cloths.size()) - 1));
+                         std::to_string(static_cast<int>(world.scene.model.cloths.size()) - 1));
     }
 
     ObstacleState& obstacle(ObstacleId id) {
-        if (id.index >= 0 && id.index < static_cast<int>(world.script.obstacles.size())) return world.script.obstacles[id.index];
+        if (id.index >= 0 && id.index < static_cast<int>(world.scene.script.obstacles.size()))
+            return world.scene.script.obstacles[id.index];
         throw SceneError("there is no obstacle " + std::to_string(id.index) + ", obstacles are 0 ... " +
-                         std::to_string(static_cast<int>(world.script.obstacles.size()) - 1));
+                         std::to_string(static_cast<int>(world.scene.script.obstacles.size()) - 1));
     }
 
     int vertex(ClothId id, int index) const {
@@ -82,47 +91,48 @@ struct Simulation::Implementation {
 
     int pinned_vertex(ClothId id, int index, const char* call) const {
         const int at = vertex(id, index);
-        if (world.script.free[at] == 0.0) return at;
+        if (world.scene.script.free[at] == 0.0) return at;
         throw SceneError(cloth(id).name + ": " + call + " of vertex " + std::to_string(index) + ", which is not pinned");
     }
 
     void change(const StepSettings& settings) {
-        const bool same_air = settings.wind == world.settings.wind, same_gravity = settings.gravity == world.settings.gravity;
-        if (!same_air || !same_gravity || settings.time_step != world.settings.time_step) scene_changed(world);
-        world.settings = settings;
+        const bool same_air = settings.wind == world.scene.settings.wind,
+                   same_gravity = settings.gravity == world.scene.settings.gravity;
+        if (!same_air || !same_gravity || settings.time_step != world.scene.settings.time_step) scene_changed(world);
+        world.scene.settings = settings;
     }
 
     bool meets_cloth() const {
-        return std::any_of(world.model.cloths.begin(), world.model.cloths.end(),
+        return std::any_of(world.scene.model.cloths.begin(), world.scene.model.cloths.end(),
                            [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
     }
 
     void pass_cloth_to_detector() {
-        if (!world.detector) return;
-        std::vector<double> zone = world.model.thickness;
-        if (world.settings.contact_response == ContactResponse::projection) {
+        if (!world.scene.detector) return;
+        std::vector<double> zone = world.scene.model.thickness;
+        if (world.scene.settings.contact_response == ContactResponse::projection) {
             for (double& thickness : zone) thickness *= projection_zone;
         }
-        world.detector->set_cloth(world.model.triangles, zone);
+        world.scene.detector->set_cloth(world.scene.model.triangles, zone);
         if (!meets_cloth()) return;
         std::vector<int> owner;
         std::vector<double> friction;
-        for (std::size_t c = 0; c < world.model.cloths.size(); ++c) {
-            const ClothRange& cloth = world.model.cloths[c];
+        for (std::size_t c = 0; c < world.scene.model.cloths.size(); ++c) {
+            const ClothRange& cloth = world.scene.model.cloths[c];
             const auto end = static_cast<std::size_t>(cloth.first + cloth.count);
             owner.resize(end, cloth.fabric.self_contact ? static_cast<int>(c) : -1);
             friction.resize(end, cloth.fabric.friction);
         }
-        world.detector->set_self_contact({.cloth = owner, .rest = world.model.rest, .friction = friction});
+        world.scene.detector->set_self_contact({.cloth = owner, .rest = world.scene.model.rest, .friction = friction});
     }
 
     /// Brings the view of positions up to date.
     void update_views() {
-        for (const ClothRange& range : world.model.cloths) {
+        for (const ClothRange& range : world.scene.model.cloths) {
             if (range.order.kept()) continue;
-            world.views.positions.resize(world.state.points.size());
+            world.views.positions.resize(world.state.cloth.points.size());
             for (int i = 0; i < range.count; ++i) {
-                world.views.positions[range.first + i] = world.state.points[range.index_of(i)];
+                world.views.positions[range.first + i] = world.state.cloth.points[range.index_of(i)];
             }
         }
     }
@@ -130,21 +140,21 @@ struct Simulation::Implementation {
     /// The view of masses, after a cloth was added.
     void add_masses(const ClothRange& range) {
         if (range.order.kept()) return;
-        world.views.masses.resize(world.model.mass.size());
-        for (int i = 0; i < range.count; ++i) world.views.masses[range.first + i] = world.model.mass[range.index_of(i)];
+        world.views.masses.resize(world.scene.model.mass.size());
+        for (int i = 0; i < range.count; ++i) world.views.masses[range.first + i] = world.scene.model.mass[range.index_of(i)];
     }
 
     void check_scheme() const {
-        if (world.settings.scheme == Scheme::automatic) return;
-        const SchemeFacts& scheme = facts_of(world.settings.scheme);
-        const bool meets = meets_cloth(), any = meets || !world.script.obstacles.empty();
+        if (world.scene.settings.scheme == Scheme::automatic) return;
+        const SchemeFacts& scheme = facts_of(world.scene.settings.scheme);
+        const bool meets = meets_cloth(), any = meets || !world.scene.script.obstacles.empty();
         if (!any) return;
         if (!scheme.contact) {
             const std::string kind = scheme.implicit ? std::string(scheme.word) : "an explicit scheme";
             throw SceneError(kind + " takes no " + (meets ? "self_contact" : "obstacles") +
                              "; use scheme backward_euler or tr_bdf2");
         }
-        if (world.settings.contact_response == ContactResponse::projection && scheme.scheme != Scheme::backward_euler) {
+        if (world.scene.settings.contact_response == ContactResponse::projection && scheme.scheme != Scheme::backward_euler) {
             throw SceneError("contact_response projection needs scheme backward_euler, not " + std::string(scheme.word));
         }
     }
@@ -153,11 +163,11 @@ struct Simulation::Implementation {
 Simulation::Simulation(const StepSettings& settings, std::unique_ptr<ContactDetector> detector)
     : implementation_(std::make_unique<Implementation>()) {
     check_options(settings, "settings");
-    implementation_->world.settings = settings;
-    implementation_->world.detector = std::move(detector);
+    implementation_->world.scene.settings = settings;
+    implementation_->world.scene.detector = std::move(detector);
     if (settings.threads > 1) {
         implementation_->world.pool = std::make_unique<ThreadPool>(settings.threads);
-        implementation_->world.compute.pool = implementation_->world.pool.get();
+        implementation_->world.scene.compute.pool = implementation_->world.pool.get();
     }
 }
 
@@ -168,50 +178,53 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose, const std::string& name) {
     World& world = implementation_->world;
     check_pose(pose, name);
-    if (fabric.self_contact && !world.detector) {
+    if (fabric.self_contact && !world.scene.detector) {
         throw SceneError(name + ": self_contact needs a contact detector, give one to the simulation");
     }
     TriangleMesh rest = mesh;
     rest.vertices = transform(normalised(pose), mesh.vertices);
-    ClothModel model = world.model;
+    ClothModel model = world.scene.model;
     append_cloth(model, rest, fabric, name);
     order_last_cloth(model);
     if (fabric.bend_stiffness.value_or(0.0) > 0.0) append_hinges_of_last_cloth(model, *fabric.bend_stiffness);
     finish_model(model);
-    world.model = std::move(model);
-    world.newton.solver.forget_model();
+    world.scene.model = std::move(model);
+    world.work.newton.solver.forget_model();
     // The vertices of earlier cloths keep state and pins.
     ClothState state;
-    for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(world.model.vertex_count());
-    state.points = world.state.points;
-    state.points.insert(state.points.end(), world.model.rest.end() - static_cast<long>(rest.vertices.size()),
-                        world.model.rest.end());
-    state.grips = world.state.grips;
+    for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(world.scene.model.vertex_count());
+    state.points = world.state.cloth.points;
+    state.points.insert(state.points.end(), world.scene.model.rest.end() - static_cast<long>(rest.vertices.size()),
+                        world.scene.model.rest.end());
+    state.grips = world.state.cloth.grips;
+    state.rest_length = world.state.cloth.rest_length;
+    add_rest_lengths(world.scene.model.springs, state.rest_length);
     copy_in(state.points, state.positions);
-    for (std::size_t i = 0; i < world.state.points.size(); ++i) {
-        state.velocities.set(static_cast<int>(i), world.state.velocities.at(static_cast<int>(i)));
+    for (std::size_t i = 0; i < world.state.cloth.points.size(); ++i) {
+        state.velocities.set(static_cast<int>(i), world.state.cloth.velocities.at(static_cast<int>(i)));
     }
     AlignedVector<double> free(state.positions.padded_size(), 0.0);
     Vectors targets = state.positions;
-    for (int i = 0; i < world.model.vertex_count(); ++i) {
-        const bool old = i < static_cast<int>(world.state.points.size());
-        free[i] = old ? world.script.free[i] : 1.0;
-        if (old) targets.set(i, world.script.pin_targets.at(i));
+    for (int i = 0; i < world.scene.model.vertex_count(); ++i) {
+        const bool old = i < static_cast<int>(world.state.cloth.points.size());
+        free[i] = old ? world.scene.script.free[i] : 1.0;
+        if (old) targets.set(i, world.scene.script.pin_targets.at(i));
     }
-    world.state = std::move(state);
-    world.script.free = std::move(free);
-    world.script.pin_targets = std::move(targets);
+    world.state.cloth = std::move(state);
+    world.scene.script.free = std::move(free);
+    world.scene.script.pin_targets = std::move(targets);
     implementation_->update_views();
-    implementation_->add_masses(world.model.cloths.back());
+    implementation_->add_masses(world.scene.model.cloths.back());
     implementation_->pass_cloth_to_detector();
     world.changed = true;
     scene_changed(world);
-    return {static_cast<int>(world.model.cloths.size()) - 1};
+    return {static_cast<int>(world.scene.model.cloths.size()) - 1};
 }
 
 ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, const ObstacleSettings& settings) {
     World& world = implementation_->world;
-    if (!world.detector) throw SceneError(settings.name + ": an obstacle needs a contact detector, give one to the simulation");
+    if (!world.scene.detector)
+        throw SceneError(settings.name + ": an obstacle needs a contact detector, give one to the simulation");
     if (!(settings.friction >= 0.0 && settings.friction <= 10.0)) {
         throw SceneError(settings.name + ": friction = " + number_text(settings.friction) +
                          " is outside the allowed range 0 ... 10");
@@ -219,25 +232,25 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
     check_pose(pose, settings.name);
     check_mesh(mesh, settings.name, false);
     const Pose placed = normalised(pose);
-    world.detector->add_obstacle(mesh, placed, settings.friction);
-    world.script.obstacles.push_back({settings.name, placed, placed, static_cast<int>(mesh.triangles.size())});
+    world.scene.detector->add_obstacle(mesh, placed, settings.friction);
+    world.scene.script.obstacles.push_back({settings.name, placed, placed, static_cast<int>(mesh.triangles.size())});
     world.changed = true;
     scene_changed(world);
-    return {static_cast<int>(world.script.obstacles.size()) - 1};
+    return {static_cast<int>(world.scene.script.obstacles.size()) - 1};
 }
 
 void Simulation::pin(ClothId cloth, int vertex) {
     World& world = implementation_->world;
     const int at = implementation_->vertex(cloth, vertex);
-    world.script.free[at] = 0.0;
-    world.script.pin_targets.set(at, world.state.positions.at(at));
-    world.state.velocities.set(at, Vec3::Zero());
+    world.scene.script.free[at] = 0.0;
+    world.scene.script.pin_targets.set(at, world.state.cloth.positions.at(at));
+    world.state.cloth.velocities.set(at, Vec3::Zero());
     scene_changed(world);
 }
 
 void Simulation::unpin(ClothId cloth, int vertex) {
     World& world = implementation_->world;
-    world.script.free[implementation_->pinned_vertex(cloth, vertex, "unpin")] = 1.0;
+    world.scene.script.free[implementation_->pinned_vertex(cloth, vertex, "unpin")] = 1.0;
     scene_changed(world);
 }
 
@@ -245,8 +258,8 @@ void Simulation::move_pin(ClothId cloth, int vertex, const Vec3& target) {
     const int at = implementation_->pinned_vertex(cloth, vertex, "move_pin");
     check_finite(target, implementation_->cloth(cloth).name + ": the target of pinned vertex " + std::to_string(vertex));
     World& world = implementation_->world;
-    if (target != world.state.positions.at(at)) wake(world.rest);
-    world.script.pin_targets.set(at, target);
+    if (target != world.state.cloth.positions.at(at)) wake(world.rest);
+    world.scene.script.pin_targets.set(at, target);
 }
 
 void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
@@ -260,14 +273,14 @@ void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
 }
 
 void Simulation::set_gravity(const Vec3& gravity) {
-    StepSettings settings = implementation_->world.settings;
+    StepSettings settings = implementation_->world.scene.settings;
     settings.gravity = gravity;
     check_options(settings, "set_gravity");
     implementation_->change(settings);
 }
 
 void Simulation::set_wind(const Vec3& velocity) {
-    StepSettings settings = implementation_->world.settings;
+    StepSettings settings = implementation_->world.scene.settings;
     settings.wind = velocity;
     check_options(settings, "set_wind");
     implementation_->change(settings);
@@ -286,18 +299,19 @@ void Simulation::add_seam(ClothId first, ClothId second, std::span<const std::ar
         throw SceneError(settings.name + ": vertex " + std::to_string(one) + " of " + implementation_->cloth(first).name +
                          " is sewn to itself");
     }
-    ClothModel model = world.model;
-    Seam seam{.length = {}, .from = world.time, .over = settings.over};
-    append_seam(pairs, settings.stiffness, world.state.positions, seam, model);
+    ClothModel model = world.scene.model;
+    Seam seam{.length = {}, .from = world.state.time, .over = settings.over};
+    append_seam(pairs, settings.stiffness, world.state.cloth.positions, seam, model);
     finish_model(model);
-    world.model = std::move(model);
-    world.script.seams.push_back(std::move(seam));
-    world.newton.solver.forget_model();
+    world.scene.model = std::move(model);
+    add_rest_lengths(world.scene.model.springs, world.state.cloth.rest_length);
+    world.scene.script.seams.push_back(std::move(seam));
+    world.work.newton.solver.forget_model();
     scene_changed(world);
 }
 
 void Simulation::set_time_step(double time_step) {
-    StepSettings settings = implementation_->world.settings;
+    StepSettings settings = implementation_->world.scene.settings;
     settings.time_step = time_step;
     check_options(settings, "set_time_step");
     implementation_->change(settings);
@@ -312,15 +326,15 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     }
     for (int i = 0; i < range.count; ++i) check_finite(positions[i], range.name + ": position " + std::to_string(i));
     for (int i = 0; i < range.count; ++i) {
-        world.state.positions.set(range.index_of(i), positions[i]);
-        world.script.pin_targets.set(range.index_of(i), positions[i]);
+        world.state.cloth.positions.set(range.index_of(i), positions[i]);
+        world.scene.script.pin_targets.set(range.index_of(i), positions[i]);
     }
-    std::erase_if(world.state.grips,
+    std::erase_if(world.state.cloth.grips,
                   [&](const Grip& grip) { return grip.vertex >= range.first && grip.vertex < range.first + range.count; });
-    update_points(world.state);
+    update_points(world.state.cloth);
     implementation_->update_views();
-    world.contact_energy = 0.0;  // known again after the next step
-    world.stages.forget();
+    world.state.contact_energy = 0.0;  // known again after the next step
+    world.state.past.forget();
     world.changed = true;
     wake(world.rest);
 }
@@ -334,10 +348,10 @@ void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities)
     }
     for (int i = 0; i < range.count; ++i) check_finite(velocities[i], range.name + ": velocity " + std::to_string(i));
     for (int i = 0; i < range.count; ++i) {
-        const bool free = world.script.free[range.index_of(i)] > 0.0;
-        world.state.velocities.set(range.index_of(i), free ? velocities[i] : Vec3(Vec3::Zero()));
+        const bool free = world.scene.script.free[range.index_of(i)] > 0.0;
+        world.state.cloth.velocities.set(range.index_of(i), free ? velocities[i] : Vec3(Vec3::Zero()));
     }
-    world.stages.forget();
+    world.state.past.forget();
     wake(world.rest);
 }
 
@@ -345,12 +359,12 @@ void Simulation::prepare() {
     World& world = implementation_->world;
     if (!world.changed) return;
     implementation_->check_scheme();
-    const bool obstacles = !world.script.obstacles.empty() && !world.model.cloths.empty();
-    if (world.detector && (obstacles || implementation_->meets_cloth())) {
+    const bool obstacles = !world.scene.script.obstacles.empty() && !world.scene.model.cloths.empty();
+    if (world.scene.detector && (obstacles || implementation_->meets_cloth())) {
         implementation_->start_moves = clear_start(world);
         implementation_->update_views();
     }
-    world.newton.projection.forget();
+    world.state.contact.forget();
     world.changed = false;
 }
 
@@ -367,16 +381,18 @@ StepReport Simulation::step() {
     return report;
 }
 
-ScenePlan Simulation::plan(const ScriptedChanges& to_come) const { return scene_plan(implementation_->world, to_come); }
+ScenePlan Simulation::plan(const ScriptedChanges& to_come) const {
+    return scene_plan(implementation_->world.scene, implementation_->world.state.cloth, to_come);
+}
 
-double Simulation::time() const { return implementation_->world.time; }
+double Simulation::time() const { return implementation_->world.state.time; }
 
-int Simulation::cloth_count() const { return static_cast<int>(implementation_->world.model.cloths.size()); }
+int Simulation::cloth_count() const { return static_cast<int>(implementation_->world.scene.model.cloths.size()); }
 
 std::span<const Vec3> Simulation::positions(ClothId cloth) const {
     const ClothRange& range = implementation_->cloth(cloth);
     const World& world = implementation_->world;
-    const std::vector<Vec3>& all = range.order.kept() ? world.state.points : world.views.positions;
+    const std::vector<Vec3>& all = range.order.kept() ? world.state.cloth.points : world.views.positions;
     return std::span(all).subspan(range.first, range.count);
 }
 
@@ -384,26 +400,26 @@ std::span<const Vec3> Simulation::velocities(ClothId cloth) const {
     const ClothRange& range = implementation_->cloth(cloth);
     World& world = implementation_->world;
     std::vector<Vec3>& all = world.views.velocities;
-    all.resize(world.state.points.size());
-    for (int i = 0; i < range.count; ++i) all[range.first + i] = world.state.velocities.at(range.index_of(i));
+    all.resize(world.state.cloth.points.size());
+    for (int i = 0; i < range.count; ++i) all[range.first + i] = world.state.cloth.velocities.at(range.index_of(i));
     return std::span<const Vec3>(all).subspan(range.first, range.count);
 }
 
 std::span<const double> Simulation::masses(ClothId cloth) const {
     const ClothRange& range = implementation_->cloth(cloth);
     const World& world = implementation_->world;
-    const std::vector<double>& all = range.order.kept() ? world.model.mass : world.views.masses;
+    const std::vector<double>& all = range.order.kept() ? world.scene.model.mass : world.views.masses;
     return std::span(all).subspan(range.first, range.count);
 }
 
 Pose Simulation::obstacle_pose(ObstacleId obstacle) const { return implementation_->obstacle(obstacle).start; }
 
-StepEnergy Simulation::energy() const { return current_energy(implementation_->world); }
+StepEnergy Simulation::energy() const { return energy_of(implementation_->world.scene, implementation_->world.state); }
 
 std::uint64_t Simulation::state_hash() const {
     Hash hash;
-    const ClothState& state = implementation_->world.state;
-    for (int i = 0; i < implementation_->world.model.vertex_count(); ++i) {
+    const ClothState& state = implementation_->world.state.cloth;
+    for (int i = 0; i < implementation_->world.scene.model.vertex_count(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
             hash.add(state.positions.at(i)[axis]);
             hash.add(state.velocities.at(i)[axis]);

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "model/cloth_model.h"
+#include "model/cloth_state.h"
 #include "percale/contact.h"
 
 namespace percale {

@@ -77,7 +77,7 @@ void add_friction(const ContactStep& step, const Vectors& positions, Touch& touc
     set_slip(*step.friction, positions.at(touch.vertex), step.fraction, touch);
     touch.heading = heading(touch, step);
     const double limit = touch.press.norm();
-    ContactBlock block{.vertex = {touch.vertex, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
+    CoupledBlock block{.vertex = {touch.vertex, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
     const double stiffness = limit / std::max(touch.slip.norm(), touch.reach);
     add_tangent_block(block.k, step.dt * step.dt * stiffness, touch.press / limit, touch.heading);
     terms.blocks.push_back(block);
@@ -94,7 +94,7 @@ struct Rubbing {
 /// Friction force between two cloths pressed by `normal_force`, and its matrix added to `block`: against the velocity of one
 /// relative to the other, growing linearly below the stick speed.
 Rubbing friction_between_cloths(const ContactRows& rows, std::size_t row, double normal_force, const ContactStep& step,
-                                const Vectors& positions, ContactBlock& block) {
+                                const Vectors& positions, CoupledBlock& block) {
     const Vec3& n = rows.direction[row];
     const double limit = rows.friction[row] * normal_force, stick_speed = stick_rate * rows.thickness[row];  // m/s
     Vec3 slip = Vec3::Zero();
@@ -115,26 +115,58 @@ Rubbing friction_between_cloths(const ContactRows& rows, std::size_t row, double
     return {-damping * slip, damping * speed * speed};
 }
 
-}  // namespace
+constexpr double least_share = 1e-3;  // of the thickness: a row is not taken to have been nearer at the start
 
-ContactPotential contact_potential(double distance, double thickness, double stiffness) {
-    if (distance >= thickness) return {};
-    const double half = 0.5 * thickness, depth = thickness - distance;
-    if (distance >= half) return {0.5 * stiffness * depth * depth, stiffness * depth, stiffness};
-    // Below h/2 the slope is k (h/2)^2 / d, which meets k (h - d) there with the same value and derivative.
-    const double scale = stiffness * half * half;
-    return {0.5 * scale + scale * std::log(half / distance), scale / distance, scale / (distance * distance)};
+/// What a move took, and what the rows of its end, with their stiffness, would have stored at its start: their distances and the
+/// stretch of their grips, moved back with the relative velocity, J.
+struct PenaltyLoss {
+    double friction = 0.0, integrator = 0.0, stored_at_start = 0.0;
+};
+
+/// The stiffness that a row's potential was made with, N/m: n.K n = dt^2 P'' with P'' = k, k (h/2)^2/d^2 below h/2.
+double stiffness_of(const ContactMove& move, const CoupledBlock& block) {
+    const double h = move.rows.thickness[block.row], d = move.rows.distance[block.row];
+    const double curvature = quadratic_form(block.k, move.rows.direction[block.row]) / (move.dt * move.dt);
+    return d >= 0.5 * h ? curvature : 4.0 * d * d / (h * h) * curvature;
 }
+
+void add_row_loss(const ContactMove& move, const CoupledBlock& block, PenaltyLoss& loss) {
+    const std::size_t row = block.row;
+    const double h = move.rows.thickness[row], d = move.rows.distance[row], k = stiffness_of(move, block);
+    const double opened = move.rows.direction[row].dot(relative_move(move, row));
+    const double began = std::max(d - opened, std::min(d, least_share * h));
+    const ContactPotential end = contact_potential(d, h, k), start = contact_potential(began, h, k);
+    loss.stored_at_start += start.energy;
+    loss.integrator += start.energy - end.energy - end.slope * opened;
+}
+
+/// 1/2 N/r e^2 up to e = r, N (e - r/2) beyond.
+double huber(double press, double reach, double stretch) {
+    return stretch <= reach ? 0.5 * press / reach * stretch * stretch : press * (stretch - 0.5 * reach);
+}
+
+void add_touch_loss(const ContactMove& move, const Touch& touch, PenaltyLoss& loss) {
+    const double press = touch.press.norm();
+    if (press == 0.0) return;
+    const Vec3 along = move.end.at(touch.vertex) - move.start.at(touch.vertex) - move.dt * move.obstacle_rate * touch.flow;
+    const Vec3 moved = tangential(along, touch.press / press);
+    const double end = huber(press, touch.reach, touch.slip.norm());
+    const double start = huber(press, touch.reach, (touch.slip - moved).norm());
+    loss.friction += press * std::max(touch.slip.norm() - touch.reach, 0.0);
+    loss.stored_at_start += start;
+    loss.integrator += start - end - friction_force(touch).dot(moved);
+}
+
+}  // namespace
 
 void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
                  ContactTerms& terms) {
-    terms.blocks.resize(terms.others);
+    terms.clear();
     terms.touches.clear(positions.padded_size());
-    terms.energy = terms.largest_stiffness = terms.obstacle_power = terms.rubbing_power = 0.0;
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const double stiffness = row_stiffness(rows, row, step);
         const ContactPotential potential = contact_potential(rows.distance[row], rows.thickness[row], stiffness);
-        ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}, .row = static_cast<int>(row)};
+        CoupledBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}, .row = static_cast<int>(row)};
         add_normal_block(block.k, step.dt * step.dt * potential.curvature, rows.direction[row]);
         Vec3 force = potential.slope * rows.direction[row];
         const bool rubs = step.friction && rows.friction[row] * potential.slope > 0.0, on_obstacle = rows.obstacle[row] >= 0;
@@ -143,7 +175,7 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
             force += rubbing.force;
             terms.rubbing_power += rubbing.power;
         }
-        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) forces.add(block.vertex[k], block.weight[k] * force);
+        spread(rows, row, force, forces);
         terms.blocks.push_back(block);
         terms.energy += potential.energy;
         terms.largest_stiffness = std::max(terms.largest_stiffness, stiffness);
@@ -153,16 +185,18 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
     for (Touch& touch : terms.touches.all) add_friction(step, positions, touch, forces, terms);
 }
 
-void add_obstacle_advance(const ContactRows& rows, const ContactTerms& terms, double rate, const AlignedVector<double>& free,
-                          Vectors& right_side) {
-    for (const ContactBlock& block : terms.blocks) {
-        if (block.row < 0) continue;
-        const Vec3& n = rows.direction[block.row];
-        const Vec3 impulse = quadratic_form(block.k, n) * rate * n.dot(rows.obstacle_displacement[block.row]) * n;
-        for (int j = 0; j < 4 && block.vertex[j] >= 0; ++j) {
-            right_side.add(block.vertex[j], free[block.vertex[j]] * block.weight[j] * impulse);
-        }
+void PenaltyContact::evaluate(const ContactPoint& point, ContactForces forces) const {
+    add_contact(point.rows, point.step, point.positions, forces.total, forces.terms);
+    forces.potential += forces.terms.energy;
+}
+
+ContactLoss PenaltyContact::loss(const ContactMove& move, double stored) const {
+    PenaltyLoss loss{.friction = move.dt * move.terms.rubbing_power};
+    for (const CoupledBlock& block : move.terms.blocks) {
+        if (block.row >= 0) add_row_loss(move, block, loss);
     }
+    for (const Touch& touch : move.terms.touches.all) add_touch_loss(move, touch, loss);
+    return {.friction = loss.friction, .contact = stored - loss.stored_at_start, .integrator = loss.integrator};
 }
 
 }  // namespace percale

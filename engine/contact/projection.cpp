@@ -4,15 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "solve/newton_stop.h"
-
 namespace percale {
 namespace {
 
 constexpr double stiffness_share = 1.0;  // of the step matrix: softer takes more rounds, stiffer makes each take longer
 constexpr double recovery_time = 0.05;   // s, in which cloth that starts too near comes back to the thickness
 
-constexpr RowClearance leaving{.zone = projection_zone, .share = smallest_share};
+constexpr RowClearance leaving{.zone = projection_zone, .share = contact_accuracy};
 
 /// One row at one point of the search.
 struct RowState {
@@ -27,9 +25,9 @@ struct RowState {
 
 /// What a row is told beside the point.
 struct RowPast {
-    double kept_share = 0.0;           // ContactProjection::kept_share_
+    double least_distance = 0.0;       // ContactMemory::least_distance
     double multiplier = 0.0;           // N, of its push
-    const std::vector<double>& crowd;  // ContactProjection::crowd_
+    const std::vector<double>& crowd;  // ProjectedContact::crowd_
 };
 
 /// k = share/(dt^2 W), W = sum c w^2/(n.A n) over the row's vertices: n.A^-1 n if these had no neighbours, and c rows shared
@@ -66,22 +64,22 @@ ContactPotential row_spring(const RowRange& range, double multiplier, double sti
     return {0.5 * steep * depth * depth, steep * depth, steep};
 }
 
-RowState row_state(const ProjectedPoint& point, std::size_t row, const RowPast& past) {
-    const ContactRows& rows = *point.rows;
+RowState row_state(const ContactPoint& point, std::size_t row, const RowPast& past) {
+    const ContactRows& rows = point.rows;
     Vec3 velocity = Vec3::Zero();
     for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-        velocity += rows.weight[row][k] * point.velocities->at(rows.vertex[row][k]);
+        velocity += rows.weight[row][k] * point.velocities.at(rows.vertex[row][k]);
     }
-    const Vec3 &n = rows.direction[row], &way = rows.obstacle_displacement[row];
+    const Vec3 &n = rows.direction[row], &displacement = rows.obstacle_displacement[row];
     const double thickness = rows.thickness[row] / projection_zone;
-    const double began = rows.distance[row] - n.dot(point.step.dt * velocity - point.obstacles_moved * way);
-    const double target = target_distance(thickness, past.kept_share * thickness, began, point.step.dt);
+    const double began = rows.distance[row] - n.dot(point.step.dt * velocity - point.obstacles_moved * displacement);
+    const double target = target_distance(thickness, past.least_distance * thickness, began, point.step.dt);
     const double stiffness = row_stiffness(rows, row, point.step, past.crowd);
     return {.normal = n,
             .stiffness = stiffness,
             .spring = row_spring({rows.distance[row], target, rows.thickness[row]}, past.multiplier, stiffness),
             .approach = target - rows.distance[row],
-            .slip = tangential(velocity - point.step.obstacle_rate * way, n),
+            .slip = tangential(velocity - point.step.obstacle_rate * displacement, n),
             .friction = rows.friction[row],
             .share = rows.share[row]};
 }
@@ -114,10 +112,6 @@ Vec3 total(const ContactRows& rows, std::size_t row, const RowForce& force) {
     return force.normal * rows.direction[row] + force.friction;
 }
 
-void spread(const ContactRows& rows, std::size_t row, const Vec3& force, Vectors& forces) {
-    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) forces.add(rows.vertex[row][k], rows.weight[row][k] * force);
-}
-
 void take(const ContactRows& rows, const std::vector<RowForce>& forces, ContactMultipliers& multipliers) {
     multipliers.clear(rows.size());
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -127,29 +121,21 @@ void take(const ContactRows& rows, const std::vector<RowForce>& forces, ContactM
 
 }  // namespace
 
-void ContactProjection::forget() {
-    kept_.clear(0);
-    lasting_.clear(0);
-    kept_share_ = 0.0;
+void ProjectedContact::begin(const ContactMemory& memory) {
+    multipliers_ = memory.lasting;
+    least_distance_ = memory.least_distance;
 }
 
-void ContactProjection::go_on_from(const Kept& kept) {
-    kept_.set(kept.kept);
-    lasting_.set(kept.lasting);
-    kept_share_ = kept.share;
-}
-
-void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces) const {
-    const ContactRows& rows = *point.rows;
+void ProjectedContact::evaluate(const ContactPoint& point, ContactForces forces) const {
+    const ContactRows& rows = point.rows;
     ContactTerms& terms = forces.terms;
-    terms.blocks.resize(terms.others);
-    terms.energy = terms.largest_stiffness = terms.obstacle_power = terms.rubbing_power = 0.0;
-    forces.rows.clear();
+    terms.clear();
+    forces.row_forces.clear();
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}, .row = static_cast<int>(row)};
+        CoupledBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}, .row = static_cast<int>(row)};
         const RowForce multiplier = multipliers_.of(row_key(rows, row));
-        const RowState state = row_state(point, row, {kept_share_, multiplier.normal, crowd_});
-        const RowForce& force = forces.rows.emplace_back(row_force(state, multiplier, point.step.dt, block.k));
+        const RowState state = row_state(point, row, {least_distance_, multiplier.normal, crowd_});
+        const RowForce& force = forces.row_forces.emplace_back(row_force(state, multiplier, point.step.dt, block.k));
         terms.energy += row_energy(state, multiplier.normal, force.normal);
         if (force.normal == 0.0) continue;
         const Vec3 whole = total(rows, row, force);
@@ -160,7 +146,7 @@ void ContactProjection::add(const ProjectedPoint& point, ProjectedForces forces)
     }
 }
 
-void ContactProjection::meet(const ContactRows& rows) {
+void ProjectedContact::meet(const ContactRows& rows) {
     multipliers_.hand_over(rows, leaving);
     std::fill(crowd_.begin(), crowd_.end(), 0.0);
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -174,7 +160,7 @@ void ContactProjection::meet(const ContactRows& rows) {
     }
 }
 
-double ContactProjection::mismatch(const ContactRows& rows, const std::vector<RowForce>& forces) const {
+double ProjectedContact::mismatch(const ContactRows& rows, const std::vector<RowForce>& forces) const {
     double largest = 0.0;
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const RowForce before = multipliers_.of(row_key(rows, row));
@@ -184,29 +170,45 @@ double ContactProjection::mismatch(const ContactRows& rows, const std::vector<Ro
     return largest;
 }
 
-void ContactProjection::advance(const ProjectedPoint& point, ProjectedForces forces) {
-    const ContactRows& rows = *point.rows;
-    for (std::size_t row = 0; row < rows.size(); ++row) spread(rows, row, -total(rows, row, forces.rows[row]), forces.total);
-    take(rows, forces.rows, multipliers_);
-    add(point, forces);
+bool ProjectedContact::correct(const ContactPoint& point, ContactForces forces, double enough) {
+    const ContactRows& rows = point.rows;
+    if (mismatch(rows, forces.row_forces) <= enough) return false;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        spread(rows, row, -total(rows, row, forces.row_forces[row]), forces.total);
+    }
+    take(rows, forces.row_forces, multipliers_);
+    evaluate(point, forces);
+    return true;
 }
 
-void ContactProjection::keep(const ContactRows& rows, const std::vector<RowForce>& forces) {
-    kept_.hand_over(rows, leaving);  // what lasted may have gone on during the part
+void ProjectedContact::end(const ContactRows& rows, const std::vector<RowForce>& row_forces, ContactMemory& memory) {
+    memory.last.hand_over(rows, leaving);  // what lasted may have gone on during the span
     std::vector<RowForce>& lasting = lasting_forces_;
-    lasting = forces;
+    lasting = row_forces;
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        const double before = kept_.of(row_key(rows, row)).normal;
+        const double before = memory.last.of(row_key(rows, row)).normal;
         if (lasting[row].normal <= before) continue;
         lasting[row].friction *= before / lasting[row].normal;
         lasting[row].normal = before;
     }
-    take(rows, lasting, lasting_);
-    take(rows, forces, kept_);
-    kept_share_ = 1.0;
+    take(rows, lasting, memory.lasting);
+    take(rows, row_forces, memory.last);
+    memory.least_distance = 1.0;
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        kept_share_ = std::min(kept_share_, rows.distance[row] * projection_zone / rows.thickness[row]);
+        memory.least_distance = std::min(memory.least_distance, rows.distance[row] * projection_zone / rows.thickness[row]);
     }
+}
+
+ContactLoss ProjectedContact::loss(const ContactMove& move, double stored) const {
+    ContactLoss loss;
+    for (std::size_t row = 0; row < move.rows.size(); ++row) {
+        const RowForce& force = move.row_forces[row];
+        const Vec3 moved = relative_move(move, row);
+        loss.contact -= force.normal * move.rows.direction[row].dot(moved);
+        loss.friction -= force.friction.dot(moved);
+    }
+    loss.contact += stored - move.terms.energy;
+    return loss;
 }
 
 }  // namespace percale

@@ -1,5 +1,7 @@
 #include "spring_loss.h"
 
+#include "springs.h"
+
 namespace percale {
 namespace {
 
@@ -19,10 +21,11 @@ Vec3 direction(const Vec3& x) {
 
 SpringLoss spring_loss(const SpringNetwork& network, const SpringMove& move) {
     SpringLoss loss;
+    const std::span<const double> rest = rest_lengths(network, move.rest_length);
     for (int k = 0; k < network.size(); ++k) {
         const Vec3 start = between(network, move.start, k), end = between(network, move.end, k);
         const Vec3 x = between(network, move.positions, k), d = direction(x);
-        const double l_start = start.norm(), l_end = end.norm(), l0 = network.rest_length[k], apart = d.dot(end - start);
+        const double l_start = start.norm(), l_end = end.norm(), l0 = rest[k], apart = d.dot(end - start);
         const double rate =
             move.form == DampingForm::length_rate ? (l_end - l_start) / move.dt : d.dot(between(network, move.velocities, k));
         loss.material += move.dt * network.damping[k] * rate * rate;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "model/spring_network.h"
 #include "model/vectors.h"
 #include "percale/settings.h"
@@ -13,7 +15,8 @@ struct SpringMove {
     const Vectors& positions;   // m, that forces were taken at
     const Vectors& velocities;  // m/s, likewise; unused by DampingForm::length_rate
     DampingForm form;
-    double dt;  // s, that the move takes
+    double dt;                                 // s, that the move takes
+    std::span<const double> rest_length = {};  // ClothState::rest_length
 };
 
 struct SpringLoss {

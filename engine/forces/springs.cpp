@@ -15,6 +15,17 @@ double length(const SpringNetwork& network, const Vectors& x, int k) {
     return std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 
+/// Seams have rest lengths of their own.
+void set_seam_lengths(const SpringStart& start, StepSprings& springs) {
+    const SpringNetwork& network = *start.network;
+    springs.seam_rest_length = start.adjacency.rest_length;
+    for (int k = 0; k < network.size(); ++k) {
+        if (network.kind[k] != SpringKind::seam) continue;
+        put_rest_length(start.adjacency, network, k, start.rest_length[k], springs.seam_rest_length);
+    }
+    springs.entries.rest_length = springs.seam_rest_length.data();
+}
+
 /// Blocks before the first vertex are zero.
 void clear_guards(const BandPattern& bands, AlignedVector<float>& values) {
     for (int array = 0; array < 4 * bands.count; ++array) {
@@ -28,12 +39,13 @@ void set_step_springs(const Compute& compute, const SpringStart& start, StepSpri
     const Adjacency& adjacency = start.adjacency;
     springs.adjacency = &adjacency;
     springs.entries = adjacency.springs();
+    if (!start.rest_length.empty()) set_seam_lengths(start, springs);
     springs.rate_damping = adjacency.damped && start.form == DampingForm::velocity;
     if (!adjacency.damped || start.form == DampingForm::velocity) return;
     springs.stiffness.resize(adjacency.stiffness.size());
     springs.rest_length.resize(adjacency.stiffness.size());
     pack_points(compute, adjacency, start.positions, springs.points);
-    const StartPass pass{.springs = adjacency.springs(),
+    const StartPass pass{.springs = springs.entries,
                          .positions = start.positions.axes(),
                          .points = springs.points.data(),
                          .dt = start.dt,
@@ -78,9 +90,10 @@ SpringBlock spring_block(const Adjacency& adjacency, const SpringTerms& terms, i
     return {value[0], Vec3(value[apart], value[2 * apart], value[3 * apart])};
 }
 
-double elastic_energy(const SpringNetwork& network, const Vectors& positions) {
+double elastic_energy(const SpringNetwork& network, const Vectors& positions, std::span<const double> rest_length) {
+    const std::span<const double> rest = rest_lengths(network, rest_length);
     return 0.5 * sum_terms(0, network.size(), [&](int k) {
-               const double stretch = length(network, positions, k) - network.rest_length[k];
+               const double stretch = length(network, positions, k) - rest[k];
                return network.stiffness[k] * stretch * stretch;
            });
 }

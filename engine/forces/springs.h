@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kernels/compute.h"
@@ -17,6 +18,7 @@ struct StepSprings {
     SpringEntries entries;                         // k N/m, l_rest m, c N s/m
     bool rate_damping = false;                     // there is a c
     AlignedVector<double> stiffness, rest_length;  // of this step, where they are not those of the model
+    AlignedVector<double> seam_rest_length;        // m, where seams have changed theirs
     AlignedVector<double> points;                  // work space
 };
 
@@ -25,7 +27,9 @@ struct SpringStart {
     const Adjacency& adjacency;
     const Vectors& positions;  // m, l_n
     DampingForm form;
-    double dt;  // s
+    double dt;                                 // s
+    std::span<const double> rest_length = {};  // ClothState::rest_length, of the springs of `network`
+    const SpringNetwork* network = nullptr;    // null: the rest lengths are those of the adjacency
 };
 
 /// DampingForm::velocity: k = ks, l_rest = l0, c = kd.
@@ -64,8 +68,13 @@ struct SpringBlock {
 };
 SpringBlock spring_block(const Adjacency& adjacency, const SpringTerms& terms, int spring);
 
-/// Elastic energy sum 1/2 ks (l - l0)^2 of the network, J.
-double elastic_energy(const SpringNetwork& network, const Vectors& positions);
+/// The rest lengths of all springs, m: `changed` (ClothState::rest_length), or, where that is empty, the network's.
+inline std::span<const double> rest_lengths(const SpringNetwork& network, std::span<const double> changed) {
+    return changed.empty() ? std::span<const double>(network.rest_length) : changed;
+}
+
+/// Elastic energy sum 1/2 ks (l - l0)^2 of the network, J. `rest_length`: ClothState::rest_length.
+double elastic_energy(const SpringNetwork& network, const Vectors& positions, std::span<const double> rest_length = {});
 
 /// Largest (l - l0)/l0 over structural springs; 0 without any.
 double largest_strain(const SpringNetwork& network, const Vectors& positions);

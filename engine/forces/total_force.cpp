@@ -22,12 +22,6 @@ void evaluate_forces(const ForceInput& input, Forces& forces) {
     if (!input.wind || !input.wind->blows) return;
     add_wind(model, *input.wind, *input.velocities, input.dt, forces.total, forces.wind);
     forces.potential += forces.wind.potential;
-    set_wind_blocks(forces.wind, forces.contact);
-}
-
-void add_contact_forces(const ForceInput& input, const ContactStep& contact_step, Forces& forces) {
-    add_contact(forces.rows, contact_step, *input.positions, forces.total, forces.contact);
-    forces.potential += forces.contact.energy;
 }
 
 }  // namespace percale

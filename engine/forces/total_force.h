@@ -1,8 +1,6 @@
 #pragma once
 
-#include "contact/penalty.h"
 #include "model/cloth_model.h"
-#include "percale/contact.h"
 #include "percale/report.h"
 #include "springs.h"
 #include "wind.h"
@@ -26,17 +24,12 @@ struct ForceInput {
 struct Forces {
     Vectors total;  // N
     SpringTerms spring_terms;
-    ContactRows rows;  // set by whoever evaluates contacts; empty without obstacles
-    ContactTerms contact;
     WindTerms wind;
-    double potential =
-        0.0;  // J, of springs (with their damping potential), hinges, wind (dissipation potential times dt), gravity and contact
+    /// J, of springs (with their damping potential), hinges, wind (dissipation potential times dt) and gravity.
+    double potential = 0.0;
 };
 
-/// Gravity, springs, hinges and wind; contact is added by add_contact_forces.
+/// All forces but contact.
 void evaluate_forces(const ForceInput& input, Forces& forces);
-
-/// Adds the contact of forces.rows.
-void add_contact_forces(const ForceInput& input, const ContactStep& contact_step, Forces& forces);
 
 }  // namespace percale

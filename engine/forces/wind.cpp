@@ -99,13 +99,4 @@ void add_wind(const ClothModel& model, const StepWind& wind, const Vectors& velo
     }
 }
 
-void set_wind_blocks(const WindTerms& terms, ContactTerms& contact) {
-    contact.others = terms.blocks.size();
-    contact.blocks.resize(contact.others);
-    for (std::size_t i = 0; i < contact.others; ++i) {
-        contact.blocks[i] = {
-            .vertex = {static_cast<int>(i), -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = terms.blocks[i], .row = -1};
-    }
-}
-
 }  // namespace percale

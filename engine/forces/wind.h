@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "contact/penalty.h"
 #include "model/cloth_model.h"
+#include "symmetric_block.h"
 
 namespace percale {
 
@@ -38,8 +38,5 @@ void set_step_wind(const ClothModel& model, const Vec3& velocity, double density
 /// incremental potential stays one. forces += f, N.
 void add_wind(const ClothModel& model, const StepWind& wind, const Vectors& velocities, double dt, Vectors& forces,
               WindTerms& terms);
-
-/// Puts the terms' blocks in front of those of contact, which keeps them there (ContactTerms::others).
-void set_wind_blocks(const WindTerms& terms, ContactTerms& contact);
 
 }  // namespace percale

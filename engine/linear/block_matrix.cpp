@@ -14,7 +14,7 @@ Vec3 block_times(const std::array<double, 6>& m, const Vec3& u) {
 /// Adds the contacts' product to y at free vertices; returns what that adds to x . y.
 double add_contact_product(const BlockMatrix& matrix, const Vectors& x, Vectors& y) {
     double sum = 0.0;
-    for (const ContactBlock& block : matrix.contacts) {
+    for (const CoupledBlock& block : matrix.contacts) {
         Vec3 u = Vec3::Zero();
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) u += block.weight[k] * x.at(block.vertex[k]);
         const Vec3 f = block_times(block.k, u);
@@ -33,7 +33,7 @@ CornerProduct corner_product(const BlockMatrix& matrix, const SpringTerms& sprin
 }
 
 /// sum |weight|: the factor that makes |w_k| K at each vertex an upper bound of the row.
-double bound_factor(const ContactBlock& block) {
+double bound_factor(const CoupledBlock& block) {
     const bool between_cloths = std::any_of(block.weight.begin(), block.weight.end(), [](double w) { return w < 0.0; });
     return between_cloths ? 2.0 : 1.0;
 }
@@ -41,7 +41,7 @@ double bound_factor(const ContactBlock& block) {
 void gather_contacts(BlockMatrix& matrix) {
     for (const VertexContact& contact : matrix.contacts_by_vertex) matrix.contact_slot[contact.vertex] = -1;
     matrix.contacts_by_vertex.clear();
-    for (const ContactBlock& block : matrix.contacts) {
+    for (const CoupledBlock& block : matrix.contacts) {
         const double factor = bound_factor(block);
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
             const int i = block.vertex[k];
@@ -118,7 +118,7 @@ void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, Diagon
                [&](Slices range) { matrix.compute->kernels->corner_diagonal(corners, sums, range); });
 }
 
-void fill_matrix(const SpringTerms& springs, std::span<const ContactBlock> contacts, BlockMatrix& matrix) {
+void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, BlockMatrix& matrix) {
     matrix.springs = &springs;
     matrix.contacts = contacts;
     fill_diagonal(matrix, springs, matrix.diagonal, matrix.inverse);

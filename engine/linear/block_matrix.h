@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/penalty.h"
+#include "forces/coupled_block.h"
+#include "forces/diagonal_blocks.h"
 #include "forces/springs.h"
 #include "model/adjacency.h"
 #include "model/vectors.h"
@@ -33,7 +34,7 @@ struct BlockMatrix {
     AlignedVector<double> free;              // 1, or 0 for a vertex whose motion is prescribed and for padding
     DiagonalBlocks diagonal;                 // mass and springs
     AlignedVector<float> inverse;            // of the diagonal blocks with contact, six arrays; 0 at prescribed vertices
-    std::span<const ContactBlock> contacts;  // viewed, not copied
+    std::span<const CoupledBlock> contacts;  // viewed, not copied
     std::vector<VertexContact> contacts_by_vertex;
     std::vector<int> contact_slot;  // of a vertex in contacts_by_vertex, or -1
 
@@ -49,7 +50,7 @@ void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, Diagon
                    AlignedVector<float>& inverse);
 
 /// Takes springs and contacts of a state.
-void fill_matrix(const SpringTerms& springs, std::span<const ContactBlock> contacts, BlockMatrix& matrix);
+void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, BlockMatrix& matrix);
 
 /// y = A x on the free vertices, 0 at prescribed ones; returns x . y over the free ones. `points` is work space.
 double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y);

@@ -72,7 +72,7 @@ void add_membrane(const BlockMatrix& matrix, Triplets& entries) {
     }
 }
 
-void add_contact(const BlockMatrix& matrix, const ContactBlock& contact, Triplets& entries) {
+void add_contact(const BlockMatrix& matrix, const CoupledBlock& contact, Triplets& entries) {
     for (int k = 0; k < 4 && contact.vertex[k] >= 0; ++k) {
         for (int l = 0; l <= k; ++l) {
             const int i = contact.vertex[k], j = contact.vertex[l];
@@ -94,7 +94,7 @@ void assemble(const BlockMatrix& matrix, Triplets& entries) {
     }
     add_springs(matrix, entries);
     add_membrane(matrix, entries);
-    for (const ContactBlock& contact : matrix.contacts) add_contact(matrix, contact, entries);
+    for (const CoupledBlock& contact : matrix.contacts) add_contact(matrix, contact, entries);
 }
 
 }  // namespace

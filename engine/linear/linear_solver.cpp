@@ -32,7 +32,7 @@ void StepSolver::set_model(const Compute& compute, const ClothModel& model, Line
     stale_ = true;
 }
 
-void StepSolver::fill(const SpringTerms& springs, std::span<const ContactBlock> contacts) {
+void StepSolver::fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts) {
     fill_matrix(springs, contacts, matrix);
     if (in_use_ == LinearSolver::multigrid) fill_multigrid();
 }

@@ -34,7 +34,7 @@ public:
     void start_part() { stale_ = true; }
 
     /// Takes springs and contacts of a state.
-    void fill(const SpringTerms& springs, std::span<const ContactBlock> contacts);
+    void fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts);
 
     /// A x = b on the free vertices, prescribed entries of x kept. Where multigrid or the factorisation does not get there,
     /// conjugate gradient with block Jacobi in double precision goes on.

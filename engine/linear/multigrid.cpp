@@ -46,8 +46,8 @@ void set(const FloatVectors& v, int i, const std::array<float, 3>& value) {
 }
 
 /// Adds the rows' product at vertices that are not prescribed.
-void add_contacts(std::span<const ContactBlock> contacts, FloatVectors x, FloatVectors y) {
-    for (const ContactBlock& block : contacts) {
+void add_contacts(std::span<const CoupledBlock> contacts, FloatVectors x, FloatVectors y) {
+    for (const CoupledBlock& block : contacts) {
         std::array<float, 3> u{};
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
             const std::array<float, 3> value = at(x, block.vertex[k]);

@@ -85,7 +85,7 @@ private:
     AlignedVector<float> guarded_;                   // work space of products with bands
     std::vector<LevelPattern> patterns_;
     std::vector<Level> levels_;
-    std::span<const ContactBlock> contacts_;
+    std::span<const CoupledBlock> contacts_;
     std::vector<Filtered> filtered_;  // prescribed vertices first
     std::size_t prescribed_ = 0;
     std::vector<std::array<float, 3>> before_;  // work space of prolong

@@ -152,12 +152,13 @@ void copy_bending(const SpringNetwork& network, Adjacency& adjacency) {
     for_places(network, adjacency, [&](std::size_t place, int spring) { adjacency.bending[place] = network.bending[spring]; });
 }
 
-void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjacency) {
-    adjacency.rest_length[adjacency.place[spring]] = network.rest_length[spring];
+void put_rest_length(const Adjacency& adjacency, const SpringNetwork& network, int spring, double length,
+                     AlignedVector<double>& list) {
+    list[adjacency.place[spring]] = length;
     if (adjacency.bands.count > 0) return;
     const int other = network.second[spring], slice = other / slice_lanes;
     for (int e = adjacency.start[slice] + other % slice_lanes; e < adjacency.start[slice + 1]; e += slice_lanes) {
-        if (adjacency.spring[e] == spring) adjacency.rest_length[e] = network.rest_length[spring];
+        if (adjacency.spring[e] == spring) list[e] = length;
     }
 }
 

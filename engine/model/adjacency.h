@@ -53,8 +53,9 @@ enum class SpringLayout { best, slices };
 /// Takes network.bending anew, of the network that the adjacency was made for.
 void copy_bending(const SpringNetwork& network, Adjacency& adjacency);
 
-/// Takes the rest length of one spring anew.
-void set_rest_length(const SpringNetwork& network, int spring, Adjacency& adjacency);
+/// Puts the rest length of one spring, m, into a list that is laid out as adjacency.rest_length.
+void put_rest_length(const Adjacency& adjacency, const SpringNetwork& network, int spring, double length,
+                     AlignedVector<double>& list);
 
 /// Membranes are laid out beside the springs of their edges, which must be there, in slices.
 void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std::vector<MembraneTriangle>& triangles);

@@ -108,8 +108,6 @@ void set_model_clamps(std::span<const double> free, ClothModel& model) {
     copy_bending(model.springs, model.adjacency);
 }
 
-void update_points(ClothState& state) { copy_out(state.positions, state.points); }
-
 double largest_aspect(const ClothModel& model, const ClothRange& cloth) {
     if (cloth.grid || !cloth.fabric.has_moduli()) return 0.0;
     double largest = 0.0;

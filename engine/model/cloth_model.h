@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "adjacency.h"
+#include "cloth_state.h"
 #include "hinges.h"
 #include "membrane.h"
+#include "mesh/vertex_order.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
 #include "spring_network.h"
 #include "vectors.h"
-#include "mesh/vertex_order.h"
 
 namespace percale {
 
@@ -69,22 +70,5 @@ void set_model_clamps(std::span<const double> free, ClothModel& model);
 double largest_aspect(const ClothModel& model, const ClothRange& cloth);
 /// From there on iterative solvers stop too early.
 constexpr double sliver_aspect = 100.0;
-
-/// What a vertex holds on to by friction: the point of the obstacle that lies `stretch` behind it.
-struct Grip {
-    int vertex = -1, obstacle = -1;
-    Vec3 stretch = Vec3::Zero();  // m, world, along the surface
-};
-
-/// What may change in a step.
-struct ClothState {
-    Vectors positions;         // m
-    Vectors velocities;        // m/s
-    std::vector<Vec3> points;  // positions again, one after the other, for detectors and callers
-    std::vector<Grip> grips;   // sorted by vertex and obstacle
-};
-
-/// Copies positions to points.
-void update_points(ClothState& state);
 
 }  // namespace percale

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "percale/error.h"
 #include "mesh/topology.h"
+#include "percale/error.h"
 
 namespace percale {
 namespace {

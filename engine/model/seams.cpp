@@ -29,15 +29,18 @@ void append_seam(std::span<const std::array<int, 2>> pairs, double stiffness, co
     }
 }
 
-double set_seam_lengths(const Seam& seam, double time, const Vectors& positions, ClothModel& model) {
-    SpringNetwork& network = model.springs;
+void set_seam_lengths(const Seam& seam, double time, std::vector<double>& rest_length) {
+    const double left = share_left(seam, time);
+    for (std::size_t k = 0; k < seam.length.size(); ++k) rest_length[seam.first_spring + k] = left * seam.length[k];
+}
+
+double seam_energy(const Seam& seam, double time, const SpringNetwork& network, const Vectors& positions) {
     const double left = share_left(seam, time);
     double twice_energy = 0.0;
     for (std::size_t k = 0; k < seam.length.size(); ++k) {
         const int spring = seam.first_spring + static_cast<int>(k);
-        network.rest_length[spring] = left * seam.length[k];
-        set_rest_length(network, spring, model.adjacency);
-        const double stretch = distance(positions, network.first[spring], network.second[spring]) - network.rest_length[spring];
+        const double rest_length = left * seam.length[k];
+        const double stretch = distance(positions, network.first[spring], network.second[spring]) - rest_length;
         twice_energy += network.stiffness[spring] * stretch * stretch;
     }
     return 0.5 * twice_energy;

@@ -24,7 +24,10 @@ struct Seam {
 void append_seam(std::span<const std::array<int, 2>> pairs, double stiffness, const Vectors& positions, Seam& seam,
                  ClothModel& model);
 
-/// Sets the rest lengths that the springs of a seam have at a time, s; returns their energy, J.
-double set_seam_lengths(const Seam& seam, double time, const Vectors& positions, ClothModel& model);
+/// Sets the rest lengths that the springs of a seam have at a time, s, in the list of those of all springs, m.
+void set_seam_lengths(const Seam& seam, double time, std::vector<double>& rest_length);
+
+/// Energy of a seam's springs with the rest lengths that they have at a time, s, J.
+double seam_energy(const Seam& seam, double time, const SpringNetwork& network, const Vectors& positions);
 
 }  // namespace percale

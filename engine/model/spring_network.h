@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/vertex_order.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
-#include "mesh/vertex_order.h"
 
 namespace percale {
 

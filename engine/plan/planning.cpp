@@ -4,32 +4,27 @@
 
 #include "forces/hinge_bending.h"
 #include "plan_costs.h"
-#include "schemes/schemes.h"
-#include "step/rest_detection.h"
 #include "scheme_choice.h"
+#include "schemes/schemes.h"
 
 namespace percale {
 namespace {
 
-bool pin_moves(const World& world, int i) {
-    return world.script.free[i] == 0.0 && world.script.pin_targets.at(i) != world.state.positions.at(i);
-}
-
-bool pins_move(const World& world) {
-    for (int i = 0; i < world.model.vertex_count(); ++i) {
-        if (pin_moves(world, i)) return true;
+bool pins_move(const StepScene& scene, const ClothState& state) {
+    for (int i = 0; i < scene.model.vertex_count(); ++i) {
+        if (!scene.is_free(i) && scene.script.pin_targets.at(i) != state.positions.at(i)) return true;
     }
     return false;
 }
 
-bool obstacles_move(const World& world) {
-    return std::any_of(world.script.obstacles.begin(), world.script.obstacles.end(),
+bool obstacles_move(const StepScene& scene) {
+    return std::any_of(scene.script.obstacles.begin(), scene.script.obstacles.end(),
                        [](const ObstacleState& obstacle) { return obstacle.start != obstacle.end; });
 }
 
-bool seams_close(const World& world) {
-    return std::any_of(world.script.seams.begin(), world.script.seams.end(),
-                       [&](const Seam& seam) { return seam.closes_after(world.time - world.settings.time_step); });
+bool seams_close(const StepScene& scene, double time) {
+    return std::any_of(scene.script.seams.begin(), scene.script.seams.end(),
+                       [&](const Seam& seam) { return seam.closes_after(time - scene.settings.time_step); });
 }
 
 SpringCounts count_springs(const SpringNetwork& springs) {
@@ -43,29 +38,22 @@ SpringCounts count_springs(const SpringNetwork& springs) {
     return counts;
 }
 
-/// Pins that came or went change the energy of hinges beside them: work of whoever set them.
-void update_clamps(World& world) {
-    const double before = hinge_energy(world.model.hinges, world.state.positions);
-    set_model_clamps(world.script.free, world.model);
-    world.report.energy.work += hinge_energy(world.model.hinges, world.state.positions) - before;
-}
-
 /// All facts but what `automatic` chooses.
-SceneFacts counted_facts(const World& world, const ScriptedChanges& to_come) {
-    const ClothModel& model = world.model;
+SceneFacts counted_facts(const StepScene& scene, const ClothState& state, const ScriptedChanges& to_come) {
+    const ClothModel& model = scene.model;
     SceneFacts facts;
     facts.cloth_vertices = model.vertex_count();
-    for (int i = 0; i < facts.cloth_vertices; ++i) facts.pinned_vertices += world.script.free[i] == 0.0;
+    for (int i = 0; i < facts.cloth_vertices; ++i) facts.pinned_vertices += scene.script.free[i] == 0.0;
     facts.cloth_triangles = static_cast<int>(model.triangles.size());
     facts.springs = count_springs(model.springs);
     facts.springs.triangle = static_cast<int>(model.membrane.size());
     facts.damped = std::any_of(model.springs.damping.begin(), model.springs.damping.end(), [](double kd) { return kd > 0.0; });
-    facts.obstacles = static_cast<int>(world.script.obstacles.size());
-    for (const ObstacleState& obstacle : world.script.obstacles) facts.obstacle_triangles += obstacle.triangles;
-    facts.detector = world.detector != nullptr;
+    facts.obstacles = static_cast<int>(scene.script.obstacles.size());
+    for (const ObstacleState& obstacle : scene.script.obstacles) facts.obstacle_triangles += obstacle.triangles;
+    facts.detector = scene.detector != nullptr;
     facts.changes = to_come;
-    facts.changes.obstacles = to_come.obstacles || obstacles_move(world);
-    facts.changes.pins = to_come.pins || pins_move(world);
+    facts.changes.obstacles = to_come.obstacles || obstacles_move(scene);
+    facts.changes.pins = to_come.pins || pins_move(scene, state);
     facts.springs.hinge = static_cast<int>(model.hinges.all.size());
     for (const ClothRange& cloth : model.cloths) facts.cloths.push_back({cloth.name, cloth.grid, cloth.fabric});
     return facts;
@@ -73,62 +61,59 @@ SceneFacts counted_facts(const World& world, const ScriptedChanges& to_come) {
 
 }  // namespace
 
-SceneFacts scene_facts(const World& world, const ScriptedChanges& to_come) {
-    SceneFacts facts = counted_facts(world, to_come);
-    if (world.settings.scheme == Scheme::automatic) {
-        const SchemeChoice choice = choose_scheme(world, facts);
+SceneFacts scene_facts(const StepScene& scene, const ClothState& state, const ScriptedChanges& to_come) {
+    SceneFacts facts = counted_facts(scene, state, to_come);
+    if (scene.settings.scheme == Scheme::automatic) {
+        const SchemeChoice choice = choose_scheme(scene, state, facts);
         facts.chosen = choice.scheme;
         facts.parts = choice.parts;
     }
     return facts;
 }
 
-void update_plan(World& world) {
-    if (world.plan_outdated) {
-        world.plan = make_step_plan(world.settings, scene_facts(world));
-        if (world.plan.hinges) update_clamps(world);
-    }
-    world.plan_outdated = false;
-    ScriptedChanges now;
-    now.obstacles = obstacles_move(world);
-    now.pins = world.plan.pins && pins_move(world);
-    set_motion(world.plan, now);
-    world.plan.seams_close = seams_close(world);
+double renew_plan(StepScene& scene, const ClothState& state) {
+    scene.plan = make_step_plan(scene.settings, scene_facts(scene, state));
+    if (!scene.plan.hinges) return 0.0;
+    const double before = hinge_energy(scene.model.hinges, state.positions);
+    set_model_clamps(scene.script.free, scene.model);
+    return hinge_energy(scene.model.hinges, state.positions) - before;
 }
 
-StepPlan plan_again(const World& world, const StepPlan& known) {
-    SceneFacts facts = counted_facts(world, {});
+void set_motion_of_step(StepScene& scene, const ClothState& state, double time) {
+    ScriptedChanges now;
+    now.obstacles = obstacles_move(scene);
+    now.pins = scene.plan.pins && pins_move(scene, state);
+    set_motion(scene.plan, now);
+    scene.plan.seams_close = seams_close(scene, time);
+}
+
+StepPlan plan_again(const StepScene& scene, const ClothState& state, const StepPlan& known) {
+    SceneFacts facts = counted_facts(scene, state, {});
     facts.chosen = known.scheme;
     facts.parts = known.parts;
-    StepPlan plan = make_step_plan(world.settings, facts);
+    StepPlan plan = make_step_plan(scene.settings, facts);
     set_motion(plan, {.obstacles = known.obstacles_move, .pins = known.pins_move});
     plan.seams_close = known.seams_close;
     return plan;
 }
 
-void scene_changed(World& world) {
-    world.plan_outdated = true;
-    world.stages.forget();
-    wake(world.rest);
-}
-
-ScenePlan scene_plan(const World& world, const ScriptedChanges& to_come) {
-    const SceneFacts facts = scene_facts(world, to_come);
-    const StepPlan plan = make_step_plan(world.settings, facts);
-    const bool open = world.settings.scheme == Scheme::automatic;
+ScenePlan scene_plan(const StepScene& scene, const ClothState& state, const ScriptedChanges& to_come) {
+    const SceneFacts facts = scene_facts(scene, state, to_come);
+    const StepPlan plan = make_step_plan(scene.settings, facts);
+    const bool open = scene.settings.scheme == Scheme::automatic;
     return {.scheme = plan.scheme,
             .scheme_word = std::string(facts_of(plan.scheme).word),
-            .scheme_reason = open ? choose_scheme(world, facts).reason : "",
-            .stable_step = stable_step(world, plan.scheme),
-            .warnings = step_warnings(world, plan),
+            .scheme_reason = open ? choose_scheme(scene, state, facts).reason : "",
+            .stable_step = stable_step(scene, state, plan.scheme),
+            .warnings = step_warnings(scene, state, plan),
             .vertices = facts.cloth_vertices,
             .pinned_vertices = facts.pinned_vertices,
             .springs = facts.springs,
             .obstacles = facts.obstacles,
             .obstacle_triangles = facts.obstacle_triangles,
-            .skipped = skipped_by(plan, world.settings, facts),
+            .skipped = skipped_by(plan, scene.settings, facts),
             .memory_bytes = predicted_memory(plan, facts),
-            .evaluations_a_step = predicted_evaluations(plan, world.settings)};
+            .evaluations_a_step = predicted_evaluations(plan, scene.settings)};
 }
 
 }  // namespace percale

@@ -16,6 +16,14 @@ void set_extrapolated(const Vectors& a, double factor, const Vectors& b, const V
     add_scaled(to, -factor, c);
 }
 
+void set_euler_base(const ClothState& start, double length, StageBase& base) {
+    base.h = length;
+    base.positions = start.positions;
+    base.velocities = start.velocities;
+    base.foreseen.resize(0);
+    base.error_share = 1.0;
+}
+
 // Local errors of position where accelerations change at the rate j: dt^3 j/12 of midpoint and trapezoid, 2/9 dt^3 j of BDF2 with
 // r = 1. v - foreseen is dt^2 j/4 of the midpoint's stage, whose errors the extrapolation doubles, and dt^2 j/2 of the others.
 

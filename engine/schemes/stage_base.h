@@ -1,6 +1,7 @@
 #pragma once
 
-#include "model/cloth_model.h"
+#include "model/cloth_state.h"
+#include "support/aligned.h"
 
 namespace percale {
 
@@ -9,11 +10,14 @@ struct StageBase {
     double h = 0.0;            // s
     Vectors positions;         // m, q*
     Vectors velocities;        // m/s, v*
-    Vectors foreseen;          // m/s, v_n + (length of the stage) a_n, which v would be if accelerations stayed
+    Vectors foreseen;          // m/s, v_n + (length of the stage) a_n, which v would be if accelerations stayed; empty: unknown
     double error_share = 1.0;  // the stage's time error over h/2 |v - foreseen|
 };
 
-// In all of them `acceleration`, m/s^2, is that of the start.
+/// Backward Euler over `length`: q* = q_n, v* = v_n, h = length.
+void set_euler_base(const ClothState& start, double length, StageBase& base);
+
+// In all others `acceleration`, m/s^2, is that of the start.
 
 /// Implicit midpoint: a stage of backward Euler to the middle, from which the end is extrapolated.
 void set_midpoint_base(const ClothState& start, const Vectors& acceleration, double dt, StageBase& base);

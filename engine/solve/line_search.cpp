@@ -4,6 +4,57 @@
 #include <cmath>
 
 namespace percale {
+namespace {
+
+constexpr int most_trials = 10;  // of one line search
+/// Slopes beyond the minimum, over the first one's size, up to which a step is taken whatever the objective says: friction is not
+/// in it, and steps that overshoot by more go to and fro for ever. Less where contact is projected, unless the step changes
+/// little: rows that were in no matrix stop the cloth half-way, and the next step would lead back as far.
+constexpr double most_turned = 0.9, most_projected = 0.3;
+constexpr double slope_left = 0.6;       // of a full step, from where on going further pays for its evaluation
+constexpr double flat_slope = 1e-12;     // of the objective: what slopes say below is rounding
+constexpr double longest_further = 3.0;  // steps, by the secant
+
+double slope_at(const StageEquations& equations, const StagePoint& point) {
+    return dot(equations.stage().scene.compute, point.residual, equations.space().direction);
+}
+
+bool is_flat(const LineTrial& line) { return std::abs(line.start_slope) <= flat_slope * std::abs(line.start_objective); }
+
+LineTrial line_from(const StageEquations& equations, bool small) {
+    const ImplicitStage& stage = equations.stage();
+    const StagePoint& current = equations.space().current;
+    LineTrial line{.start_objective = current.objective, .start_slope = slope_at(equations, current)};
+    const bool may_turn = stage.scene.settings.newton_iterations == 1 || current.rows.size() == 0 || is_flat(line);
+    if (!may_turn) line.most_turned = stage.projects() && !small ? most_projected : most_turned;
+    return line;
+}
+
+/// Forces at space.trial.
+void evaluate_trial(StageEquations& equations, LineTrial& line) {
+    NewtonSpace& space = equations.space();
+    equations.evaluate(space.trial);
+    line.objective = space.trial.objective;
+    line.slope = slope_at(equations, space.trial);
+}
+
+/// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and
+/// what the secant says is still missing along the same direction costs an evaluation only.
+bool go_on(StageEquations& equations, LineTrial line) {
+    const ImplicitStage& stage = equations.stage();
+    const double ratio = line.slope / line.start_slope;
+    if (!(ratio > slope_left) || !stage.options.line_search || stage.scene.settings.newton_iterations == 1) return false;
+    const double further = std::min(ratio / std::max(1.0 - ratio, 0.1), longest_further);
+    line.start_objective = line.objective;
+    line.start_slope = line.slope;
+    equations.aim(further);
+    const double kept = equations.cut();
+    evaluate_trial(equations, line);
+    if (accept_trial(further * kept, line)) std::swap(equations.space().current, equations.space().trial);
+    return true;
+}
+
+}  // namespace
 
 bool accept_trial(double fraction, const LineTrial& trial) {
     if (!std::isfinite(trial.objective) || !std::isfinite(trial.slope)) return false;
@@ -19,6 +70,34 @@ double shorten(const LineTrial& trial) {
     const double rise = trial.slope - trial.start_slope;
     if (!(rise > 0.0) || !std::isfinite(rise)) return 0.5;
     return std::clamp(-trial.start_slope / rise, 0.15, 0.6);
+}
+
+LineResult search_line(StageEquations& equations, const TimeError& error) {
+    const ImplicitStage& stage = equations.stage();
+    NewtonSpace& space = equations.space();
+    const bool was_arrived = equations.arrived();
+    LineResult result;
+    equations.aim(1.0);
+    result.small = change_is_small(error, change_to(equations, space.trial.velocities), share_of_time_error);
+    LineTrial line = line_from(equations, result.small);
+    double fraction = 1.0, kept = 1.0;
+    bool accepted = false;
+    for (int trial = 0; trial < most_trials; ++trial) {
+        if (trial > 0) equations.aim(fraction);
+        kept = equations.cut();
+        evaluate_trial(equations, line);
+        line.objective_known = !space.springs.rate_damping && space.current.rows.size() + space.trial.rows.size() == 0;
+        // While pins or obstacles are on their way, the objective may have to rise.
+        accepted = !stage.options.line_search || !was_arrived || accept_trial(fraction * kept, line);
+        if (accepted) break;
+        fraction *= kept * shorten(line);
+        ++result.cuts;
+    }
+    std::swap(space.current, space.trial);
+    result.whole = fraction * kept == 1.0 && was_arrived;
+    result.stuck = !accepted && was_arrived && is_flat(line);
+    if (accepted && result.whole && !result.small) result.went_on = go_on(equations, line);
+    return result;
 }
 
 }  // namespace percale

@@ -2,6 +2,9 @@
 
 #include <limits>
 
+#include "newton_stop.h"
+#include "stage_equations.h"
+
 namespace percale {
 
 /// Where a line search stands: objective and slope (residual . direction) at its start and at a trial.
@@ -21,5 +24,21 @@ bool accept_trial(double fraction, const LineTrial& trial);
 
 /// The factor for the next trial: the zero of the slope by the secant, kept within 0.15 ... 0.6.
 double shorten(const LineTrial& trial);
+
+/// What a search along a direction came to; space.current is where it ended.
+struct LineResult {
+    bool small = false;    // the whole direction changes less than a share of the time error
+    bool whole = false;    // all of it was taken, by pins and obstacles that had arrived
+    bool stuck = false;    // nothing can be gained along it but rounding
+    bool went_on = false;  // beyond it, by the secant: the matrix is not that of this state
+    int cuts = 0;          // trials that were shortened
+};
+
+/// Goes from space.current along space.direction: the whole of it, cut where something would cross and shortened until
+/// accept_trial agrees; further by the secant where the slope has hardly fallen.
+LineResult search_line(StageEquations& equations, const TimeError& error);
+
+/// Newton has solved for a motion when an iteration changes less than this share of the time error.
+constexpr double share_of_time_error = 0.25;
 
 }  // namespace percale

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/contact_law.h"
+
 namespace percale {
 namespace {
 
@@ -33,8 +35,22 @@ double squared_error(const TimeError& error, int first, int count, const Vectors
     return std::min(change, error.foreseen_share * error.foreseen_share * unforeseen);
 }
 
-double squared_distance(const TimeError& error, const Vectors& a, const Vectors& b) {
-    return squared_from(error, 0, error.model->vertex_count(), a, b);
+TimeError time_error_of(const ImplicitStage& stage) {
+    const Vectors& foreseen = stage.base.foreseen;
+    const StepSettings& settings = stage.scene.settings;
+    TimeError error{.model = &stage.scene.model,
+                    .free = &stage.scene.script.free,
+                    .dt = stage.base.h,
+                    .start = &stage.start.velocities,
+                    .foreseen = foreseen.padded_size() > 0 ? &foreseen : nullptr,
+                    .foreseen_share = stage.base.error_share};
+    if (settings.adaptive) error.allowance = settings.tolerance * stage.base.h;
+    return error;
+}
+
+NewtonChange change_to(const StageEquations& equations, const Vectors& ahead) {
+    const StagePoint& point = equations.space().current;
+    return {point.residual, equations.space().direction, ahead, point.rows.size() > 0};
 }
 
 bool change_is_small(const TimeError& error, const NewtonChange& change, double share) {
@@ -50,7 +66,7 @@ bool change_is_small(const TimeError& error, const NewtonChange& change, double 
         const double time_error =
             0.5 * error.dt * std::sqrt(squared_error(error, cloth.first, cloth.count, change.ahead) / cloth.mass);
         const double thickness = model.thickness[cloth.first];
-        const double least = change.in_contact ? smallest_share * thickness : thickness / thickness_over_smallest_change;
+        const double least = change.in_contact ? contact_accuracy * thickness : thickness / thickness_over_smallest_change;
         const double floor = std::min(least, 0.1 * error.allowance);
         return moved <= share * time_error + floor &&
                error.dt * std::sqrt(worst) <= 2.0 * share * error.dt * std::sqrt(worst_error) + 10.0 * floor;

@@ -3,8 +3,7 @@
 #include <limits>
 #include <optional>
 
-#include "linear/linear_solver.h"
-#include "model/cloth_model.h"
+#include "stage_equations.h"
 
 namespace percale {
 
@@ -19,12 +18,12 @@ struct TimeError {
     double allowance = std::numeric_limits<double>::infinity();  // m, that adaptive steps give the stage
 };
 
+/// Of a stage.
+TimeError time_error_of(const ImplicitStage& stage);
+
 /// |v - v_n|_M^2 over the free of some vertices, J: the time error of backward Euler is dt/2 times its root over the mass.
 /// Another scheme's is as small as `foreseen_share` |v - foreseen|, where that is less.
 double squared_error(const TimeError& error, int first, int count, const Vectors& velocities);
-
-/// |a - b|_M^2 over the free vertices, J.
-double squared_distance(const TimeError& error, const Vectors& a, const Vectors& b);
 
 /// A Newton direction that leads to the velocities `ahead`.
 struct NewtonChange {
@@ -33,6 +32,9 @@ struct NewtonChange {
     const Vectors& ahead;      // m/s
     bool in_contact = false;
 };
+
+/// The direction in the work space, which leads from space.current to the velocities `ahead`.
+NewtonChange change_to(const StageEquations& equations, const Vectors& ahead);
 
 /// Whether the direction changes every cloth by less than a share of the time error, in the mean and at its worst vertex by less
 /// than twice that; in metres, dt sqrt(-r . dv/m). What is below a share of the thickness (2e-5, in contact 2e-4) or a tenth of
@@ -54,8 +56,5 @@ struct NewtonProgress {
 /// leaves behind.
 SolveTarget solve_target(const TimeError& error, const NewtonProgress& progress, const std::optional<double>& tolerance,
                          const Vectors& velocities);
-
-/// Below this share of the thickness a change means nothing in contact.
-constexpr double smallest_share = 2e-4;
 
 }  // namespace percale

@@ -12,7 +12,7 @@
 
 namespace percale {
 
-constexpr SealKind state_seal{.name = "PERCALES", .version = 2, .words = "saved state"};
+constexpr SealKind state_seal{.name = "PERCALES", .version = 3, .words = "saved state"};
 
 /// What an obstacle's name is not needed for.
 struct SavedObstacle {
@@ -20,22 +20,25 @@ struct SavedObstacle {
     bool settled = true;
 };
 
+/// Forces by row, in the order of their keys.
+struct SavedContact {
+    std::vector<KeyedForce> last, lasting;
+    double least_distance = 0.0;
+};
+
 /// All of a world that is not its model and its settings, nor made anew in each step.
 struct SavedWorld {
-    double time = 0.0, time_error = 0.0, contact_energy = 0.0, contact_dt = 0.0;
     bool changed = true, plan_outdated = true;
     StepSettings settings;  // time step, gravity and wind of them
-    ClothState state;       // without points
+    StepState state;        // but for contact, and without points
+    SavedContact contact;
     AlignedVector<double> free;
     Vectors pin_targets;
     std::vector<SavedObstacle> obstacles;
     std::vector<Seam> seams;
-    std::vector<double> seam_lengths;  // m, rest lengths of their springs, one seam after the other
-    std::vector<double> clamps;        // of the hinges
+    std::vector<double> clamps;  // of the hinges
     StepPlan plan;
     RestState rest;
-    StageSpace stages;  // what schemes of several stages and adaptive steps keep
-    ContactProjection::Kept projection;
     bool solver_is_set = false;
     StepSolver::Choice solver;
     std::vector<StartMove> start_moves;
@@ -54,7 +57,7 @@ void exchange(Archive& archive, Value& grip) {
 
 template <class Archive, OfType<ClothState> Value>
 void exchange(Archive& archive, Value& state) {
-    archive(state.positions, state.velocities, state.grips);
+    archive(state.positions, state.velocities, state.grips, state.rest_length);
 }
 
 template <class Archive, OfType<SavedObstacle> Value>
@@ -92,10 +95,15 @@ void exchange(Archive& archive, Value& rest) {
     archive(rest.cloths, rest.anchor, rest.asleep, rest.figures);
 }
 
-template <class Archive, OfType<StageSpace> Value>
-void exchange(Archive& archive, Value& stages) {
-    archive(stages.earlier, stages.earlier_length, stages.acceleration, stages.unbalanced);
-    archive(stages.control.length, stages.control.left, stages.control.share_before, stages.control.just_rejected);
+template <class Archive, OfType<SchemeMemory> Value>
+void exchange(Archive& archive, Value& past) {
+    archive(past.earlier, past.earlier_length, past.acceleration, past.unbalanced);
+}
+
+template <class Archive, OfType<StepState> Value>
+void exchange(Archive& archive, Value& state) {
+    archive(state.cloth, state.past, state.contact_energy, state.contact_dt, state.time, state.time_error);
+    archive(state.control.length, state.control.left, state.control.share_before, state.control.just_rejected);
 }
 
 template <class Archive, OfType<KeyedForce> Value>
@@ -103,9 +111,9 @@ void exchange(Archive& archive, Value& row) {
     archive(row.key.vertex, row.key.obstacle, row.key.feature, row.force.normal, row.force.friction, row.force.stiffness);
 }
 
-template <class Archive, OfType<ContactProjection::Kept> Value>
-void exchange(Archive& archive, Value& projection) {
-    archive(projection.kept, projection.lasting, projection.share);
+template <class Archive, OfType<SavedContact> Value>
+void exchange(Archive& archive, Value& contact) {
+    archive(contact.last, contact.lasting, contact.least_distance);
 }
 
 template <class Archive, OfType<StartMove> Value>
@@ -115,10 +123,10 @@ void exchange(Archive& archive, Value& move) {
 
 template <class Archive, OfType<SavedWorld> Value>
 void exchange(Archive& archive, Value& saved) {
-    archive(saved.time, saved.time_error, saved.contact_energy, saved.contact_dt, saved.changed, saved.plan_outdated);
+    archive(saved.changed, saved.plan_outdated);
     archive(saved.settings.time_step, saved.settings.gravity, saved.settings.wind);
-    archive(saved.state, saved.free, saved.pin_targets, saved.obstacles, saved.seams, saved.seam_lengths, saved.clamps);
-    archive(saved.plan, saved.rest, saved.stages, saved.projection, saved.solver_is_set);
+    archive(saved.state, saved.contact, saved.free, saved.pin_targets, saved.obstacles, saved.seams, saved.clamps);
+    archive(saved.plan, saved.rest, saved.solver_is_set);
     archive.choice(saved.solver.first, 4);
     archive.choice(saved.solver.in_use, 4);
     archive(saved.start_moves, saved.detector);
@@ -188,8 +196,8 @@ std::uint64_t cloth_hash(const ClothModel& model) {
 
 std::uint64_t obstacles_hash(const World& world) {
     StateWriter writer;
-    writer(world.detector != nullptr);
-    for (const ObstacleState& obstacle : world.script.obstacles) writer(obstacle.triangles, obstacle.start.scale);
+    writer(world.scene.detector != nullptr);
+    for (const ObstacleState& obstacle : world.scene.script.obstacles) writer(obstacle.triangles, obstacle.start.scale);
     return checksum(writer.take());
 }
 
@@ -203,47 +211,30 @@ std::uint64_t settings_hash(const StepSettings& s) {
 }
 
 Identity identity_of(const World& world) {
-    return {cloth_hash(world.model), obstacles_hash(world), settings_hash(world.settings)};
-}
-
-std::vector<double> seam_lengths_of(const World& world) {
-    std::vector<double> lengths;
-    for (const Seam& seam : world.script.seams) {
-        const auto first = world.model.springs.rest_length.begin() + seam.first_spring;
-        lengths.insert(lengths.end(), first, first + static_cast<long>(seam.length.size()));
-    }
-    return lengths;
+    return {cloth_hash(world.scene.model), obstacles_hash(world), settings_hash(world.scene.settings)};
 }
 
 SavedWorld state_of(const World& world) {
+    const StepScene& scene = world.scene;
     SavedWorld saved;
-    saved.time = world.time;
-    saved.time_error = world.time_error;
-    saved.contact_energy = world.contact_energy;
-    saved.contact_dt = world.contact_dt;
     saved.changed = world.changed;
     saved.plan_outdated = world.plan_outdated;
-    saved.settings = world.settings;
+    saved.settings = scene.settings;
     saved.state = world.state;
-    saved.free = world.script.free;
-    saved.pin_targets = world.script.pin_targets;
-    for (const ObstacleState& o : world.script.obstacles) saved.obstacles.push_back({o.start, o.end, o.settled});
-    saved.seams = world.script.seams;
-    saved.seam_lengths = seam_lengths_of(world);
-    for (const Hinge& hinge : world.model.hinges.all) saved.clamps.push_back(hinge.clamp);
-    saved.plan = world.plan;
+    const ContactMemory& contact = world.state.contact;
+    saved.contact = {contact.last.all(), contact.lasting.all(), contact.least_distance};
+    saved.free = scene.script.free;
+    saved.pin_targets = scene.script.pin_targets;
+    for (const ObstacleState& o : scene.script.obstacles) saved.obstacles.push_back({o.start, o.end, o.settled});
+    saved.seams = scene.script.seams;
+    for (const Hinge& hinge : scene.model.hinges.all) saved.clamps.push_back(hinge.clamp);
+    saved.plan = scene.plan;
     saved.rest = world.rest;
-    saved.stages.earlier = world.stages.earlier;
-    saved.stages.earlier_length = world.stages.earlier_length;
-    saved.stages.acceleration = world.stages.acceleration;
-    saved.stages.unbalanced = world.stages.unbalanced;
-    saved.stages.control = world.stages.control;
-    saved.projection = world.newton.projection.kept();
-    saved.solver_is_set = world.newton.solver.is_for(world.model);
-    saved.solver = world.newton.solver.choice();
-    if (!world.detector) return saved;
+    saved.solver_is_set = world.work.newton.solver.is_for(scene.model);
+    saved.solver = world.work.newton.solver.choice();
+    if (!scene.detector) return saved;
     StateWriter writer;
-    world.detector->save(writer);
+    scene.detector->save(writer);
     saved.detector = writer.take();
     return saved;
 }
@@ -260,23 +251,24 @@ public:
         check_script();
         check_plan();
         check_rest();
-        check_stages();
+        check_past();
     }
 
 private:
     void check_settings() const {
-        StepSettings settings = world_.settings;
+        StepSettings settings = world_.scene.settings;
         settings.time_step = saved_.settings.time_step;
         settings.gravity = saved_.settings.gravity;
         settings.wind = saved_.settings.wind;
         check_options(settings, "saved state");
-        for (const double number : {saved_.time, saved_.time_error, saved_.contact_energy, saved_.contact_dt}) {
+        const StepState& state = saved_.state;
+        for (const double number : {state.time, state.time_error, state.contact_energy, state.contact_dt}) {
             reader_.demand(std::isfinite(number), "a time or energy that is not finite");
         }
     }
 
     bool fits(const Vectors& vectors) const {
-        const std::size_t padded = world_.state.positions.padded_size();
+        const std::size_t padded = world_.state.cloth.positions.padded_size();
         return vectors.x.size() == padded && vectors.y.size() == padded && vectors.z.size() == padded;
     }
     bool fits_or_empty(const Vectors& vectors) const {
@@ -284,7 +276,7 @@ private:
     }
 
     void check_vectors() const {
-        for (const Vectors* vectors : {&saved_.state.positions, &saved_.state.velocities, &saved_.pin_targets}) {
+        for (const Vectors* vectors : {&saved_.state.cloth.positions, &saved_.state.cloth.velocities, &saved_.pin_targets}) {
             reader_.demand(fits(*vectors), "a wrong number of vertices");
             for (const auto* axis : {&vectors->x, &vectors->y, &vectors->z}) {
                 reader_.demand(std::all_of(axis->begin(), axis->end(), [](double value) { return std::isfinite(value); }),
@@ -292,45 +284,49 @@ private:
             }
         }
         const auto there = [](int index, std::size_t count) { return index >= 0 && static_cast<std::size_t>(index) < count; };
-        const std::size_t obstacles = world_.script.obstacles.size();
-        for (const Grip& grip : saved_.state.grips) {
-            const bool known = there(grip.vertex, world_.model.mass.size()) && there(grip.obstacle, obstacles);
+        const std::size_t obstacles = world_.scene.script.obstacles.size();
+        for (const Grip& grip : saved_.state.cloth.grips) {
+            const bool known = there(grip.vertex, world_.scene.model.mass.size()) && there(grip.obstacle, obstacles);
             reader_.demand(known && grip.stretch.allFinite(), "a grip on nothing");
         }
         for (const StartMove& move : saved_.start_moves) {
-            reader_.demand(there(move.cloth, world_.model.cloths.size()) && there(move.obstacle, obstacles), "a move of nothing");
+            reader_.demand(there(move.cloth, world_.scene.model.cloths.size()) && there(move.obstacle, obstacles),
+                           "a move of nothing");
         }
     }
 
     void check_script() const {
         const AlignedVector<double>& free = saved_.free;
-        reader_.demand(free.size() == world_.script.free.size(), "a wrong number of vertices");
+        reader_.demand(free.size() == world_.scene.script.free.size(), "a wrong number of vertices");
         for (std::size_t i = 0; i < free.size(); ++i) {
-            const bool padding = i >= static_cast<std::size_t>(world_.model.vertex_count());
+            const bool padding = i >= static_cast<std::size_t>(world_.scene.model.vertex_count());
             reader_.demand(free[i] == 0.0 || (free[i] == 1.0 && !padding), "a vertex neither pinned nor free");
         }
         const auto same_size = [](const SavedObstacle& a, const ObstacleState& b) {
             return a.start.scale == b.start.scale && a.end.scale == b.start.scale;
         };
-        reader_.demand(std::ranges::equal(saved_.obstacles, world_.script.obstacles, same_size), "obstacles of other sizes");
-        reader_.demand(saved_.clamps.size() == world_.model.hinges.all.size(), "a wrong number of hinges");
-        std::size_t sewn = 0;
-        bool same = saved_.seams.size() == world_.script.seams.size();
+        reader_.demand(std::ranges::equal(saved_.obstacles, world_.scene.script.obstacles, same_size),
+                       "obstacles of other sizes");
+        reader_.demand(saved_.clamps.size() == world_.scene.model.hinges.all.size(), "a wrong number of hinges");
+        bool same = saved_.seams.size() == world_.scene.script.seams.size();
         for (std::size_t k = 0; same && k < saved_.seams.size(); ++k) {
-            const Seam &seam = saved_.seams[k], &own = world_.script.seams[k];
+            const Seam &seam = saved_.seams[k], &own = world_.scene.script.seams[k];
             same = seam.first_spring == own.first_spring && seam.length.size() == own.length.size();
-            sewn += seam.length.size();
         }
-        reader_.demand(same && saved_.seam_lengths.size() == sewn, "other seams");
+        const std::vector<double>& lengths = saved_.state.cloth.rest_length;
+        const auto springs = static_cast<std::size_t>(world_.scene.model.springs.size());
+        reader_.demand(same && (lengths.empty() || (lengths.size() == springs && !saved_.seams.empty())), "other seams");
+        reader_.demand(std::all_of(lengths.begin(), lengths.end(), [](double length) { return length >= 0.0 && length < 1e300; }),
+                       "a rest length out of range");
     }
 
     void check_plan() const {
         const StepPlan& plan = saved_.plan;
-        reader_.demand(saved_.plan_outdated || can_be_chosen(world_, plan.scheme, plan.parts), "a scheme of another kind");
+        reader_.demand(saved_.plan_outdated || can_be_chosen(world_.scene, plan.scheme, plan.parts), "a scheme of another kind");
         const auto& [first, in_use] = saved_.solver;
         reader_.demand(first != LinearSolver::automatic && in_use != LinearSolver::automatic, "a linear solver that is none");
-        reader_.demand(saved_.projection.share >= 0.0 && saved_.projection.share <= 1.0, "a distance out of range");
-        for (const auto* forces : {&saved_.projection.kept, &saved_.projection.lasting}) {
+        reader_.demand(saved_.contact.least_distance >= 0.0 && saved_.contact.least_distance <= 1.0, "a distance out of range");
+        for (const auto* forces : {&saved_.contact.last, &saved_.contact.lasting}) {
             const auto twice = std::ranges::adjacent_find(*forces, std::ranges::greater_equal{}, &KeyedForce::key);
             reader_.demand(twice == forces->end(), "a contact force twice");
         }
@@ -339,19 +335,19 @@ private:
     void check_rest() const {
         const RestState& rest = saved_.rest;
         reader_.demand(fits_or_empty(rest.anchor), "a wrong number of vertices");
-        reader_.demand(rest.cloths.empty() || (rest.cloths.size() == world_.model.cloths.size() && fits(rest.anchor)),
+        reader_.demand(rest.cloths.empty() || (rest.cloths.size() == world_.scene.model.cloths.size() && fits(rest.anchor)),
                        "a wrong number of cloths");
     }
 
-    void check_stages() const {
-        const StageSpace& stages = saved_.stages;
-        const bool known = stages.earlier_length > 0.0;
-        reader_.demand(known || stages.earlier_length == 0.0, "a negative time step");
-        for (const Vectors* vectors : {&stages.earlier.positions, &stages.earlier.velocities, &stages.acceleration}) {
+    void check_past() const {
+        const SchemeMemory& past = saved_.state.past;
+        const bool known = past.earlier_length > 0.0;
+        reader_.demand(known || past.earlier_length == 0.0, "a negative time step");
+        for (const Vectors* vectors : {&past.earlier.positions, &past.earlier.velocities, &past.acceleration}) {
             reader_.demand(known ? fits(*vectors) : fits_or_empty(*vectors), "a wrong number of vertices");
         }
-        reader_.demand(fits_or_empty(stages.unbalanced), "a wrong number of vertices");
-        const StepControl& control = stages.control;
+        reader_.demand(fits_or_empty(past.unbalanced), "a wrong number of vertices");
+        const StepControl& control = saved_.state.control;
         reader_.demand(control.length == 0.0 || control.length >= shortest_step, "a time step too short");
         reader_.demand(control.left >= 0.0 && control.share_before >= 0.0, "an error below 0");
     }
@@ -361,55 +357,45 @@ private:
     const StateReader& reader_;
 };
 
-void put_script(SavedWorld& saved, World& world) {
-    world.script.free = std::move(saved.free);
-    world.script.pin_targets = std::move(saved.pin_targets);
+void put_script(SavedWorld& saved, Script& script) {
+    script.free = std::move(saved.free);
+    script.pin_targets = std::move(saved.pin_targets);
     for (std::size_t k = 0; k < saved.obstacles.size(); ++k) {
-        ObstacleState& obstacle = world.script.obstacles[k];
+        ObstacleState& obstacle = script.obstacles[k];
         obstacle.start = saved.obstacles[k].start;
         obstacle.end = saved.obstacles[k].end;
         obstacle.settled = saved.obstacles[k].settled;
     }
-    world.script.seams = std::move(saved.seams);
+    script.seams = std::move(saved.seams);
 }
 
-/// What steps change in the model: rest lengths of seams, hinges beside pins.
-void put_model(const SavedWorld& saved, World& world) {
-    ClothModel& model = world.model;
-    auto length = saved.seam_lengths.begin();
-    for (const Seam& seam : world.script.seams) {
-        for (int k = 0; k < static_cast<int>(seam.length.size()); ++k) {
-            model.springs.rest_length[seam.first_spring + k] = *length++;
-            set_rest_length(model.springs, seam.first_spring + k, model.adjacency);
-        }
-    }
+/// Hinges beside pins.
+void put_model(const SavedWorld& saved, ClothModel& model) {
     for (std::size_t k = 0; k < saved.clamps.size(); ++k) model.hinges.all[k].clamp = saved.clamps[k];
     set_pair_bending(model.hinges, model.springs);
     copy_bending(model.springs, model.adjacency);
 }
 
-void put_solver(const SavedWorld& saved, World& world) {
-    world.newton = NewtonSpace{};
-    world.newton.projection.go_on_from(saved.projection);
-    if (saved.solver_is_set) world.newton.solver.set_model(world.compute, world.model, world.settings.linear_solver);
-    world.newton.solver.go_on_from(saved.solver);
+void put_solver(const SavedWorld& saved, const StepScene& scene, NewtonSpace& newton) {
+    newton = NewtonSpace{};
+    if (saved.solver_is_set) newton.solver.set_model(scene.compute, scene.model, scene.settings.linear_solver);
+    newton.solver.go_on_from(saved.solver);
 }
 
 void put_state(SavedWorld& saved, World& world) {
-    world.time = saved.time;
-    world.time_error = saved.time_error;
-    world.contact_energy = saved.contact_energy;
-    world.contact_dt = saved.contact_dt;
     world.changed = saved.changed;
     world.plan_outdated = saved.plan_outdated;
-    world.settings.time_step = saved.settings.time_step;
-    world.settings.gravity = saved.settings.gravity;
-    world.settings.wind = saved.settings.wind;
-    saved.state.points = std::move(world.state.points);
+    StepSettings& settings = world.scene.settings;
+    settings.time_step = saved.settings.time_step;
+    settings.gravity = saved.settings.gravity;
+    settings.wind = saved.settings.wind;
+    saved.state.cloth.points = std::move(world.state.cloth.points);
     world.state = std::move(saved.state);
-    update_points(world.state);
+    update_points(world.state.cloth);
+    world.state.contact.last.set(saved.contact.last);
+    world.state.contact.lasting.set(saved.contact.lasting);
+    world.state.contact.least_distance = saved.contact.least_distance;
     world.rest = std::move(saved.rest);
-    world.stages = std::move(saved.stages);
 }
 
 }  // namespace
@@ -435,15 +421,15 @@ std::vector<StartMove> restore_world(std::span<const std::byte> bytes, World& wo
     reader(saved);
     reader.demand(reader.at_end(), "there is more than belongs to it");
     StateCheck(saved, world, reader).run();
-    if (world.detector) {
+    if (world.scene.detector) {
         StateReader detector(saved.detector);
-        world.detector->restore(detector);
+        world.scene.detector->restore(detector);
     }
-    put_script(saved, world);
-    put_model(saved, world);
+    put_script(saved, world.scene.script);
+    put_model(saved, world.scene.model);
     put_state(saved, world);
-    put_solver(saved, world);
-    world.plan = saved.plan_outdated ? StepPlan{} : plan_again(world, saved.plan);
+    put_solver(saved, world.scene, world.work.newton);
+    world.scene.plan = world.plan_outdated ? StepPlan{} : plan_again(world.scene, world.state.cloth, saved.plan);
     return std::move(saved.start_moves);
 }
 

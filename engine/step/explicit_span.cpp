@@ -2,117 +2,66 @@
 
 #include <cmath>
 
+#include "ledger.h"
 #include "schemes/schemes.h"
-#include "scripted_motion.h"
-#include "span_ledger.h"
-#include "step_control.h"
+#include "state_forces.h"
 #include "support/stage_timer.h"
+#include "targets.h"
 
 namespace percale {
 namespace {
 
-void evaluate_state(World& world, const ClothState& state) {
-    evaluate_at(world, {state.positions, state.velocities, state.positions});
-}
-
-void make_step(World& world, StepFraction span) {
-    set_part_targets(world, span.to);
-    world.part = span;
-    set_seams_at(world, 0.5);
-    const ExplicitPart part{.compute = &world.compute,
-                            .model = &world.model,
-                            .settings = &world.settings,
-                            .targets = &world.part_targets,
-                            .free = &world.script.free,
-                            .dt = world.settings.time_step * (span.to - span.from),
-                            .wind = set_wind_at(world, world.state.positions)};
-    step_explicit(world.plan.scheme, part, world.explicit_space, world.state);
+void make_step(const Span& span, const StepState& start, Workspace& work, StepState& end) {
+    const StepScene& scene = span.scene;
+    set_targets(span, span.fraction.to, work.targets);
+    begin_end(start, end);
+    end.contact_energy = 0.0;
+    end.cloth.positions = start.cloth.positions;
+    end.cloth.velocities = start.cloth.velocities;
+    end.cloth.points.resize(start.cloth.points.size());
+    end.cloth.grips = start.cloth.grips;
+    const ExplicitStep step{.scene = scene,
+                            .targets = work.targets,
+                            .dt = span.length(),
+                            .wind = set_wind_at(scene, start.cloth.positions, work),
+                            .rest_length = rest_lengths_at(span, 0.5, start, work.rest_length)};
+    step_explicit(scene.plan.scheme, step, work.explicit_space, end.cloth);
+    set_rest_length(span, start, work, end.cloth);
 }
 
 /// A step that counts.
-void make_kept_step(World& world, StepFraction span) {
-    if (!world.plan.ledger && !world.plan.seams_close) return make_step(world, span);
-    ClothState& start = world.ledger.start;
-    start.positions = world.state.positions;
-    start.velocities = world.state.velocities;
-    make_step(world, span);
-    if (world.plan.ledger) {
-        account_explicit(world, {start.positions, start.velocities, world.settings.time_step * (span.to - span.from)});
-    }
-    world.seam_work += seam_work(world, start.positions);
+void make_kept_step(const Span& span, const StepState& start, Workspace& work, StepState& end, StepEnergy& flows) {
+    make_step(span, start, work, end);
+    if (span.scene.plan.ledger) account_explicit(span, {start, end, work.middle}, work, flows);
+    flows.work += seam_work(span, start, end.cloth);
 }
 
-/// A whole step and two half ones: what they differ by over 2^order - 1 is the error of the latter.
-void make_two_steps(World& world, StepFraction span) {
-    StageSpace& stages = world.stages;
-    make_step(world, span);
-    stages.scratch = world.state.positions;
-    world.state.positions = stages.start.positions;
-    world.state.velocities = stages.start.velocities;
-    const double middle = 0.5 * (span.from + span.to);
-    make_kept_step(world, {span.from, middle});
-    make_kept_step(world, {middle, span.to});
-    add_scaled(stages.scratch, -1.0, world.state.positions);
-    stages.error += mean_size(world, stages.scratch) / (std::pow(2.0, facts_of(world.plan.scheme).order) - 1.0);
+/// A whole step and two half ones: what they differ by over 2^order - 1 is the error of the latter, which count.
+double make_two_steps(const Span& span, const StepState& start, Workspace& work, StepState& end, StepEnergy& flows) {
+    make_step(span, start, work, end);
+    work.scratch = end.cloth.positions;
+    Span first = span, second = span;
+    first.fraction.to = second.fraction.from = 0.5 * (span.fraction.from + span.fraction.to);
+    make_kept_step(first, start, work, work.half, flows);
+    make_kept_step(second, work.half, work, end, flows);
+    add_scaled(work.scratch, -1.0, end.cloth.positions);
+    return mean_size(span.scene, work.scratch) / (std::pow(2.0, facts_of(span.scene.plan.scheme).order) - 1.0);
 }
 
 }  // namespace
 
-void solve_explicit_span(World& world, StepFraction span) {
-    StageTimer timer(world.report.stages.force);
-    ClothState& start = world.stages.start;
-    start.positions = world.state.positions;
-    start.velocities = world.state.velocities;
-    world.seam_work = 0.0;
-    world.settings.adaptive ? make_two_steps(world, span) : make_kept_step(world, span);
-    const auto [pins, wind] = script_work(world, start, world.settings.time_step * (span.to - span.from));
-    world.report.energy.work += world.seam_work + pins + wind;
-    if (world.plan.ledger) world.report.energy.dissipated_integrator += pins + wind;  // account_explicit
-}
-
-void evaluate_at(World& world, const ForcePlace& place) {
-    ExplicitSpace& space = world.explicit_space;
-    set_step_springs(world.compute, {world.model.adjacency, place.positions, DampingForm::velocity, world.settings.time_step},
-                     space.springs);
-    const ForceInput input{.compute = &world.compute,
-                           .model = &world.model,
-                           .springs = &space.springs,
-                           .positions = &place.positions,
-                           .velocities = &place.velocities,
-                           .gravity = world.settings.gravity,
-                           .wind = set_wind_at(world, place.air),
-                           .dt = world.settings.time_step,
-                           .with_matrix = false};
-    evaluate_forces(input, space.forces);
-}
-
-void set_accelerations(World& world, const ClothState& state, Vectors& accelerations) {
-    StageTimer timer(world.report.stages.force);
-    evaluate_state(world, state);
-    accelerations.resize(world.model.vertex_count());
-    for (int i = 0; i < world.model.vertex_count(); ++i) {
-        if (world.script.free[i] == 0.0) continue;
-        accelerations.set(i, world.explicit_space.forces.total.at(i) / world.model.mass[i]);
+SpanResult advance_explicit(const Span& span, const StepState& start, Workspace& work, StepState& end) {
+    StageTimer timer(work.times.force);
+    SpanResult result;
+    if (span.scene.settings.adaptive) {
+        result.error = make_two_steps(span, start, work, end, result.flows);
+    } else {
+        make_kept_step(span, start, work, end, result.flows);
     }
-}
-
-ScriptWork script_work(World& world, const ClothState& start, double length) {
-    if (!world.plan.pin_work && !(world.plan.wind && world.plan.measures)) return {};
-    evaluate_state(world, start);
-    world.explicit_space.start_forces = world.explicit_space.forces.total;
-    double power = world.explicit_space.forces.wind.power;
-    evaluate_state(world, world.state);
-    power += world.explicit_space.forces.wind.power;
-    ScriptWork work{.wind = 0.5 * length * power};
-    if (!world.plan.pin_work) return work;
-    for (int i = 0; i < world.model.vertex_count(); ++i) {
-        if (world.script.free[i] > 0.0) continue;
-        const Vec3 force = 0.5 * (world.explicit_space.start_forces.at(i) + world.explicit_space.forces.total.at(i));
-        const double before = start.velocities.at(i).squaredNorm(), after = world.state.velocities.at(i).squaredNorm();
-        work.pins +=
-            0.5 * world.model.mass[i] * (after - before) - force.dot(world.state.positions.at(i) - start.positions.at(i));
-    }
-    return work;
+    const auto [pins, wind] = script_work(span.scene, start.cloth, end.cloth, span.length(), work);
+    result.flows.work += pins + wind;
+    if (span.scene.plan.ledger) result.flows.dissipated_integrator += pins + wind;  // account_explicit
+    return result;
 }
 
 }  // namespace percale

@@ -1,92 +1,199 @@
 #include "ledger.h"
 
-#include "contact/contact_loss.h"
+#include <array>
+
+#include "forces/elastic.h"
 #include "forces/spring_loss.h"
-#include "measure.h"
-#include "shape_loss.h"
-#include "span_ledger.h"
+#include "schemes/schemes.h"
+#include "state_forces.h"
+#include "targets.h"
 
 namespace percale {
 namespace {
 
-/// 1/2 |v - v_n|_M^2, J.
-double velocity_loss(const World& world, const Vectors& start, const Vectors& end) {
-    return 0.5 *
-           sum_terms(0, world.model.vertex_count(), [&](int i) { return world.model.mass[i] * square_between(end, start, i); });
+/// An explicit scheme's stages: weights b and how far each is ahead of the last one's slopes, in steps.
+struct Tableau {
+    std::span<const double> weights, ahead;
+};
+
+constexpr double one[] = {1.0}, midpoint_weights[] = {0.0, 1.0}, midpoint_ahead[] = {0.5};
+constexpr double rk4_weights[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}, rk4_ahead[] = {0.5, 0.5, 1.0};
+
+Tableau tableau_of(Scheme scheme) {
+    if (scheme == Scheme::rk4) return {rk4_weights, rk4_ahead};
+    if (scheme == Scheme::midpoint) return {midpoint_weights, midpoint_ahead};
+    return {one, {}};
 }
 
-ContactMove contact_move(const World& world, double dt) {
-    const NewtonSpace& newton = world.newton;
-    return {.rows = newton.current.forces.rows,
-            .terms = newton.current.forces.contact,
-            .start = newton.start_positions,
-            .end = newton.current.positions,
-            .dt = dt,
-            .obstacle_rate = 1.0 / world.settings.time_step};
-}
+/// sum w . (M (v - v_n) - dt sum b_i f_i), J, over free and over prescribed vertices, and what velocities lost.
+struct Balance {
+    double free = 0.0, prescribed = 0.0, kinetic = 0.0;
+};
 
-void account_penalty(World& world, const ContactMove& move) {
-    StepEnergy& energy = world.report.energy;
-    const ContactLoss loss = contact_loss(move);
-    energy.dissipated_friction += loss.friction;
-    energy.dissipated_integrator += loss.integrator;
-    energy.dissipated_contact += world.ledger.contact - loss.stored_at_start;
-}
-
-/// A row's push is a constraint's: what it takes from motion towards the obstacle is gone.
-void account_projection(World& world, const ContactMove& move) {
-    StepEnergy& energy = world.report.energy;
-    for (std::size_t row = 0; row < move.rows.size(); ++row) {
-        const RowForce& force = world.newton.current.row_forces[row];
-        const Vec3 moved = relative_move(move, row);
-        energy.dissipated_contact -= force.normal * move.rows.direction[row].dot(moved);
-        energy.dissipated_friction -= force.friction.dot(moved);
+/// One span: forces are taken stage by stage, then weighed against the momentum.
+class SpanAccount {
+public:
+    SpanAccount(const Span& span, const SpanStates& states, Workspace& work, StepEnergy& flows)
+        : scene_(span.scene), start_(states.start.cloth), end_(states.end.cloth), dt_(span.length()), work_(work), flows_(flows) {
+        work_.impulse.resize(scene_.model.vertex_count());
     }
-    energy.dissipated_contact += world.ledger.contact - move.terms.energy;
+
+    /// A stage with the weight b; its forces are those `known`, N, or evaluated without contact.
+    void take(double weight, const ForcePlace& place, const Vectors* known = nullptr) {
+        if (scene_.plan.ledger) take_losses(weight, place);
+        if (!known) evaluate_at(scene_, place, work_);
+        add_scaled(work_.impulse, weight * dt_, known ? *known : work_.explicit_space.forces.total);
+    }
+
+    Balance balance() const {
+        Balance balance;
+        for (int i = 0; i < scene_.model.vertex_count(); ++i) {
+            const Vec3 before = start_.velocities.at(i), after = end_.velocities.at(i);
+            const Vec3 mean = (end_.positions.at(i) - start_.positions.at(i)) / dt_;
+            const Vec3 momentum = scene_.model.mass[i] * (after - before);
+            balance.kinetic += (mean - 0.5 * (before + after)).dot(momentum);
+            (scene_.is_free(i) ? balance.free : balance.prescribed) += mean.dot(momentum - work_.impulse.at(i));
+        }
+        return balance;
+    }
+
+    /// Of the air, as work.wind has it, on cloth that moves over the span while the drag stays what these velocities make it, J.
+    double wind_work(const ForcePlace& place) {
+        if (!set_wind_at(scene_, place.air, work_)) return 0.0;
+        work_.forces.resize(scene_.model.vertex_count());
+        add_wind(scene_.model, work_.wind, place.velocities, dt_, work_.forces, work_.explicit_space.forces.wind);
+        return sum_terms(0, scene_.model.vertex_count(),
+                         [&](int i) { return work_.forces.at(i).dot(end_.positions.at(i) - start_.positions.at(i)); });
+    }
+
+    /// sum w . r with the residual r of the last stage, J.
+    double residual_work() const {
+        return sum_terms(0, scene_.model.vertex_count(), [&](int i) {
+            const Vec3 mean = (end_.positions.at(i) - start_.positions.at(i)) / dt_;
+            return mean.dot(work_.newton.current.residual.at(i));
+        });
+    }
+
+private:
+    void take_losses(double weight, const ForcePlace& place) {
+        const SpringLoss springs = spring_loss(scene_.model.springs, {.start = start_.positions,
+                                                                      .end = end_.positions,
+                                                                      .positions = place.positions,
+                                                                      .velocities = place.velocities,
+                                                                      .form = scene_.plan.damping,
+                                                                      .dt = dt_,
+                                                                      .rest_length = place.rest_length});
+        const double shapes = shape_loss(scene_.compute, scene_.model,
+                                         {start_.positions, end_.positions, place.positions, place.rest_length}, work_.elastic);
+        flows_.dissipated_material += weight * springs.material;
+        flows_.dissipated_integrator += weight * (springs.integrator + shapes);
+    }
+
+    const StepScene& scene_;
+    const ClothState &start_, &end_;
+    double dt_;
+    Workspace& work_;
+    StepEnergy& flows_;
+};
+
+/// Where an implicit scheme takes the forces of its stages, in the order of stage_weights, but for rest lengths.
+std::array<ForcePlace, 3> stage_places(const SpanStates& states, const StagePoint& last, bool two_stages) {
+    const ClothState &start = states.start.cloth, &middle = states.middle;
+    return {{{start.positions, start.velocities, start.positions, {}},
+             {middle.positions, middle.velocities, start.positions, {}},
+             {last.positions, last.velocities, two_stages ? middle.positions : start.positions, {}}}};
 }
 
-void account_contact(World& world, double dt) {
-    const ContactMove move = contact_move(world, dt);
-    if (world.settings.contact_response == ContactResponse::projection) {
-        account_projection(world, move);
+/// What contact took: by its own law where one stage is all there is, else all that its forces did.
+void account_contact(const Span& span, const SpanStates& states, const Balance& balance, const SpanAccount& account,
+                     Workspace& work, StepEnergy& flows) {
+    const StagePoint& last = work.newton.current;
+    if (span.scene.plan.scheme == Scheme::backward_euler) {
+        const ContactLoss loss = work.newton.law(span.scene.settings.contact_response)
+                                     .loss({.rows = last.rows,
+                                            .terms = last.contact,
+                                            .row_forces = last.row_forces,
+                                            .start = states.start.cloth.positions,
+                                            .end = last.positions,
+                                            .dt = span.length(),
+                                            .obstacle_rate = 1.0 / span.scene.settings.time_step},
+                                           states.start.contact_energy);
+        flows.dissipated_friction += loss.friction;
+        flows.dissipated_contact += loss.contact;
+        flows.dissipated_integrator += loss.integrator;
+        flows.residual_work += balance.free;
     } else {
-        account_penalty(world, move);
+        const double residual = account.residual_work();
+        flows.residual_work += residual;
+        flows.dissipated_contact +=
+            states.start.contact_energy - states.end.contact_energy - (balance.free - residual) + states.obstacle_work;
     }
-    world.ledger.contact = move.terms.energy + grip_energy(move.terms.touches);
-}
-
-void account_backward_euler(World& world, double dt) {
-    const NewtonSpace& newton = world.newton;
-    const NewtonPoint& end = newton.current;
-    const SpringLoss springs = spring_loss(world.model.springs, {.start = newton.start_positions,
-                                                                 .end = end.positions,
-                                                                 .positions = end.positions,
-                                                                 .velocities = end.velocities,
-                                                                 .form = world.plan.damping,
-                                                                 .dt = dt});
-    StepEnergy& energy = world.report.energy;
-    energy.dissipated_material += springs.material;
-    energy.dissipated_integrator += springs.integrator + velocity_loss(world, newton.start_velocities, end.velocities);
-    energy.dissipated_integrator += shape_loss(world, {newton.start_positions, end.positions, end.positions});
-    energy.residual_work += dot(world.compute, end.residual, end.velocities);
-    if (world.plan.contacts) account_contact(world, dt);
 }
 
 }  // namespace
 
-void begin_ledger(World& world) {
-    world.ledger.contact = world.contact_energy;
-    world.ledger.start_energy = current_energy(world).total() - world.report.energy.work;
+void account_implicit(const Span& span, const SpanStates& states, Workspace& work, StepEnergy& flows) {
+    const StepScene& scene = span.scene;
+    const StepPlan& plan = scene.plan;
+    const StagePoint& last = work.newton.current;
+    states.end.contact_energy = plan.contacts ? last.contact.energy + grip_energy(last.contact.touches) : 0.0;
+    flows.work += seam_work(span, states.start, states.end.cloth) + states.obstacle_work;
+
+    SpanAccount account(span, states, work, flows);
+    const bool weighs = plan.ledger || plan.pin_work, two_stages = facts_of(plan.scheme).stages == 2;
+    // The forces of the last stage are known, but not without contact where that has another weight.
+    const Vectors* known = two_stages ? nullptr : &last.forces.total;
+    std::array<ForcePlace, 3> places = stage_places(states, last, two_stages);
+    const std::array<StageWeight, 3> weights = stage_weights(plan.scheme);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        if (weights[k].share == 0.0) continue;
+        places[k].rest_length = rest_lengths_at(span, weights[k].place, states.start, work.rest_length);
+        if (plan.measures) flows.work += weights[k].share * account.wind_work(places[k]);
+        if (weighs) account.take(weights[k].share, places[k], k == 2 ? known : nullptr);
+    }
+    if (!weighs) return;
+    const Balance balance = account.balance();
+    flows.work += balance.prescribed;
+    if (!plan.ledger) return;
+    flows.dissipated_integrator += balance.kinetic;
+    if (plan.contacts) {
+        account_contact(span, states, balance, account, work, flows);
+    } else if (plan.scheme == Scheme::bdf2) {
+        const double residual = account.residual_work();
+        flows.residual_work += residual;
+        flows.dissipated_integrator -= balance.free - residual;
+    } else {
+        flows.residual_work += balance.free;
+    }
 }
 
-void account_implicit(World& world, double dt, double work) {
-    if (world.plan.scheme == Scheme::backward_euler) return account_backward_euler(world, dt);
-    account_stages(world, {world.stages.start.positions, world.stages.start.velocities, dt}, work);
-}
-
-void close_ledger(World& world) {
-    StepEnergy& end = world.report.energy;
-    end.imbalance = end.total() - world.ledger.start_energy + end.dissipated() - end.residual_work - end.work;
+void account_explicit(const Span& span, const SpanStates& states, Workspace& work, StepEnergy& flows) {
+    const StepScene& scene = span.scene;
+    const ClothState &start = states.start.cloth, &end = states.end.cloth;
+    SpanAccount account(span, states, work, flows);
+    ClothState& stage = work.ledger_stage;
+    stage.positions = start.positions;
+    stage.velocities = start.velocities;
+    for (int i = 0; i < scene.model.vertex_count(); ++i) {
+        if (!scene.is_free(i)) stage.velocities.set(i, end.velocities.at(i));
+    }
+    const std::span<const double> rest_length = rest_lengths_at(span, 0.5, states.start, work.rest_length);
+    const Tableau tableau = tableau_of(scene.plan.scheme);
+    for (std::size_t s = 0; s < tableau.weights.size(); ++s) {
+        const ForcePlace place{stage.positions, stage.velocities, stage.positions, rest_length};
+        account.take(tableau.weights[s], place);
+        flows.dissipated_integrator -= tableau.weights[s] * account.wind_work(place);
+        if (s == tableau.ahead.size()) break;
+        for (int i = 0; i < scene.model.vertex_count(); ++i) {
+            const double ahead = tableau.ahead[s] * span.length();
+            stage.positions.set(i, start.positions.at(i) + ahead * stage.velocities.at(i));
+            if (!scene.is_free(i)) continue;
+            const Vec3 acceleration = work.explicit_space.forces.total.at(i) / scene.model.mass[i];
+            stage.velocities.set(i, start.velocities.at(i) + ahead * acceleration);
+        }
+    }
+    const Balance balance = account.balance();
+    flows.dissipated_integrator += balance.kinetic - balance.prescribed;
 }
 
 }  // namespace percale

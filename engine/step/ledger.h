@@ -1,21 +1,29 @@
 #pragma once
 
-#include "world.h"
+#include "span.h"
 
 namespace percale {
 
-/// The step begins, with what changes of the scene took already in the report.
-void begin_ledger(World& world);
+/// The two ends of a span that was just solved, and what lies between them where its scheme has two stages.
+struct SpanStates {
+    const StepState& start;
+    StepState& end;
+    const ClothState& middle;
+    double obstacle_work = 0.0;  // J, by the contacts of the stages
+};
 
-/// Adds to the step's ledger what became of energy in the span that an implicit scheme just solved, of `dt` in s; `work` of
-/// pins, obstacles and wind during it is reported, J. Every entry is computed from its own forces, none as what the others leave.
-/// Backward Euler:
-///     v . [M (v - v_n) - dt f(q, v)] summed over all vertices is the work of the residual and of pins, and is also
-///     dE + material + friction + contact + (1/2 |v - v_n|_M^2 + Bregman terms of all potentials) - work of obstacles.
-/// The others: span_ledger.h.
-void account_implicit(World& world, double dt, double work);
+/// What became of energy in a span of length dt from (q_n, v_n) to (q, v), by a scheme that gives free vertices the momentum dt
+/// sum b_i f_i with the forces f_i of its stages. With the mean velocity w = (q - q_n)/dt
+///     dE + sum b_i (material_i + Bregman term_i) + sum m (w - (v_n + v)/2) . (v - v_n) = sum w . (M (v - v_n) - dt sum b_i f_i),
+/// the right side summed over prescribed vertices being the work of pins, over free ones what the solver and contact left.
+/// Every entry is computed from its own forces, none as what the others leave, but contact by TR-BDF2, where all that contact
+/// forces take, friction included, is in dissipated_contact. BDF2 also gives momentum from the span before: the integrator's.
+/// Sets flows.work, with the ledger all its entries, and the energy of
+/// contact at the end.
+void account_implicit(const Span& span, const SpanStates& states, Workspace& work, StepEnergy& flows);
 
-/// Writes the imbalance of the accepted step, whose energies are in the report.
-void close_ledger(World& world);
+/// The same of a step of an explicit scheme, whose stages follow from the start. Its work is the mean over both ends: of a pin's
+/// forces over its path, of the wind's power.
+void account_explicit(const Span& span, const SpanStates& states, Workspace& work, StepEnergy& flows);
 
 }  // namespace percale

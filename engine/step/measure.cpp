@@ -4,14 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "forces/elastic.h"
 #include "forces/gravity.h"
-#include "ledger.h"
-#include "shape_loss.h"
 #include "support/hash.h"
 #include "support/stage_timer.h"
 
 namespace percale {
 namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::uint64_t hash_of(const ContactRows& rows) {
     Hash hash;
@@ -24,78 +25,85 @@ std::uint64_t hash_of(const ContactRows& rows) {
     return hash.value();
 }
 
-double largest_speed(const World& world) {
-    return std::sqrt(largest_term(0, world.model.vertex_count(), [&](int i) { return square_at(world.state.velocities, i); }));
+double largest_speed(const Vectors& velocities, int count) {
+    return std::sqrt(largest_term(0, count, [&](int i) { return square_at(velocities, i); }));
 }
 
-}  // namespace
-
-namespace {
-
-StepEnergy energy_of(const World& world, bool with_gravity) {
-    const ClothState& state = world.state;
+StepEnergy stored_energy(const StepScene& scene, const StepState& state, bool with_gravity) {
+    const ClothState& cloth = state.cloth;
+    const std::vector<double>& mass = scene.model.mass;
     StepEnergy energy;
-    energy.kinetic = 0.5 * sum_terms(0, world.model.vertex_count(),
-                                     [&](int i) { return world.model.mass[i] * square_at(state.velocities, i); });
-    if (with_gravity) energy.gravity = gravity_energy(world.model.mass, world.settings.gravity, state.positions);
-    energy.elastic = shape_energy(world.model, state.positions);
-    energy.contact = world.contact_energy;
+    energy.kinetic =
+        0.5 * sum_terms(0, scene.model.vertex_count(), [&](int i) { return mass[i] * square_at(cloth.velocities, i); });
+    if (with_gravity) energy.gravity = gravity_energy(mass, scene.settings.gravity, cloth.positions);
+    energy.elastic = elastic_energy(scene.model, cloth.positions, cloth.rest_length);
+    energy.contact = state.contact_energy;
     return energy;
 }
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 void leave_out_ledger(StepEnergy& energy) {
     for (const auto entry : ledger_entries) energy.*entry = unknown;
 }
 
-void leave_out(StepReport& report) {
-    report.energy = {.kinetic = unknown, .gravity = unknown, .elastic = unknown, .contact = unknown, .work = unknown};
-    leave_out_ledger(report.energy);
-    report.largest_strain = report.largest_speed = unknown;
+/// What is stored comes in beside the flows that the report has.
+void set_stored(const StepEnergy& stored, StepEnergy& energy) {
+    energy.kinetic = stored.kinetic;
+    energy.gravity = stored.gravity;
+    energy.elastic = stored.elastic;
+    energy.contact = stored.contact;
 }
 
-}  // namespace
-
-StepEnergy current_energy(const World& world) { return energy_of(world, true); }
-
-void measure_kept(World& world) {
-    StepReport& report = world.report;
-    report.smallest_distance = std::numeric_limits<double>::infinity();
-    if (!world.plan.measures) return leave_out(report);
-    report.energy = energy_of(world, world.plan.gravity_energy);
-    if (!world.plan.ledger) leave_out_ledger(report.energy);
-    report.largest_strain = largest_strain(world.model.springs, world.state.positions);
-    report.largest_speed = largest_speed(world);
-}
-
-namespace {
-
-/// State measures, and the flows that the solve has counted.
-void measure_state(World& world) {
-    const StepEnergy flows = world.report.energy;
-    const ContactTerms& contact = world.newton.current.forces.contact;
-    world.contact_energy = world.plan.contacts ? contact.energy + grip_energy(contact.touches) : 0.0;
-    measure_kept(world);
-    if (world.plan.measures) world.report.energy.work = flows.work;
-    if (!world.plan.ledger) return;
-    for (const auto entry : ledger_entries) world.report.energy.*entry = flows.*entry;
-    close_ledger(world);
-}
-
-}  // namespace
-
-void measure(World& world) {
-    StageTimer timer(world.report.stages.measure);
-    StepReport& report = world.report;
-    measure_state(world);
-    if (!world.plan.contacts) return;
-    const ContactRows& rows = world.newton.current.forces.rows;
-    const std::vector<ContactBlock>& blocks = world.newton.current.forces.contact.blocks;
+void set_contacts(const StepScene& scene, const StagePoint& last, StepReport& report) {
+    const std::vector<CoupledBlock>& blocks = last.contact.blocks;
     report.contacts =
-        static_cast<int>(std::count_if(blocks.begin(), blocks.end(), [](const ContactBlock& block) { return block.row >= 0; }));
-    report.contact_hash = hash_of(rows);
-    report.smallest_distance = world.detector->smallest_distance();
+        static_cast<int>(std::count_if(blocks.begin(), blocks.end(), [](const CoupledBlock& block) { return block.row >= 0; }));
+    report.contact_hash = hash_of(last.rows);
+    report.smallest_distance = scene.detector->smallest_distance();
+}
+
+}  // namespace
+
+StepEnergy energy_of(const StepScene& scene, const StepState& state) { return stored_energy(scene, state, true); }
+
+bool all_finite(const ClothState& cloth) {
+    double sum = 0.0;
+    for (const auto* vectors : {&cloth.positions, &cloth.velocities}) {
+        for (const auto* axis : {&vectors->x, &vectors->y, &vectors->z}) {
+            sum += sum_terms(0, static_cast<int>(axis->size()), [&](int i) { return 0.0 * (*axis)[i]; });
+        }
+    }
+    return sum == 0.0;
+}
+
+StepMeasure::StepMeasure(const StepScene& scene, const StepState& state, double work) : scene_(scene) {
+    if (scene.plan.ledger) start_energy_ = energy_of(scene, state).total() - work;
+}
+
+void StepMeasure::set_state(const StepState& state, StepReport& report) const {
+    report.smallest_distance = std::numeric_limits<double>::infinity();
+    if (!scene_.plan.ledger) leave_out_ledger(report.energy);
+    if (!scene_.plan.measures) {
+        set_stored({.kinetic = unknown, .gravity = unknown, .elastic = unknown, .contact = unknown}, report.energy);
+        report.energy.work = report.largest_strain = report.largest_speed = unknown;
+        return;
+    }
+    set_stored(stored_energy(scene_, state, scene_.plan.gravity_energy), report.energy);
+    report.largest_strain = largest_strain(scene_.model.springs, state.cloth.positions);
+    report.largest_speed = largest_speed(state.cloth.velocities, scene_.model.vertex_count());
+}
+
+void StepMeasure::accepted(const StepState& state, Workspace& work, StepReport& report) const {
+    StageTimer timer(work.times.measure);
+    set_state(state, report);
+    if (scene_.plan.contacts) set_contacts(scene_, work.newton.current, report);
+    if (!scene_.plan.ledger) return;
+    StepEnergy& energy = report.energy;
+    energy.imbalance = energy.total() - start_energy_ + energy.dissipated() - energy.residual_work - energy.work;
+}
+
+void StepMeasure::kept(const StepState& state, StepReport& report) const {
+    report.energy = {};
+    set_state(state, report);
 }
 
 }  // namespace percale

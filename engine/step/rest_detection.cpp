@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "world.h"
-
 namespace percale {
 namespace {
 
@@ -11,44 +9,50 @@ constexpr double still_time = 0.5;     // s
 constexpr double still_share = 0.002;  // of the thickness
 constexpr double weight_share = 0.02;  // of a vertex's weight
 
-bool is_still(const World& world, const ClothRange& cloth, double bound) {
+/// One cloth, and how far it may stray, m.
+struct RestCheck {
+    const StepScene& scene;
+    const ClothRange& cloth;
+    double bound;
+};
+
+bool is_still(const RestCheck& check, const Vectors& positions, const Vectors& anchor) {
+    const auto& [scene, cloth, bound] = check;
     for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
-        if ((world.state.positions.at(i) - world.rest.anchor.at(i)).squaredNorm() > bound * bound) return false;
+        if ((positions.at(i) - anchor.at(i)).squaredNorm() > bound * bound) return false;
     }
     return true;
 }
 
-bool is_balanced(const World& world, const ClothRange& cloth, double bound) {
+bool is_balanced(const RestCheck& check, const Vectors& forces) {
+    const auto& [scene, cloth, bound] = check;
     // A force m a moves a vertex by a t^2/2.
     const double least = 2.0 * bound / (still_time * still_time);
-    const double acceleration = std::max(weight_share * world.settings.gravity.norm(), least);
-    const Vectors& forces = world.newton.current.forces.total;
+    const double acceleration = std::max(weight_share * scene.settings.gravity.norm(), least);
     for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
-        if (world.script.free[i] > 0.0 && forces.at(i).norm() > acceleration * world.model.mass[i]) return false;
+        if (scene.is_free(i) && forces.at(i).norm() > acceleration * scene.model.mass[i]) return false;
     }
     return true;
 }
 
-void update_cloth(World& world, const ClothRange& cloth, ClothRest& rest) {
-    const double bound = still_share * world.model.thickness[cloth.first];
-    if (is_still(world, cloth, bound)) {
-        rest.still_time += world.settings.time_step;
+void update_cloth(const RestCheck& check, const Vectors& forces, const Vectors& positions, Vectors& anchor, ClothRest& rest) {
+    const auto& [scene, cloth, bound] = check;
+    if (is_still(check, positions, anchor)) {
+        rest.still_time += scene.settings.time_step;
     } else {
         rest.still_time = 0.0;
-        for (int i = cloth.first; i < cloth.first + cloth.count; ++i) world.rest.anchor.set(i, world.state.positions.at(i));
+        for (int i = cloth.first; i < cloth.first + cloth.count; ++i) anchor.set(i, positions.at(i));
     }
-    rest.asleep = rest.still_time >= still_time && is_balanced(world, cloth, bound);
+    rest.asleep = rest.still_time >= still_time && is_balanced(check, forces);
 }
 
-void fall_asleep(World& world) {
-    RestState& rest = world.rest;
+void fall_asleep(ClothState& cloth, RestState& rest, StepReport& last) {
     rest.asleep = true;
-    world.state.velocities.resize(world.model.vertex_count());
+    for (auto* axis : {&cloth.velocities.x, &cloth.velocities.y, &cloth.velocities.z}) axis->assign(axis->size(), 0.0);
     // Zero, or still NaN where it is not measured.
-    world.report.largest_speed *= 0.0;
-    world.report.energy.dissipated_integrator += world.report.energy.kinetic;
-    world.report.energy.kinetic *= 0.0;
-    const StepReport& last = world.report;
+    last.largest_speed *= 0.0;
+    last.energy.dissipated_integrator += last.energy.kinetic;
+    last.energy.kinetic *= 0.0;
     rest.figures = {};
     rest.figures.slept = true;
     rest.figures.dt = rest.figures.smallest_dt = rest.figures.largest_dt = last.dt;
@@ -66,21 +70,22 @@ void fall_asleep(World& world) {
 
 }  // namespace
 
-void update_rest(World& world) {
-    RestState& rest = world.rest;
-    if (!world.plan.rest) return;
-    const bool moved = world.plan.pins_move || world.plan.obstacles_move || world.plan.seams_close;
-    if (moved || world.report.status != StepStatus::ok) return wake(rest);
-    if (rest.cloths.size() != world.model.cloths.size()) {
-        rest.cloths.assign(world.model.cloths.size(), {});
-        rest.anchor = world.state.positions;
+void update_rest(const StepScene& scene, const Vectors& forces, ClothState& cloth, RestState& rest, StepReport& report) {
+    if (!scene.plan.rest) return;
+    const bool moved = scene.plan.pins_move || scene.plan.obstacles_move || scene.plan.seams_close;
+    if (moved || report.status != StepStatus::ok) return wake(rest);
+    if (rest.cloths.size() != scene.model.cloths.size()) {
+        rest.cloths.assign(scene.model.cloths.size(), {});
+        rest.anchor = cloth.positions;
         return;
     }
     for (std::size_t c = 0; c < rest.cloths.size(); ++c) {
-        update_cloth(world, world.model.cloths[c], rest.cloths[c]);
-        world.report.sleeping_cloths += rest.cloths[c].asleep;
+        const ClothRange& range = scene.model.cloths[c];
+        const RestCheck check{scene, range, still_share * scene.model.thickness[range.first]};
+        update_cloth(check, forces, cloth.positions, rest.anchor, rest.cloths[c]);
+        report.sleeping_cloths += rest.cloths[c].asleep;
     }
-    if (world.report.sleeping_cloths == static_cast<int>(rest.cloths.size())) fall_asleep(world);
+    if (report.sleeping_cloths == static_cast<int>(rest.cloths.size())) fall_asleep(cloth, rest, report);
 }
 
 void wake(RestState& rest) {
@@ -88,10 +93,10 @@ void wake(RestState& rest) {
     rest.asleep = false;
 }
 
-StepReport sleep_through(World& world) {
-    world.report = world.rest.figures;
-    world.report.time = world.time;
-    return world.report;
+StepReport sleep_through(const RestState& rest, double time) {
+    StepReport report = rest.figures;
+    report.time = time;
+    return report;
 }
 
 }  // namespace percale

@@ -4,10 +4,9 @@
 
 #include "model/vectors.h"
 #include "percale/report.h"
+#include "plan/scene.h"
 
 namespace percale {
-
-struct World;
 
 /// For how long a cloth has been still.
 struct ClothRest {
@@ -30,12 +29,13 @@ struct RestState {
 ///   it by that distance in that time),
 /// while no pin and no obstacle moved and every step converged. Two conditions, as a swing is slow where it turns and
 /// balanced where it is fast.
-void update_rest(World& world);
+/// `forces`: of the last evaluation, N. Falling asleep changes velocities and the report.
+void update_rest(const StepScene& scene, const Vectors& forces, ClothState& cloth, RestState& rest, StepReport& report);
 
 /// Whatever changes the scene calls this.
 void wake(RestState& rest);
 
 /// A step of a simulation asleep: time passes, the state stays, the report repeats the last figures.
-StepReport sleep_through(World& world);
+StepReport sleep_through(const RestState& rest, double time);
 
 }  // namespace percale

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "world.h"
+#include "span.h"
 
 namespace percale {
 
-/// Moves the state over the whole step: an explicit update, or an implicit one in one part, or in halves where one does not
-/// converge or cannot follow pins and obstacles; adaptive steps in as many parts as their tolerance asks for. Sets the report's
-/// status and figures; the state is undefined after a failure.
-void solve_step(World& world);
+/// Solves the whole step from `start`: an explicit update, or an implicit one in one span, or in halves where one does not
+/// converge or cannot follow pins and obstacles; adaptive steps in as many spans as their tolerance asks for. Sets the report's
+/// status and figures. Returns the end of the step, which is in the workspace until the next one; null if the step failed.
+StepState* solve_step(const StepScene& scene, const StepState& start, Workspace& work, StepReport& report);
 
 }  // namespace percale

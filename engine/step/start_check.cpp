@@ -27,9 +27,9 @@ public:
 
     std::string start_text(const StartFault& fault) const {
         if (fault.between_cloths()) return cloth_text(fault);
-        const std::string& obstacle_name = world_.script.obstacles[fault.obstacle].name;
+        const std::string& obstacle_name = world_.scene.script.obstacles[fault.obstacle].name;
         if (fault.intersecting_pairs > 0) {
-            const int corner = world_.model.triangles[fault.cloth_triangle][0];
+            const int corner = world_.scene.model.triangles[fault.cloth_triangle][0];
             return "the cloth starts through " + obstacle_name + ": " + std::to_string(fault.intersecting_pairs) +
                    " intersecting triangle pairs, one of them at " + vertex_name(corner) + " and triangle " +
                    std::to_string(fault.obstacle_triangle);
@@ -44,9 +44,9 @@ public:
 private:
     /// The cloth of a triangle of the whole system, and its index there.
     std::pair<const ClothRange*, long> cloth_triangle(int triangle) const {
-        const std::vector<Triangle>& all = world_.model.triangles;
+        const std::vector<Triangle>& all = world_.scene.model.triangles;
         const auto owns = [&](const ClothRange& range) { return all[triangle][0] < range.first + range.count; };
-        const auto owner = std::find_if(world_.model.cloths.begin(), world_.model.cloths.end(), owns);
+        const auto owner = std::find_if(world_.scene.model.cloths.begin(), world_.scene.model.cloths.end(), owns);
         const auto first = std::find_if(all.begin(), all.end(), [&](const Triangle& t) { return t[0] >= owner->first; });
         return {&*owner, triangle - (first - all.begin())};
     }
@@ -67,7 +67,7 @@ private:
 
     /// The cloth that owns a vertex of the whole system; null if there is no such vertex.
     const ClothRange* owner(int index) const {
-        for (const ClothRange& range : world_.model.cloths) {
+        for (const ClothRange& range : world_.scene.model.cloths) {
             if (index >= range.first && index < range.first + range.count) return &range;
         }
         return nullptr;
@@ -78,7 +78,7 @@ private:
 
 /// The first pinned vertex inside the obstacle, -1 where there is none.
 int pin_inside(const World& world, const StartFault& fault) {
-    const auto pinned = [&](int v) { return world.script.free[v] == 0.0; };
+    const auto pinned = [&](int v) { return world.scene.script.free[v] == 0.0; };
     const auto found = std::find_if(fault.inside_vertices.begin(), fault.inside_vertices.end(), pinned);
     return found == fault.inside_vertices.end() ? -1 : *found;
 }
@@ -93,10 +93,10 @@ int pin_inside(const World& world, const StartFault& fault) {
 
 /// The detector may know the obstacles from the start of an earlier step only.
 void place_obstacles(World& world) {
-    for (std::size_t k = 0; k < world.script.obstacles.size(); ++k) {
-        ObstacleState& obstacle = world.script.obstacles[k];
+    for (std::size_t k = 0; k < world.scene.script.obstacles.size(); ++k) {
+        ObstacleState& obstacle = world.scene.script.obstacles[k];
         if (obstacle.settled) continue;
-        world.detector->move_obstacle(static_cast<int>(k), obstacle.start, obstacle.start);
+        world.scene.detector->move_obstacle(static_cast<int>(k), obstacle.start, obstacle.start);
         obstacle.settled = true;
     }
 }
@@ -106,17 +106,17 @@ void place_obstacles(World& world) {
 std::vector<StartMove> clear_start(World& world) {
     const Names names(world);
     place_obstacles(world);
-    const StartFault fault = world.detector->check_start(world.state.points);
+    const StartFault fault = world.scene.detector->check_start(world.state.cloth.points);
     if (!fault.any()) return {};
     const std::string what = names.start_text(fault);
     if (fault.between_cloths()) refuse_start(names, what, fault);
     if (const int pin = pin_inside(world, fault); pin >= 0) {
         refuse_start(names,
-                     "pinned " + names.vertex_name(pin) + " starts inside " + world.script.obstacles[fault.obstacle].name +
+                     "pinned " + names.vertex_name(pin) + " starts inside " + world.scene.script.obstacles[fault.obstacle].name +
                          "; move the pin or the obstacle, or do not pin this vertex",
                      fault);
     }
-    if (world.settings.start == StartRule::refuse) {
+    if (world.scene.settings.start == StartRule::refuse) {
         refuse_start(names, what + "; move the cloth or the obstacle apart, or allow start = repair", fault);
     }
     StartRepair repair = repair_start(world);

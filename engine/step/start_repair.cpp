@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "forces/springs.h"
-#include "plan/planning.h"
 #include "step.h"
 
 namespace percale {
@@ -21,31 +20,30 @@ class Paused {
 public:
     explicit Paused(World& world)
         : world_(world),
-          settings_(world.settings),
-          time_(world.time),
-          time_error_(world.time_error),
-          velocities_(world.state.velocities),
-          targets_(world.script.pin_targets),
-          obstacles_(world.script.obstacles) {
-        world.settings.time_step = relaxation_step;
-        world.settings.scheme = Scheme::backward_euler;
-        world.settings.adaptive = false;
-        world.settings.gravity = Vec3::Zero();
-        world.settings.newton_tolerance.reset();
-        world.script.pin_targets = world.state.positions;
-        for (ObstacleState& obstacle : world.script.obstacles) obstacle.end = obstacle.start;
+          settings_(world.scene.settings),
+          time_(world.state.time),
+          time_error_(world.state.time_error),
+          velocities_(world.state.cloth.velocities),
+          targets_(world.scene.script.pin_targets),
+          obstacles_(world.scene.script.obstacles) {
+        world.scene.settings.time_step = relaxation_step;
+        world.scene.settings.scheme = Scheme::backward_euler;
+        world.scene.settings.adaptive = false;
+        world.scene.settings.gravity = Vec3::Zero();
+        world.scene.settings.newton_tolerance.reset();
+        world.scene.script.pin_targets = world.state.cloth.positions;
+        for (ObstacleState& obstacle : world.scene.script.obstacles) obstacle.end = obstacle.start;
         scene_changed(world);
     }
     ~Paused() {
-        world_.settings = settings_;
-        world_.time = time_;
-        world_.time_error = time_error_;
-        world_.state.velocities = velocities_;
-        world_.state.grips.clear();
-        world_.script.pin_targets = targets_;
-        for (std::size_t k = 0; k < obstacles_.size(); ++k) world_.script.obstacles[k].end = obstacles_[k].end;
-        world_.report = {};
-        world_.contact_energy = 0.0;
+        world_.scene.settings = settings_;
+        world_.state.time = time_;
+        world_.state.time_error = time_error_;
+        world_.state.cloth.velocities = velocities_;
+        world_.state.cloth.grips.clear();
+        world_.scene.script.pin_targets = targets_;
+        for (std::size_t k = 0; k < obstacles_.size(); ++k) world_.scene.script.obstacles[k].end = obstacles_[k].end;
+        world_.state.contact_energy = 0.0;
         scene_changed(world_);
     }
     Paused(const Paused&) = delete;
@@ -59,21 +57,21 @@ private:
     std::vector<ObstacleState> obstacles_;
 };
 
-double strain(const World& world) { return largest_strain(world.model.springs, world.state.positions); }
+double strain(const World& world) { return largest_strain(world.scene.model.springs, world.state.cloth.positions); }
 
 void relax(World& world, double enough) {
     const Paused paused(world);
     for (int i = 0; i < most_relaxations && strain(world) > enough; ++i) {
-        for (int v = 0; v < world.model.vertex_count(); ++v) world.state.velocities.set(v, Vec3::Zero());
+        for (int v = 0; v < world.scene.model.vertex_count(); ++v) world.state.cloth.velocities.set(v, Vec3::Zero());
         if (!step(world).ok()) return;
     }
 }
 
 void place(World& world, std::span<const Vec3> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (world.script.free[i] > 0.0) world.state.positions.set(static_cast<int>(i), points[i]);
+        if (world.scene.script.free[i] > 0.0) world.state.cloth.positions.set(static_cast<int>(i), points[i]);
     }
-    update_points(world.state);
+    update_points(world.state.cloth);
 }
 
 StartMove& move_out_of(int obstacle, std::vector<StartMove>& moves) {
@@ -90,8 +88,8 @@ std::vector<StartMove> moves_of(const World& world, const ClothRange& cloth, std
     const auto first = std::find_if(own.begin(), own.end(), [](int obstacle) { return obstacle >= 0; });
     if (first == own.end()) return moves;
     for (int v = cloth.first; v < cloth.first + cloth.count; ++v) {
-        const double way = (world.state.points[v] - before[v]).norm();
-        if (way <= seen_part * world.model.thickness[v]) continue;
+        const double way = (world.state.cloth.points[v] - before[v]).norm();
+        if (way <= seen_part * world.scene.model.thickness[v]) continue;
         StartMove& move = move_out_of(cause[v] >= 0 ? cause[v] : *first, moves);
         ++move.vertices_moved;
         move.largest_move = std::max(move.largest_move, way);
@@ -101,11 +99,11 @@ std::vector<StartMove> moves_of(const World& world, const ClothRange& cloth, std
 
 std::vector<StartMove> tell_moves(const World& world, std::span<const Vec3> before, std::span<const int> cause) {
     std::vector<StartMove> all;
-    for (std::size_t c = 0; c < world.model.cloths.size(); ++c) {
-        for (StartMove& move : moves_of(world, world.model.cloths[c], before, cause)) {
+    for (std::size_t c = 0; c < world.scene.model.cloths.size(); ++c) {
+        for (StartMove& move : moves_of(world, world.scene.model.cloths[c], before, cause)) {
             move.cloth = static_cast<int>(c);
-            move.cloth_name = world.model.cloths[c].name;
-            move.obstacle_name = world.script.obstacles[move.obstacle].name;
+            move.cloth_name = world.scene.model.cloths[c].name;
+            move.obstacle_name = world.scene.script.obstacles[move.obstacle].name;
             all.push_back(std::move(move));
         }
     }
@@ -121,10 +119,10 @@ std::string strain_text(double strain) {
 }  // namespace
 
 StartRepair repair_start(World& world) {
-    const ClothState before = world.state;
+    const ClothState before = world.state.cloth;
     const double strain_before = strain(world);
     const std::optional<Untangled> out =
-        world.detector->untangle(before.points, {world.script.free.data(), before.points.size()});
+        world.scene.detector->untangle(before.points, {world.scene.script.free.data(), before.points.size()});
     if (!out) return {.obstruction = "no way out was found"};
     place(world, out->positions);
     relax(world, std::max(good_strain, strain_before));
@@ -132,12 +130,12 @@ StartRepair repair_start(World& world) {
     const double strain_after = strain(world);
     if (strain_after > std::max(most_strain, strain_before))
         repair.obstruction = strain_text(strain_after);
-    else if (world.detector->check_start(world.state.points).any())
+    else if (world.scene.detector->check_start(world.state.cloth.points).any())
         repair.obstruction = "no clear way out was found";
     if (repair.obstruction.empty())
         repair.moves = tell_moves(world, before.points, out->obstacle);
     else
-        world.state = before;
+        world.state.cloth = before;
     return repair;
 }
 

@@ -1,60 +1,91 @@
 #include "step.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "checked_terms.h"
 #include "measure.h"
-#include "rest_detection.h"
-#include "scripted_motion.h"
+#include "motion.h"
+#include "plan/planning.h"
 #include "solve_step.h"
 
 namespace percale {
 namespace {
 
-bool all_finite(const ClothState& state) {
-    double sum = 0.0;
-    for (const auto* vectors : {&state.positions, &state.velocities}) {
-        for (const auto* axis : {&vectors->x, &vectors->y, &vectors->z}) {
-            sum += sum_terms(0, static_cast<int>(axis->size()), [&](int i) { return 0.0 * (*axis)[i]; });
-        }
-    }
-    return sum == 0.0;
+/// s per second: how fast the time step that contact stiffness is made for may become shorter. Stiffness goes as 1/dt^2, and what
+/// a stiffer contact stores nobody has paid for; slowly against its own period, 2 pi sqrt(2) dt, it stores nothing.
+constexpr double fastest_shortening = 0.05;
+
+StepReport begin_report(double time_step) {
+    StepReport report;
+    report.dt = report.smallest_dt = report.largest_dt = time_step;
+    return report;
 }
 
 /// Compensated sum (Kahan 1965), so that a thousand steps of 1/1000 s are 1 s.
-void advance_time(World& world) {
-    const double length = world.settings.time_step - world.time_error;
-    const double sum = world.time + length;
-    world.time_error = (sum - world.time) - length;
-    world.time = sum;
+void advance_time(double time_step, StepState& state) {
+    const double length = time_step - state.time_error;
+    const double sum = state.time + length;
+    state.time_error = (sum - state.time) - length;
+    state.time = sum;
+}
+
+/// The plan is brought up to date; returns the work of pins that came or went, J.
+double plan_step(World& world) {
+    StepScene& scene = world.scene;
+    const double work = world.plan_outdated ? renew_plan(scene, world.state.cloth) : 0.0;
+    world.plan_outdated = false;
+    set_motion_of_step(scene, world.state.cloth, world.state.time);
+    const double dt = scene.settings.time_step;
+    if (scene.plan.solve) world.state.contact_dt = std::max(dt, world.state.contact_dt - fastest_shortening * dt);
+    return work;
+}
+
+/// The end of the step, if it is one: nothing infinite, no force that contradicts its energy.
+void check_end(const StepScene& scene, const StepState& start, const StepState& end, const Workspace& work, StepReport& report) {
+    if (report.ok() && !all_finite(end.cloth)) report.status = StepStatus::not_finite;
+    if (report.ok() && scene.settings.check_derivatives)
+        check_derivatives({scene, start.cloth, end, work, report.smallest_dt}, report);
 }
 
 }  // namespace
 
+void scene_changed(World& world) {
+    world.plan_outdated = true;
+    world.state.past.forget();
+    wake(world.rest);
+}
+
 StepReport step(World& world) {
-    if (world.rest.asleep) {
-        advance_time(world);
-        return sleep_through(world);
+    auto& [pool, scene, state, rest, work, views, plan_outdated, changed] = world;
+    const double dt = scene.settings.time_step;
+    if (rest.asleep) {
+        advance_time(dt, state);
+        return sleep_through(rest, state.time);
     }
-    world.report = {};
-    world.report.dt = world.report.smallest_dt = world.report.largest_dt = world.settings.time_step;
-    world.before = world.state;
-    set_targets(world);  // where pins and obstacles have to be at the end; nothing moves yet
-    solve_step(world);   // explicit update, or Newton on the implicit scheme; every move is cut safe
-    if (world.report.ok() && !all_finite(world.state)) world.report.status = StepStatus::not_finite;
-    if (world.report.ok() && world.settings.check_derivatives) check_derivatives(world);
-    if (world.report.ok()) {
-        finish_motion(world);
-        advance_time(world);
-        measure(world);
-        update_rest(world);
+    StepReport report = begin_report(dt);
+    work.times = {};
+    report.energy.work = plan_step(world);
+    tell_obstacles(scene);  // where they have to be at the end of the step; nothing moves yet
+    const StepMeasure measure(scene, state, report.energy.work);
+
+    StepState* end =
+        solve_step(scene, state, work, report);  // explicit, or Newton on the implicit scheme; every move is cut safe
+    if (end) check_end(scene, state, *end, work, report);
+
+    if (report.ok()) {
+        std::swap(state, *end);
+        finish_motion(scene);
+        advance_time(dt, state);
+        measure.accepted(state, work, report);
+        update_rest(scene, work.newton.current.forces.total, state.cloth, rest, report);
     } else {
-        world.state = world.before;
-        wake(world.rest);
-        measure_kept(world);
+        state.past.forget();
+        wake(rest);
+        measure.kept(state, report);
     }
-    world.report.time = world.time;
-    return world.report;
+    report.stages = work.times;
+    report.time = state.time;
+    return report;
 }
 
 }  // namespace percale

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world.h"
+#include "plan/scene.h"
 
 namespace percale {
 namespace {
@@ -43,11 +43,11 @@ bool accept_attempt(const StepAttempt& attempt, double tolerance, StepControl& c
     return true;
 }
 
-double mean_size(const World& world, const Vectors& error) {
+double mean_size(const StepScene& scene, const Vectors& error) {
     double largest = 0.0;
-    for (const ClothRange& cloth : world.model.cloths) {
+    for (const ClothRange& cloth : scene.model.cloths) {
         const double sum = sum_terms(cloth.first, cloth.count,
-                                     [&](int i) { return world.script.free[i] * world.model.mass[i] * square_at(error, i); });
+                                     [&](int i) { return scene.script.free[i] * scene.model.mass[i] * square_at(error, i); });
         largest = std::max(largest, sum / cloth.mass);
     }
     return std::sqrt(largest);

@@ -2,7 +2,7 @@
 
 namespace percale {
 
-struct World;
+struct StepScene;
 struct Vectors;
 
 /// Chooses the lengths of adaptive steps. Errors are to add up to `tolerance` m a second: a length of dt may cost tolerance dt,
@@ -36,6 +36,6 @@ double next_length(const StepControl& control, double remaining);
 bool accept_attempt(const StepAttempt& attempt, double tolerance, StepControl& control);
 
 /// The largest of any cloth's root of the mean by mass of |e|^2 over its free vertices.
-double mean_size(const World& world, const Vectors& error);
+double mean_size(const StepScene& scene, const Vectors& error);
 
 }  // namespace percale

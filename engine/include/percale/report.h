@@ -20,6 +20,28 @@ enum class StepStatus {  // those up to tolerance_missed are accepted
     not_finite,         // failed: a state would have become infinite or NaN; the state is that of the step's start
 };
 
+/// What became of a span, a piece of a step that is solved at once. All but `solved` drop it; it is solved again in shorter ones.
+enum class SpanEnd {
+    solved,
+    not_converged,  // the solver used up its iterations
+    blocked,        // pins, obstacles or cloth could not reach the end of their path without crossing
+    not_finite,     // a state would have become infinite or NaN
+    inexact,        // adaptive steps: the estimated error is above the tolerance
+};
+
+/// How many spans of a step were dropped, by what became of them.
+struct DroppedSpans {
+    int not_converged = 0, blocked = 0, not_finite = 0, inexact = 0;
+
+    void add(SpanEnd end);
+    DroppedSpans& operator+=(const DroppedSpans& more);
+    int total() const { return not_converged + blocked + not_finite + inexact; }
+    /// "2 not converged, 1 blocked"; empty if none was dropped.
+    std::string text() const;
+
+    bool operator==(const DroppedSpans&) const = default;
+};
+
 /// CPU seconds of the calling thread, by stage.
 struct StageTimes {
     double refresh = 0.0, evaluate = 0.0, force = 0.0, setup = 0.0, solve = 0.0, cut = 0.0, measure = 0.0;
@@ -78,7 +100,8 @@ struct StepReport {
     int linear_iterations = 0;
     int line_search_cuts = 0;
     LinearSolver linear_solver = LinearSolver::automatic;  // in use at the end; automatic if nothing was solved
-    int halvings = 0;                                      // how often the step was redone shorter
+    int halvings = 0;                                      // how often a span was solved again as two halves
+    DroppedSpans dropped;                                  // why that was done, and why adaptive lengths were rejected
     double residual = 0.0;           // relative to the first of the step, or to gravity's impulse where that is larger
     double smallest_fraction = 1.0;  // smallest part of a move that was free of crossing
     int sleeping_cloths = 0;         // at rest

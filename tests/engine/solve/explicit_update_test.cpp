@@ -1,4 +1,4 @@
-#include "engine/schemes/explicit_update.h"
+#include "engine/solve/explicit_update.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,21 +1,20 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "forces/total_force.h"
-#include "model/cloth_model.h"
+#include "plan/scene.h"
 
 namespace percale {
 
 /// One explicit step. Prescribed vertices move straight to their targets.
-struct ExplicitPart {
-    const Compute* compute = nullptr;
-    const ClothModel* model = nullptr;
-    const StepSettings* settings = nullptr;
-    const Vectors* targets = nullptr;             // m, where prescribed vertices are at the end
-    const AlignedVector<double>* free = nullptr;  // 1 for free vertices, 0 for prescribed ones and padding
-    double dt = 0.0;                              // s
-    StepWind* wind = nullptr;                     // null: no air
+struct ExplicitStep {
+    const StepScene& scene;
+    const Vectors& targets;                    // m, where prescribed vertices are at the end
+    double dt;                                 // s
+    StepWind* wind = nullptr;                  // null: no air; it is set anew at each stage
+    std::span<const double> rest_length = {};  // m, ClothState::rest_length in the middle of the step
 };
 
 struct ExplicitSpace {
@@ -32,6 +31,6 @@ struct ExplicitSpace {
 /// symplectic_euler: v' = v + dt a(q, v), q' = q + dt v'
 /// midpoint:         the slopes at q + dt/2 v, v + dt/2 a
 /// rk4:              classical Runge-Kutta of order 4
-void step_explicit(Scheme scheme, const ExplicitPart& part, ExplicitSpace& space, ClothState& state);
+void step_explicit(Scheme scheme, const ExplicitStep& step, ExplicitSpace& space, ClothState& state);
 
 }  // namespace percale

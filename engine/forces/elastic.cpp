@@ -1,0 +1,57 @@
+#include "elastic.h"
+
+#include "hinge_bending.h"
+#include "membrane_springs.h"
+#include "spring_loss.h"
+
+namespace percale {
+namespace {
+
+bool has_shapes(const ClothModel& model) { return !model.hinges.all.empty() || !model.membrane.empty(); }
+
+void evaluate_at(const Compute& compute, const ClothModel& model, const Vectors& positions, std::span<const double> rest_length,
+                 ElasticSpace& space) {
+    constexpr double any_dt = 1.0;  // s: without damping and matrix forces do not know it
+    space.still.resize(model.vertex_count());
+    set_step_springs(compute, {model.adjacency, positions, DampingForm::velocity, any_dt, rest_length, &model.springs},
+                     space.springs);
+    evaluate_forces({.compute = &compute,
+                     .model = &model,
+                     .springs = &space.springs,
+                     .positions = &positions,
+                     .velocities = &space.still,
+                     .dt = any_dt},
+                    space.forces);
+}
+
+}  // namespace
+
+void evaluate_elastic(const Compute& compute, const ClothModel& model, const ClothState& state, ElasticSpace& space) {
+    evaluate_at(compute, model, state.positions, state.rest_length, space);
+}
+
+double elastic_energy(const ClothModel& model, const Vectors& positions, std::span<const double> rest_length) {
+    double energy = elastic_energy(model.springs, positions, rest_length);
+    if (!model.hinges.all.empty()) energy += hinge_energy(model.hinges, positions);
+    if (!model.membrane.empty()) energy += membrane_energy(model.membrane, positions);
+    return energy;
+}
+
+double shape_loss(const Compute& compute, const ClothModel& model, const ShapeMove& move, ElasticSpace& space) {
+    if (!has_shapes(model)) return 0.0;
+    evaluate_at(compute, model, move.positions, move.rest_length, space);
+    const Vectors& force = space.forces.total;
+    const double taken =
+        sum_terms(0, model.vertex_count(), [&](int i) { return -force.at(i).dot(move.end.at(i) - move.start.at(i)); });
+    const SpringLoss springs = spring_loss(model.springs, {.start = move.start,
+                                                           .end = move.end,
+                                                           .positions = move.positions,
+                                                           .velocities = space.still,
+                                                           .form = DampingForm::velocity,
+                                                           .dt = 1.0,
+                                                           .rest_length = move.rest_length});
+    const auto energy = [&](const Vectors& positions) { return elastic_energy(model, positions, move.rest_length); };
+    return taken - (energy(move.end) - energy(move.start)) - springs.integrator;
+}
+
+}  // namespace percale

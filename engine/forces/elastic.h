@@ -1,0 +1,31 @@
+#pragma once
+
+#include "model/cloth_state.h"
+#include "total_force.h"
+
+namespace percale {
+
+/// Elastic energy of springs, hinges and membranes, J. `rest_length`: ClothState::rest_length.
+double elastic_energy(const ClothModel& model, const Vectors& positions, std::span<const double> rest_length);
+
+/// Memory for elastic forces.
+struct ElasticSpace {
+    StepSprings springs;
+    Forces forces;
+    Vectors still;  // velocities of 0
+};
+
+/// space.forces.total = elastic forces of springs, hinges and membranes, N.
+void evaluate_elastic(const Compute& compute, const ClothModel& model, const ClothState& state, ElasticSpace& space);
+
+/// A straight move, with the positions at which a scheme took the forces for it, m, and the springs' rest lengths there.
+struct ShapeMove {
+    const Vectors &start, &end, &positions;
+    std::span<const double> rest_length;
+};
+
+/// Bregman term of the energy U of hinges and membranes for the force f that the scheme took, -f . (q_end - q_start) - (U(q_end)
+/// - U(q_start)), J; 0 without such.
+double shape_loss(const Compute& compute, const ClothModel& model, const ShapeMove& move, ElasticSpace& space);
+
+}  // namespace percale

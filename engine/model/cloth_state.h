@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "percale/mesh.h"
+#include "vectors.h"
+
+namespace percale {
+
+/// What a vertex holds on to by friction: the point of the obstacle that lies `stretch` behind it.
+struct Grip {
+    int vertex = -1, obstacle = -1;
+    Vec3 stretch = Vec3::Zero();  // m, world, along the surface
+};
+
+/// Where the cloth is, and what its springs and contacts remember.
+struct ClothState {
+    Vectors positions;         // m
+    Vectors velocities;        // m/s
+    std::vector<Vec3> points;  // positions again, one after the other, for detectors and callers
+    std::vector<Grip> grips;   // sorted by vertex and obstacle
+    /// m, of each spring of the network; empty: those of the model. Seams change theirs.
+    std::vector<double> rest_length;
+};
+
+/// Copies positions to points.
+inline void update_points(ClothState& state) { copy_out(state.positions, state.points); }
+
+}  // namespace percale

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernels/compute.h"
+#include "model/cloth_model.h"
+#include "model/seams.h"
+#include "percale/contact.h"
+#include "percale/settings.h"
+#include "step_plan.h"
+
+namespace percale {
+
+struct ObstacleState {
+    std::string name;
+    Pose start, end;  // of the coming step
+    int triangles = 0;
+    bool settled = true;  // the detector knows that it stays at `start`
+};
+
+/// What the script says about the coming step.
+struct Script {
+    AlignedVector<double> free;  // 1, or 0 where pinned and in the padding
+    Vectors pin_targets;         // m, at the end of the coming step; meaningful where pinned
+    std::vector<ObstacleState> obstacles;
+    std::vector<Seam> seams;
+};
+
+/// All that is fixed while a step runs: no step writes to it. The detector remembers its search; what it answers follows from
+/// what it is told.
+struct StepScene {
+    Compute compute;
+    StepSettings settings;
+    ClothModel model;
+    Script script;
+    StepPlan plan;
+    std::unique_ptr<ContactDetector> detector;  // null: no contact
+
+    bool is_free(int vertex) const { return script.free[vertex] > 0.0; }
+};
+
+}  // namespace percale

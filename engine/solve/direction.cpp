@@ -1,0 +1,79 @@
+#include "direction.h"
+
+#include "support/stage_timer.h"
+
+namespace percale {
+namespace {
+
+void set_prescribed(const StageEquations& equations, Vectors& direction) {
+    const ImplicitStage& stage = equations.stage();
+    direction.resize(stage.scene.model.vertex_count());
+    if (!stage.scene.plan.pins_move || equations.arrived()) return;
+    const Vectors& positions = equations.space().current.positions;
+    for (int i = 0; i < stage.scene.model.vertex_count(); ++i) {
+        if (!stage.scene.is_free(i)) direction.set(i, (stage.targets.at(i) - positions.at(i)) / stage.base.h);
+    }
+}
+
+/// M dv = -r
+void divide_by_mass(const StepScene& scene, const Vectors& residual, Vectors& direction) {
+    for (int i = 0; i < scene.model.vertex_count(); ++i) {
+        if (scene.is_free(i)) direction.set(i, -residual.at(i) / scene.model.mass[i]);
+    }
+}
+
+void fill_system(const StageEquations& equations) {
+    const ImplicitStage& stage = equations.stage();
+    NewtonSpace& space = equations.space();
+    const StagePoint& point = space.current;
+    StageTimer timer(equations.times().setup);
+    space.solver.fill(point.forces.spring_terms, point.contact.blocks);
+    space.right_side.resize(stage.scene.model.vertex_count());
+    add_scaled(space.right_side, -1.0, point.residual);
+    if (!stage.scene.plan.obstacles_move || equations.arrived()) return;
+    const double rate = (stage.span.to - point.fraction) / stage.base.h;
+    add_obstacle_advance(point.rows, point.contact, rate, stage.scene.script.free, space.right_side);
+}
+
+/// Springs do not resist a translation, so the one left over by an unfinished linear solve is known exactly: with it, a cloth
+/// that nothing holds keeps its momentum whatever the tolerance.
+void correct_translation(const StepScene& scene, const Vectors& residual, Vectors& direction) {
+    for (const Body& body : scene.model.bodies) {
+        Vec3 missing = Vec3::Zero();
+        bool held = false;
+        for (int i = body.first; i < body.first + body.count; ++i) {
+            held = held || !scene.is_free(i);
+            missing -= residual.at(i) + scene.model.mass[i] * direction.at(i);
+        }
+        if (held) continue;
+        for (int i = body.first; i < body.first + body.count; ++i) direction.add(i, missing / body.mass);
+    }
+}
+
+}  // namespace
+
+Direction newton_direction(const StageEquations& equations, const SolveTarget& target) {
+    const ImplicitStage& stage = equations.stage();
+    NewtonSpace& space = equations.space();
+    const StagePoint& point = space.current;
+    set_prescribed(equations, space.direction);
+    if (!stage.options.jacobians) {
+        divide_by_mass(stage.scene, point.residual, space.direction);
+        return {};
+    }
+    fill_system(equations);
+    StageTimer timer(equations.times().solve);
+    const SolveReport solved = space.solver.solve(space.right_side, target, space.direction);
+    if (!stage.scene.plan.wind && point.rows.size() == 0) correct_translation(stage.scene, point.residual, space.direction);
+    return {solved.iterations, solved.converged};
+}
+
+bool estimate_direction(const StageEquations& equations) {
+    NewtonSpace& space = equations.space();
+    StageTimer timer(equations.times().solve);
+    if (!space.solver.estimate(space.current.residual, space.direction)) return false;
+    add_scaled(space.direction, -2.0, space.direction);  // the direction is -A^-1 r
+    return true;
+}
+
+}  // namespace percale

@@ -1,0 +1,202 @@
+#include "stage_equations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/stage_timer.h"
+
+namespace percale {
+namespace {
+
+/// Before and after contact is added, so that the factor of all other forces is 1.
+void weigh(double factor, Forces& forces) {
+    if (factor == 1.0) return;
+    for (auto* axis : {&forces.total.x, &forces.total.y, &forces.total.z}) {
+        for (double& force : *axis) force *= factor;
+    }
+    forces.potential *= factor;
+}
+
+/// to = from + fraction (to - from)
+void shorten(const Vectors& from, double fraction, Vectors& to) {
+    for (std::size_t i = 0; i < to.padded_size(); ++i) {
+        to.x[i] = from.x[i] + fraction * (to.x[i] - from.x[i]);
+        to.y[i] = from.y[i] + fraction * (to.y[i] - from.y[i]);
+        to.z[i] = from.z[i] + fraction * (to.z[i] - from.z[i]);
+    }
+}
+
+}  // namespace
+
+StageEquations::StageEquations(const ImplicitStage& stage, const ContactMemory& memory, NewtonSpace& space, StageTimes& times)
+    : stage_(stage),
+      space_(space),
+      times_(times),
+      law_(space.law(stage.scene.settings.contact_response)),
+      contact_dt_(stage.base.h * std::sqrt(stage.contact_weight)) {
+    const StepScene& scene = stage.scene;
+    StagePoint& current = space.current;
+    current.positions = stage.start.positions;
+    current.velocities = stage.start.velocities;
+    current.points = space.trial.points = stage.start.points;
+    current.fraction = stage.moves_are_scripted() ? stage.span.from : stage.span.to;
+    space.frozen_diagonal.padded = 0;
+    if (!space.solver.is_for(scene.model)) space.solver.set_model(scene.compute, scene.model, scene.settings.linear_solver);
+    space.solver.matrix.free = scene.script.free;
+    space.solver.start_part();
+    if (scene.plan.contacts) law_.begin(memory);
+    for (auto* vectors : {&space.direction, &space.right_side}) vectors->resize(scene.model.vertex_count());
+    space.friction = {
+        .positions = &stage.start.positions, .fraction = stage.span.from, .grips = stage.start.grips, .flows = stage.flows};
+    set_step_springs(
+        scene.compute,
+        {scene.model.adjacency, stage.start.positions, scene.plan.damping, stage.base.h, stage.rest_length, &scene.model.springs},
+        space.springs);
+}
+
+void StageEquations::predict() {
+    const StepScene& scene = stage_.scene;
+    StagePoint& current = space_.current;
+    for (int i = 0; i < scene.model.vertex_count(); ++i) {
+        const Vec3 to_target = (stage_.targets.at(i) - stage_.base.positions.at(i)) / stage_.base.h;
+        space_.direction.set(i, scene.is_free(i) ? stage_.start.velocities.at(i) : to_target);
+    }
+    // Velocities along the way are (q - q*)/h: what a cut takes from the move is not stored as energy.
+    current.velocities.resize(scene.model.vertex_count());
+    set_extrapolated(current.velocities, 1.0 / stage_.base.h, stage_.start.positions, stage_.base.positions, current.velocities);
+    add_scaled(space_.direction, -1.0, current.velocities);
+    aim(1.0);
+    if (scene.plan.contacts) {
+        StageTimer timer(times_.refresh);
+        scene.detector->refresh(current.points, space_.trial.points);
+    }
+    cut();
+    std::swap(space_.current, space_.trial);
+}
+
+void StageEquations::aim(double factor) {
+    StagePoint& trial = space_.trial;
+    trial.velocities = space_.current.velocities;
+    add_scaled(trial.velocities, factor, space_.direction);
+    place(trial);
+    const double reached = space_.current.fraction;
+    trial.fraction = factor == 1.0 ? stage_.span.to : reached + factor * (stage_.span.to - reached);
+}
+
+void StageEquations::place(StagePoint& point) const {
+    point.positions = stage_.base.positions;
+    add_scaled(point.positions, stage_.base.h, point.velocities);
+    if (stage_.scene.plan.contacts) copy_out(point.positions, point.points);
+}
+
+double StageEquations::cut() {
+    if (!stage_.scene.plan.contacts) return 1.0;
+    StageTimer timer(times_.cut);
+    const StagePoint& current = space_.current;
+    StagePoint& trial = space_.trial;
+    const StepFraction span{current.fraction, trial.fraction};
+    const double kept = stage_.scene.detector->largest_safe_fraction(current.points, trial.points, span);
+    smallest_fraction_ = std::min(smallest_fraction_, kept);
+    if (kept >= 1.0) return 1.0;
+    shorten(current.velocities, kept, trial.velocities);
+    place(trial);
+    if (stage_.moves_are_scripted()) trial.fraction = current.fraction + kept * (span.to - span.from);
+    return kept;
+}
+
+void StageEquations::evaluate(StagePoint& point) {
+    const StepScene& scene = stage_.scene;
+    if (scene.plan.contacts) {
+        StageTimer timer(times_.evaluate);
+        scene.detector->evaluate(point.points, point.fraction, point.rows);
+    }
+    StageTimer timer(times_.force);
+    evaluate_forces({.compute = &scene.compute,
+                     .model = &scene.model,
+                     .springs = &space_.springs,
+                     .positions = &point.positions,
+                     .velocities = &point.velocities,
+                     .gravity = scene.settings.gravity,
+                     .wind = stage_.wind,
+                     .dt = stage_.base.h,
+                     .with_matrix = true},
+                    point.forces);
+    if (stage_.wind && stage_.wind->blows) set_vertex_blocks(point.forces.wind.blocks, point.contact);
+    if (scene.plan.contacts) add_contact(point);
+    set_residual(point);
+}
+
+void StageEquations::add_contact(StagePoint& point) {
+    const bool first = space_.frozen_diagonal.padded == 0;
+    if (first) {
+        fill_diagonal(space_.solver.matrix, point.forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
+        space_.frozen_load = point.forces.total;
+        law_.meet(point.rows);
+    }
+    weigh(1.0 / stage_.contact_weight, point.forces);
+    law_.evaluate(contact_point(point, first), contact_forces(point));
+    weigh(stage_.contact_weight, point.forces);
+    largest_stiffness_ = std::max(largest_stiffness_, point.contact.largest_stiffness);
+}
+
+ContactPoint StageEquations::contact_point(const StagePoint& point, bool first) const {
+    const StepScene& scene = stage_.scene;
+    return {.rows = point.rows,
+            .positions = point.positions,
+            .velocities = point.velocities,
+            .step = {.dt = contact_dt_,
+                     .stiffness_dt = stage_.contact_dt,
+                     .obstacle_rate = 1.0 / scene.settings.time_step,
+                     .fraction = point.fraction,
+                     .gravity = scene.settings.gravity,
+                     .mass = &scene.model.mass,
+                     .diagonal = &space_.frozen_diagonal,
+                     .load = &space_.frozen_load,
+                     .friction = &space_.friction,
+                     .previous = first ? nullptr : &space_.current.contact.touches},
+            .obstacles_moved = point.fraction - stage_.span.from};
+}
+
+ContactForces StageEquations::contact_forces(StagePoint& point) {
+    return {point.forces.total, point.forces.potential, point.contact, point.row_forces};
+}
+
+bool StageEquations::correct_contact(double enough) {
+    StagePoint& point = space_.current;
+    if (!stage_.scene.plan.contacts || point.rows.size() == 0) return false;
+    StageTimer timer(times_.force);
+    if (!law_.correct(contact_point(point, false), contact_forces(point), enough)) return false;
+    set_residual(point);
+    return true;
+}
+
+void StageEquations::end_contact(ContactMemory& memory) const {
+    if (stage_.scene.plan.contacts) law_.end(space_.current.rows, space_.current.row_forces, memory);
+}
+
+void StageEquations::set_residual(StagePoint& point) const {
+    const StepScene& scene = stage_.scene;
+    if (point.residual.padded_size() != point.velocities.padded_size()) point.residual.resize(scene.model.vertex_count());
+    const Vectors &force = point.forces.total, &velocity = point.velocities, &start = stage_.base.velocities;
+    const double *free = scene.script.free.data(), *mass = scene.model.mass.data();
+    const int count = scene.model.vertex_count();
+    const double dt = stage_.base.h;
+    const auto set_axis = [=](const double* f, const double* v, const double* v_start, double* r) {
+        for (int i = 0; i < count; ++i) r[i] = free[i] * (mass[i] * (v[i] - v_start[i]) - dt * f[i]);
+    };
+    set_axis(force.x.data(), velocity.x.data(), start.x.data(), point.residual.x.data());
+    set_axis(force.y.data(), velocity.y.data(), start.y.data(), point.residual.y.data());
+    set_axis(force.z.data(), velocity.z.data(), start.z.data(), point.residual.z.data());
+    const double distance = sum_terms(0, count, [&](int i) { return free[i] * mass[i] * square_between(velocity, start, i); });
+    point.objective = 0.5 * distance + point.forces.potential;
+}
+
+void set_vertex_blocks(const std::vector<SymmetricBlock>& blocks, ContactTerms& contact) {
+    contact.others = blocks.size();
+    contact.blocks.resize(contact.others);
+    for (std::size_t i = 0; i < contact.others; ++i) {
+        contact.blocks[i] = {.vertex = {static_cast<int>(i), -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = blocks[i]};
+    }
+}
+
+}  // namespace percale

@@ -1,0 +1,61 @@
+#include "failure.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace percale {
+namespace {
+
+/// Names the pin that is farthest from where it should be.
+void name_blocked_pin(const StepScene& scene, const Workspace& work, StepReport& report) {
+    double farthest = 0.0;
+    for (std::size_t c = 0; c < scene.model.cloths.size(); ++c) {
+        const ClothRange& cloth = scene.model.cloths[c];
+        for (int vertex = 0; vertex < cloth.count; ++vertex) {
+            const int i = cloth.index_of(vertex);
+            if (scene.is_free(i)) continue;
+            const double missing = (work.newton.current.positions.at(i) - work.targets.at(i)).norm();
+            if (missing <= farthest) continue;
+            farthest = missing;
+            report.blocked_cloth = static_cast<int>(c);
+            report.blocked_vertex = vertex;
+            report.blocked_name = cloth.name;
+        }
+    }
+}
+
+/// Of the contacts with other obstacles that push against the closest one's direction, the closest.
+void name_second_obstacle(const StepScene& scene, const ContactRows& rows, std::size_t closest, StepReport& report) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const bool other = rows.obstacle[row] >= 0 && rows.obstacle[row] != rows.obstacle[closest];
+        if (!other || rows.direction[row].dot(rows.direction[closest]) >= 0.0 || rows.distance[row] >= least) continue;
+        least = rows.distance[row];
+        report.second_obstacle = rows.obstacle[row];
+    }
+    if (report.second_obstacle >= 0) report.second_name = scene.script.obstacles[report.second_obstacle].name;
+}
+
+/// What the closest contact is with.
+void name_blocking_obstacle(const StepScene& scene, const ContactRows& rows, StepReport& report) {
+    if (rows.size() == 0) return;
+    const auto closest = std::min_element(rows.distance.begin(), rows.distance.end()) - rows.distance.begin();
+    report.blocking_obstacle = rows.obstacle[static_cast<std::size_t>(closest)];
+    const bool cloth = report.blocking_obstacle < 0;
+    report.blocking_name = cloth ? "cloth" : scene.script.obstacles[report.blocking_obstacle].name;
+    name_second_obstacle(scene, rows, static_cast<std::size_t>(closest), report);
+}
+
+}  // namespace
+
+void tell_failure(const StepScene& scene, SpanEnd end, const Workspace& work, StepReport& report) {
+    if (end == SpanEnd::not_finite) {
+        report.status = StepStatus::not_finite;
+        return;
+    }
+    name_blocking_obstacle(scene, work.newton.current.rows, report);
+    if (scene.plan.pins_move) name_blocked_pin(scene, work, report);
+    report.status = scene.plan.obstacles_move ? StepStatus::obstacle_too_fast : StepStatus::pin_blocked;
+}
+
+}  // namespace percale

@@ -1,0 +1,247 @@
+#include "implicit_span.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "impacts.h"
+#include "ledger.h"
+#include "schemes/schemes.h"
+#include "state_forces.h"
+#include "targets.h"
+
+namespace percale {
+namespace {
+
+SpanEnd span_end(NewtonEnd end) {
+    switch (end) {
+        case NewtonEnd::converged:
+            return SpanEnd::solved;
+        case NewtonEnd::iterations_used:
+            return SpanEnd::not_converged;
+        case NewtonEnd::blocked:
+            return SpanEnd::blocked;
+        default:
+            return SpanEnd::not_finite;
+    }
+}
+
+/// One span by one scheme: the stages, and what they came to so far.
+class ImplicitSpan {
+public:
+    ImplicitSpan(const Span& span, const StepState& start, Workspace& work, StepState& end)
+        : span_(span), scene_(span.scene), start_(start), work_(work), end_(end) {}
+
+    SpanResult run() {
+        begin_end(start_, end_);
+        make_stages();
+        if (!usable()) return result_;
+        set_rest_length(span_, start_, work_, end_.cloth);
+        account_implicit(span_, {start_, end_, work_.middle, obstacle_work_}, work_, result_.flows);
+        return result_;
+    }
+
+private:
+    void make_stages() {
+        switch (scene_.plan.scheme) {
+            case Scheme::implicit_midpoint:
+                return make_midpoint();
+            case Scheme::trapezoid:
+                return make_trapezoid();
+            case Scheme::bdf2:
+                return make_bdf2();
+            case Scheme::tr_bdf2:
+                return make_tr_bdf2();
+            default:
+                return make_backward_euler();
+        }
+    }
+
+    bool usable() const { return result_.is_usable(span_.last_try); }
+    double length() const { return span_.length(); }
+
+    /// A stage of the span: from where, and over which part of the step.
+    struct Part {
+        const ClothState& from;
+        StepFraction fraction;
+        double contact_weight = 1.0;
+    };
+    Part whole() const { return {start_.cloth, span_.fraction}; }
+
+    /// Solves work_.base; returns the estimated error of time, m.
+    double solve(const Part& part, ClothState& to) {
+        const ImplicitStage stage{.scene = scene_,
+                                  .base = work_.base,
+                                  .start = part.from,
+                                  .targets = work_.targets,
+                                  .span = part.fraction,
+                                  .contact_weight = part.contact_weight,
+                                  .contact_dt = start_.contact_dt,
+                                  .flows = work_.flows,
+                                  .wind = set_wind_at(scene_, part.from.positions, work_),
+                                  .rest_length = rest_lengths_at(span_, seam_place_, start_, work_.rest_length)};
+        const NewtonReport report = solve_stage(stage, work_.newton, {to, end_.contact}, work_.times);
+        add(report);
+        return report.time_error;
+    }
+
+    void aim_at(const Part& part) {
+        set_targets(span_, part.fraction.to, work_.targets);
+        set_flows(scene_, part.fraction.from, work_.flows);
+    }
+
+    /// A stage whose prescribed vertices go at a steady speed.
+    double solve_steadily(const Part& part, ClothState& to) {
+        aim_at(part);
+        const double length = scene_.settings.time_step * (part.fraction.to - part.fraction.from);
+        set_prescribed_base(scene_.script.free, part.from.positions, work_.targets, length, work_.base);
+        return solve(part, to);
+    }
+
+    void add(const NewtonReport& stage) {
+        result_.newton_iterations += stage.newton_iterations;
+        result_.linear_iterations += stage.linear_iterations;
+        result_.line_search_cuts += stage.line_search_cuts;
+        result_.residual = stage.residual;
+        result_.smallest_fraction = std::min(result_.smallest_fraction, stage.smallest_fraction);
+        result_.contact_stiffness = std::max(result_.contact_stiffness, stage.largest_stiffness);
+        const SpanEnd end = span_end(stage.end);
+        if (end != SpanEnd::solved) result_.end = end;  // a later stage may have converged all the same
+    }
+
+    void set_start_accelerations() {
+        const ClothState& cloth = start_.cloth;
+        const std::span<const double> rest_length = rest_lengths_at(span_, 0.0, start_, work_.rest_length);
+        set_accelerations(scene_, {cloth.positions, cloth.velocities, cloth.positions, rest_length}, work_, work_.acceleration);
+    }
+
+    /// The old acceleration of the trapezoid, M a = f + what the last solve left unbalanced. Without that, stiff springs would
+    /// answer an error e of the solver's positions by (w h)^2 e, and again in each step.
+    void set_old_accelerations() {
+        set_start_accelerations();
+        const Vectors& unbalanced = start_.past.unbalanced;
+        if (unbalanced.padded_size() == 0) return;
+        for (int i = 0; i < scene_.model.vertex_count(); ++i) {
+            if (scene_.is_free(i)) work_.acceleration.add(i, unbalanced.at(i) / scene_.model.mass[i]);
+        }
+    }
+
+    /// (v - v*)/h, that of a stage's end.
+    void set_end_acceleration(const ClothState& end, Vectors& acceleration) const {
+        acceleration.resize(scene_.model.vertex_count());
+        set_extrapolated(acceleration, 1.0 / work_.base.h, end.velocities, work_.base.velocities, acceleration);
+    }
+
+    void keep_unbalanced() {
+        end_.past.unbalanced.resize(scene_.model.vertex_count());
+        add_scaled(end_.past.unbalanced, 1.0 / work_.base.h, work_.newton.current.residual);
+    }
+
+    /// By the contacts of the stage just solved, over a length in s.
+    double obstacle_work(double length) const {
+        return scene_.plan.contacts ? length * work_.newton.current.contact.obstacle_power : 0.0;
+    }
+
+    void make_backward_euler() {
+        aim_at(whole());
+        set_euler_base(start_.cloth, length(), work_.base);
+        result_.error = solve(whole(), end_.cloth);
+        obstacle_work_ = obstacle_work(work_.base.h);
+    }
+
+    void make_midpoint() {
+        set_start_accelerations();
+        set_midpoint_base(start_.cloth, work_.acceleration, length(), work_.base);
+        seam_place_ = 0.5;
+        const double middle = 0.5 * (span_.fraction.from + span_.fraction.to);
+        result_.error = 2.0 * solve_steadily({start_.cloth, {span_.fraction.from, middle}}, end_.cloth);
+        if (result_.end == SpanEnd::not_finite || result_.end == SpanEnd::blocked) return;
+        ClothState& end = end_.cloth;
+        const ClothState& start = start_.cloth;
+        set_extrapolated(end.positions, 1.0, end.positions, start.positions, end.positions);
+        set_extrapolated(end.velocities, 1.0, end.velocities, start.velocities, end.velocities);
+        set_targets(span_, span_.fraction.to, work_.targets);
+        for (int i = 0; i < scene_.model.vertex_count(); ++i) {
+            if (scene_.is_free(i)) continue;
+            end.positions.set(i, work_.targets.at(i));
+            end.velocities.set(i, (work_.targets.at(i) - start.positions.at(i)) / length());
+        }
+        update_points(end);
+    }
+
+    void make_trapezoid() {
+        set_old_accelerations();
+        set_trapezoid_base(start_.cloth, work_.acceleration, length(), work_.base);
+        result_.error = solve_steadily(whole(), end_.cloth);
+        if (usable()) keep_unbalanced();
+    }
+
+    void make_tr_bdf2() {
+        ClothState& middle = work_.middle;
+        const double first = trapezoid_share * length(), between = span_.at(trapezoid_share);
+        set_old_accelerations();
+        set_trapezoid_base(start_.cloth, work_.acceleration, first, work_.base);
+        seam_place_ = trapezoid_share;
+        solve_steadily({start_.cloth, {span_.fraction.from, between}, 2.0}, middle);
+        if (!usable()) return;
+        settle(start_.cloth, first, middle);
+        obstacle_work_ = obstacle_work(length() - work_.base.h);
+        set_end_acceleration(middle, work_.acceleration);
+        set_bdf2_base(middle, work_.acceleration, start_.cloth, length() - first, first, work_.base);
+        seam_place_ = 1.0;
+        solve_steadily({middle, {between, span_.fraction.to}}, end_.cloth);
+        if (!usable()) return;
+        if (scene_.settings.adaptive) result_.error = companion_error();
+        settle(middle, length() - first, end_.cloth);
+        obstacle_work_ += obstacle_work(work_.base.h);
+        keep_unbalanced();
+    }
+
+    void settle(const ClothState& start, double stage_length, ClothState& end) {
+        if (!scene_.plan.contacts) return;
+        settle_impacts(scene_, {work_.newton.current, start.positions, stage_length}, end, work_.row_order);
+    }
+
+    /// Against the companion of third order with the weights (1 - w)/3, w + 1/3, g/6 instead of w, w, g/2, w = sqrt 2/4.
+    double companion_error() {
+        constexpr double w = std::numbers::sqrt2 / 4.0;
+        Vectors& error = work_.scratch;
+        error.resize(scene_.model.vertex_count());
+        add_scaled(error, length() * (4.0 * w - 1.0) / 3.0, start_.cloth.velocities);
+        add_scaled(error, -length() / 3.0, work_.middle.velocities);
+        add_scaled(error, length() * trapezoid_share / 3.0, end_.cloth.velocities);
+        return mean_size(scene_, error);
+    }
+
+    /// Begins with a step of TR-BDF2, which is of second order and needs no earlier state.
+    void make_bdf2() {
+        const SchemeMemory& past = start_.past;
+        if (past.earlier_length == 0.0) {
+            make_tr_bdf2();
+        } else {
+            set_bdf2_base(start_.cloth, past.acceleration, past.earlier, length(), past.earlier_length, work_.base);
+            result_.error = solve_steadily(whole(), end_.cloth);
+        }
+        if (!usable()) return;
+        set_end_acceleration(end_.cloth, end_.past.acceleration);
+        end_.past.earlier.positions = start_.cloth.positions;
+        end_.past.earlier.velocities = start_.cloth.velocities;
+        end_.past.earlier_length = length();
+    }
+
+    const Span& span_;
+    const StepScene& scene_;
+    const StepState& start_;
+    Workspace& work_;
+    StepState& end_;
+    SpanResult result_;
+    double seam_place_ = 1.0;     // of the span, whose rest lengths the coming stage has
+    double obstacle_work_ = 0.0;  // J
+};
+
+}  // namespace
+
+SpanResult advance_implicit(const Span& span, const StepState& start, Workspace& work, StepState& end) {
+    return ImplicitSpan(span, start, work, end).run();
+}
+
+}  // namespace percale
