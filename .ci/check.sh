@@ -51,6 +51,7 @@ stage_layers() {
     python3 .ci/layers.py
     python3 .ci/layers_test.py
     python3 .ci/perf_gate_test.py
+    python3 .ci/quick_test.py
 }
 
 # The README's two commands, as a newcomer would type them, in a copy of the checkout in a path with a space: the release build by g++
