@@ -11,17 +11,11 @@
 #include "lists/pack_measure.h"
 #include "percale/certify.h"
 #include "self/self_contact_detection.h"
+#include "tolerances.h"
 #include "untangle/untangle.h"
 
 namespace percale {
 namespace {
-
-constexpr double kept_way = 0.1;  // of the thickness: a vertex that has moved no farther keeps its contacts from step to step
-
-/// Pairs farther apart than this keep their floor if they come closer by no more than `way`.
-double within(double way, double h) {
-    return way > largest_floor * h ? way + largest_floor * h : std::max(2.0 * way, way + 1e-3 * h);
-}
 
 bool stays_above(const PackHull& hull, const ContactPair& pair, const ClothMove& move, double height) {
     return height_above(hull, pair.vertices(), move.from) > height && height_above(hull, pair.vertices(), move.to) > height;
@@ -249,7 +243,7 @@ private:
         kept_at_.resize(positions.size(), Vec3::Zero());
         moved_.resize(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            moved_[i] = all || (positions[i] - kept_at_[i]).norm() > kept_way * thickness_[i];
+            moved_[i] = all || (positions[i] - kept_at_[i]).norm() > tolerances::forgetting_displacement * thickness_[i];
             if (moved_[i]) kept_at_[i] = positions[i];
         }
         for (ClusterList& list : lists_->lists()) {
@@ -334,13 +328,13 @@ private:
             own.room.add(move.from[vertex]);
             own.room.add(move.to[vertex]);
         }
-        own.room.grow(largest_floor * own.thickness);
+        own.room.grow(tolerances::cut_floor * own.thickness);
     }
 
     /// Lowers `safe` where a pair of the cluster needs it. `obstacle_way`: how far obstacles go during the whole move.
     double cut_cluster(const ClothMove& move, double obstacle_way, std::size_t cluster, double safe) {
         ClusterList& list = lists_->lists()[cluster];
-        const double limit = list.travel + within((lists_->cluster_way(cluster) + obstacle_way) * safe, list.thickness);
+        const double limit = list.travel + distance_for((lists_->cluster_way(cluster) + obstacle_way) * safe, list.thickness);
         if (list.least_reach >= limit) return safe;
         FeatureMove own;
         for (const int pack : packs_up_to(list.packs.reach, limit)) {
@@ -350,11 +344,11 @@ private:
                 own.number = list.packs.at[pack].feature;
                 set_move(move, feature, own);
             }
-            const double near = within((own.way + obstacle_way) * safe, own.thickness);
+            const double near = distance_for((own.way + obstacle_way) * safe, own.thickness);
             if (static_cast<double>(list.packs.reach[pack]) - list.travel >= near) continue;
             const PackHull& hull = hull_of(at);
             const bool may_cross =
-                !stays_above(hull, feature, move, largest_floor * own.thickness) && hull.box().overlaps(own.room);
+                !stays_above(hull, feature, move, tolerances::cut_floor * own.thickness) && hull.box().overlaps(own.room);
             if (may_cross) safe = cut_pack(move, near, at, safe);
         }
         CandidateLists::set_least(list);
@@ -370,7 +364,7 @@ private:
             const double distance = apart.norm(), floor = floor_below(distance, thickness_[pair.cloth[0]]);
             const MovingFour four = moving_pair(pair, move, obstacle);
             // Convex features that a plane parts at both ends of a straight move are parted by it throughout.
-            const double kept = floor + 0.1 * (distance - floor);
+            const double kept = floor + tolerances::clearance_left * (distance - floor);
             if (distance > 0.0 && gap_along(four, cloth_slots(pair.kind), apart / distance, safe) >= kept) continue;
             safe = safe_time(four, shape_of(pair.kind), floor, safe);
         }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
@@ -41,8 +43,8 @@ std::optional<HullOverlap> hull_overlap(Points first, Points second) {
     CCD_INIT(&ccd);
     ccd.support1 = ccd.support2 = support;
     // At the library's own tolerance depths are wrong by centimetres, and without a limit it may not come to an end.
-    ccd.epa_tolerance = 1e-9 * std::max(extent(first), extent(second));
-    ccd.max_iterations = 1000;
+    ccd.epa_tolerance = tolerances::hull_depth * std::max(extent(first), extent(second));
+    ccd.max_iterations = tolerances::most_hull_iterations;
     ccd_real_t depth = 0.0;
     ccd_vec3_t way, place;
     if (ccdGJKPenetration(&first, &second, &ccd, &depth, &way, &place) != 0) return std::nullopt;

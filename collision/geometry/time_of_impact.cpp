@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/triangle_distance.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -24,8 +25,6 @@ double largest_approach(const std::array<Vec3, 4>& motion, PairShape shape) {
 }  // namespace
 
 double safe_time(const MovingFour& four, PairShape shape, double floor, double latest) {
-    constexpr double kept = 0.1;  // share of the clearance left at the end
-    constexpr int most_advances = 500;
     std::array<Vec3, 4> x = four.from, motion;
     Vec3 mean = Vec3::Zero();
     for (int i = 0; i < 4; ++i) mean += 0.25 * (four.to[i] - four.from[i]);
@@ -40,12 +39,12 @@ double safe_time(const MovingFour& four, PairShape shape, double floor, double l
     const double first = clearance();
     if (!(first > 0.0)) return 0.0;
     double time = 0.0, left = first;
-    for (int advance = 0; advance < most_advances; ++advance) {
-        const double next = time + (1.0 - kept) * left / speed;
+    for (int advance = 0; advance < tolerances::most_advances; ++advance) {
+        const double next = time + (1.0 - tolerances::clearance_left) * left / speed;
         if (next >= latest) return latest;
         for (int i = 0; i < 4; ++i) x[i] = four.from[i] + next * motion[i];
         left = clearance();
-        if (left < kept * first) return left > 0.0 ? next : time;
+        if (left < tolerances::clearance_left * first) return left > 0.0 ? next : time;
         time = next;
     }
     return time;

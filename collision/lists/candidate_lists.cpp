@@ -6,15 +6,14 @@
 #include <limits>
 
 #include "lists/pack_measure.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
 
-constexpr double skin_share = 0.4;    // of the thickness: room around a vertex before its lists are built anew
-constexpr double least_share = 1e-4;  // of a move: below it lists are built however many packs they hold
-constexpr double skin_of_way = 0.2;   // of the move the list is built for
-
-double skin(double thickness, double way) { return skin_share * thickness + skin_of_way * way; }
+double skin(double thickness, double way) {
+    return tolerances::box_skin * thickness + tolerances::box_skin_of_displacement * way;
+}
 
 /// How far a point inside a box is from its sides; negative outside.
 double depth(const Box& box, const Vec3& x) { return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff()); }
@@ -137,7 +136,7 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
 
 /// Whether the plane keeps the pack out of the thickness of vertices that stay in their boxes.
 bool CandidateLists::stays_above(const PackHull& hull, std::span<const int> vertices, double thickness) const {
-    const double enough = hull.offset + (1.0 + 1e-6) * thickness;
+    const double enough = hull.offset + (1.0 + tolerances::hull_slack) * thickness;
     return std::all_of(vertices.begin(), vertices.end(), [&](int vertex) {
         const Box& box = vertex_boxes_[vertex];
         const Vec3 twice_centre = box.low + box.high, sides = box.high - box.low;
@@ -216,7 +215,7 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) 
     if (dirty_.empty()) return 1.0;
     double share = 1.0;
     ClothMove covered = move;
-    while (!rebuild(covered, obstacles, share < least_share)) {
+    while (!rebuild(covered, obstacles, share < tolerances::least_covered)) {
         share *= 0.5;
         shortened_.resize(move.from.size());
         for (std::size_t i = 0; i < shortened_.size(); ++i) shortened_[i] = move.from[i] + share * (move.to[i] - move.from[i]);
@@ -252,7 +251,9 @@ void CandidateLists::set_least(ClusterList& list) {
 
 /// Builds the dirty lists anew; false (and lists of no use) if they would hold too many packs, unless `whatever_it_takes`.
 bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes) {
-    const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 500000L + 40L * static_cast<long>(way_.size());
+    const long most = whatever_it_takes
+                          ? std::numeric_limits<long>::max()
+                          : tolerances::most_packs + tolerances::most_packs_per_vertex * static_cast<long>(way_.size());
     empty_dirty(move);
     for (std::size_t number = 0; number < obstacles.size(); ++number) {
         obstacles[number]->find(asked_, found_);

@@ -10,16 +10,17 @@
 #include "geometry/cloth_clusters.h"
 #include "lists/contact_pair.h"
 #include "obstacle/obstacle.h"
+#include "tolerances.h"
 
 namespace percale {
 
 using Obstacles = std::vector<std::unique_ptr<Obstacle>>;
 
 /// The next number below in single precision, or one near it.
-inline float below(double x) { return static_cast<float>(x - 1e-6 * std::abs(x)); }
+inline float below(double x) { return static_cast<float>(x - tolerances::rounded_off * std::abs(x)); }
 
 /// The next number above in single precision, or one near it.
-inline float above(double x) { return static_cast<float>(x + 1e-6 * std::abs(x)); }
+inline float above(double x) { return static_cast<float>(x + tolerances::rounded_off * std::abs(x)); }
 
 /// A pack of obstacle features that can come near a cloth feature.
 struct ListedPack {

@@ -7,6 +7,7 @@
 
 #include "certificate/inside_test.h"
 #include "certificate/triangle_overlap.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -37,7 +38,7 @@ bool clearly_on_one_side(const Solid& solid, int first, int other) {
     for (int k = 0; k < 3; ++k) {
         if (holds(solid.triangles[first], solid.triangles[other][k])) continue;
         const Vec3 from = solid.corners[other][k] - t[0];
-        const double height = normal.dot(from), little = 1e-9 * normal.norm() * (from.norm() + t[0].norm());
+        const double height = normal.dot(from), little = tolerances::clear_side * normal.norm() * (from.norm() + t[0].norm());
         if (std::abs(height) <= little || height * least < 0.0) return false;
         least = height;
     }
@@ -54,7 +55,8 @@ Meeting meeting_of(const Solid& solid, int i, int j) {
 
 /// Nothing where so many triangles lie side by side (a fan of n around one vertex has n^2/2 pairs) that it would take long.
 std::optional<std::vector<Meeting>> find_meetings(const Solid& solid) {
-    const long most_tests = 2000000 + 200 * static_cast<long>(solid.triangles.size());
+    const long most_tests = tolerances::most_internal_tests +
+                            tolerances::most_internal_tests_per_triangle * static_cast<long>(solid.triangles.size());
     std::vector<Meeting> meeting(solid.triangles.size(), Meeting::none);
     long tests = 0;
     const auto visit = [&](int i, int j) {
@@ -96,7 +98,7 @@ std::vector<std::array<int, 3>> find_neighbours(std::span<const Triangle> triang
 bool is_internal(const Solid& solid, int triangle) {
     const Corners& t = solid.corners[triangle];
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
-    const double little = 1e-9 * (solid.tree.bounds().high - solid.tree.bounds().low).norm();
+    const double little = tolerances::beyond_face * (solid.tree.bounds().high - solid.tree.bounds().low).norm();
     const Vec3 beyond = middle + little * (t[1] - t[0]).cross(t[2] - t[0]).normalized();
     const int winding = certificate::winding_number(beyond, solid.corners, solid.tree);
     return winding != 0 && winding != -1;

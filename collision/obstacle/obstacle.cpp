@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
@@ -71,8 +73,8 @@ Box Obstacle::to_tree(const Box& box) const {
                      (corner & 4 ? grown.high : grown.low).z());
         turned.add(transform(built_, inverse_transform(start_pose_, x)));
     }
-    // Two rotations round off; a billionth of the coordinates' size is far above that.
-    turned.grow(1e-9 * (turned.low.cwiseAbs().maxCoeff() + turned.high.cwiseAbs().maxCoeff()));
+    // Two rotations round off.
+    turned.grow(tolerances::turned_box * (turned.low.cwiseAbs().maxCoeff() + turned.high.cwiseAbs().maxCoeff()));
     return turned;
 }
 

@@ -7,6 +7,7 @@
 
 #include "obstacle/internal_faces.h"
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -30,7 +31,7 @@ std::vector<int> merge_vertices(std::span<const Vec3> vertices, int& merged) {
 bool has_area(std::span<const Vec3> x, const Triangle& t) {
     const Vec3 u = x[t[1]] - x[t[0]], v = x[t[2]] - x[t[0]], w = x[t[2]] - x[t[1]];
     const double longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
-    return u.cross(v).norm() > 1e-14 * longest;
+    return u.cross(v).norm() > tolerances::degenerate_area * longest;
 }
 
 Triangle sorted(Triangle t) {
@@ -170,7 +171,6 @@ struct Fold {
 };
 
 Fold fold(const ObstacleSurface& surface, int edge) {
-    constexpr double flat = 1e-9;
     const SurfaceEdge& e = surface.edges[edge];
     const Triangle& t = surface.triangles[e.owner];
     const auto& x = surface.vertices;
@@ -178,7 +178,7 @@ Fold fold(const ObstacleSurface& surface, int edge) {
     const std::span<const int> opposite = surface.opposites(edge);  // the owner's first
     const Vec3 &a = x[e.vertex[0]], &b = x[e.vertex[1]];
     const Vec3 first = into_triangle(a, b, x[opposite[0]]), second = into_triangle(a, b, x[opposite[1]]);
-    return {.flat = (first + second).norm() <= flat, .height = second.dot(normal)};
+    return {.flat = (first + second).norm() <= tolerances::flat_fold, .height = second.dot(normal)};
 }
 
 /// For each vertex the first vertex of its part of the surface.

@@ -5,12 +5,11 @@
 #include <limits>
 #include <tuple>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
-constexpr double skin_share = 0.5;     // of the thickness: how far a vertex may be from where the lists expect it
-constexpr double share_of_rest = 0.5;  // of the distance at rest: where contact within a cloth begins at the latest
-constexpr double least_share = 1e-4;   // of a move: below it lists are made however many pairs they hold
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool comes_before(const SelfPair& a, const SelfPair& b) { return std::tie(a.shape, a.feature) < std::tie(b.shape, b.feature); }
@@ -67,7 +66,7 @@ double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3>
     double share = 1.0;
     old_pairs_ = memory_.pairs;
     std::span<const Vec3> end = to;
-    while (!rebuild(from, end, share < least_share)) {
+    while (!rebuild(from, end, share < tolerances::least_covered)) {
         share *= 0.5;
         shortened_.resize(from.size());
         for (std::size_t i = 0; i < from.size(); ++i) shortened_[i] = from[i] + share * (to[i] - from[i]);
@@ -93,7 +92,7 @@ bool SelfContactLists::holds(std::span<const Vec3> positions) const {
     }
     const double s = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
     return std::all_of(vertices_.begin(), vertices_.end(), [&](int v) {
-        const double skin = skin_share * thickness_[v];
+        const double skin = tolerances::self_skin * thickness_[v];
         return (positions[v] - memory_.start[v] - mean - s * memory_.way[v]).squaredNorm() <= skin * skin;
     });
 }
@@ -130,13 +129,15 @@ void SelfContactLists::set_boxes() {
         for (const int e : clusters_[c].edges) edge_boxes_[e] = box_of(surface_.edges[e].vertex);
         for (const int t : clusters_[c].triangles) triangle_boxes_[t] = box_of(surface_.triangles[t]);
         cluster_boxes_[c] = box_of(clusters_[c].all_vertices);
-        cluster_boxes_[c].grow((0.5 + skin_share) * clusters_[c].thickness);
+        cluster_boxes_[c].grow((0.5 + tolerances::self_skin) * clusters_[c].thickness);
     }
 }
 
 /// Makes all lists anew; false (and lists of no use) if that takes too many pairs, unless `whatever_it_takes`.
 bool SelfContactLists::rebuild(std::span<const Vec3> from, std::span<const Vec3> to, bool whatever_it_takes) {
-    const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 4000000L + 300L * static_cast<long>(rest_.size());
+    const long most = whatever_it_takes ? std::numeric_limits<long>::max()
+                                        : tolerances::most_self_pairs +
+                                              tolerances::most_self_pairs_per_vertex * static_cast<long>(rest_.size());
     const Vec3 mean = mean_motion(from, to);
     for (const int v : vertices_) {
         memory_.start[v] = from[v];
@@ -160,8 +161,8 @@ bool SelfContactLists::rebuild(std::span<const Vec3> from, std::span<const Vec3>
 
 void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
     const Cluster &a = clusters_[list.first], &b = clusters_[list.second];
-    const double room = shrink(list) + skin_share * (a.thickness + b.thickness);
-    const double limit = (0.5 + skin_share) * (a.thickness + b.thickness);
+    const double room = shrink(list) + tolerances::self_skin * (a.thickness + b.thickness);
+    const double limit = (0.5 + tolerances::self_skin) * (a.thickness + b.thickness);
     const bool one = list.first == list.second;
     find_near(a, cluster_boxes_[list.second], near_first_);
     find_near(b, cluster_boxes_[list.first], near_second_);
@@ -179,7 +180,7 @@ void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
 /// Features of a cluster that come near the box of another, which is grown by that one's half of the limit.
 void SelfContactLists::find_near(const Cluster& cluster, const Box& other, Near& near) const {
     Box reach = other;
-    reach.grow((0.5 + skin_share) * cluster.thickness);
+    reach.grow((0.5 + tolerances::self_skin) * cluster.thickness);
     near.vertices.clear();
     near.edges.clear();
     near.triangles.clear();
@@ -228,7 +229,7 @@ void SelfContactLists::consider(SelfPair pair, double room, std::span<const Vec3
     pair.reach = self_distance(pair, from);
     if (pair.reach >= pair.thickness + room) return;
     if (cloth_[pair.vertex[0]] == cloth_[pair.vertex[3]]) {
-        pair.thickness = std::min(pair.thickness, share_of_rest * self_distance(pair, rest_));
+        pair.thickness = std::min(pair.thickness, tolerances::contact_of_rest * self_distance(pair, rest_));
     }
     if (pair.reach < pair.thickness + room) memory_.pairs.push_back(pair);
 }

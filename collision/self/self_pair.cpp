@@ -4,13 +4,10 @@
 #include <cmath>
 
 #include "geometry/triangle_distance.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr double rounding = 1e-9;
-constexpr double flat_slope = 0.05;        // sine below which faces count as flat against a contact
-constexpr double least_angle_sine = 0.03;  // edges at smaller angles are left to their ends
 
 PointTriangle vertex_on_face(const SelfPair& pair, std::span<const Vec3> x) {
     return closest_on_triangle(x[pair.vertex[0]], x[pair.vertex[1]], x[pair.vertex[2]], x[pair.vertex[3]]);
@@ -29,7 +26,7 @@ void set_direction(const Vec3& apart, SelfPairContact& contact) {
 /// that above an edge of flat cloth at least one triangle stands for the contact.
 bool falls(const Vec3& neighbour, const Vec3& foot, const Vec3& towards) {
     const Vec3 way = neighbour - foot;
-    return way.dot(towards) <= rounding * way.norm();
+    return way.dot(towards) <= tolerances::rising_sine * way.norm();
 }
 
 bool edge_stands(const ClothSurface& surface, int triangle, int edge_index, const Vec3& foot, const Vec3& towards,
@@ -69,8 +66,8 @@ double edge_share(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& 
     for (const int vertex : edge.opposite) {
         if (vertex < 0 || edge.opposite[1] < 0) continue;
         const Vec3 way = x[vertex] - foot;
-        const double rise = way.dot(towards), level = flat_slope * way.norm();
-        if (rise > -level) share = std::min(share, rise > level ? 0.0 : 0.5);
+        const double rise = way.dot(towards), level = tolerances::flat_sine * way.norm();
+        if (rise > -level) share = std::min(share, rise > level ? 0.0 : tolerances::flat_crossing);
     }
     return share;
 }
@@ -83,7 +80,8 @@ SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const C
     const Vec3 first = a + s * (b - a), second = c + t * (d - c);
     set_direction(first - second, contact);
     if (contact.distance >= pair.thickness) return contact;
-    const double limit = least_angle_sine * least_angle_sine * (b - a).squaredNorm() * (d - c).squaredNorm();
+    const double limit =
+        tolerances::least_crossing_sine * tolerances::least_crossing_sine * (b - a).squaredNorm() * (d - c).squaredNorm();
     const bool cross = (b - a).cross(d - c).squaredNorm() > limit;
     if (!cross || s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0) return contact;
     contact.share = std::min(edge_share(surface.edges[pair.feature[0]], first, -contact.direction, x),

@@ -3,18 +3,11 @@
 #include <algorithm>
 
 #include "geometry/signed_depth_convex.h"
+#include "tolerances.h"
 #include "untangle/untangle_spread.h"
 
 namespace percale {
 namespace {
-
-constexpr double most_stretch = 0.5;
-constexpr int most_patches = 256;
-constexpr int most_rounds = 60;       // of one way
-constexpr double reach_growth = 1.5;  // where a way was not long enough
-constexpr int refinements = 4;        // halvings of the last such growth
-constexpr int most_failures = 64;     // in a row, of obstacles that cloth cannot be pushed out of at once
-constexpr long most_searches = 4000;  // of conflicts: what takes more is given up
 
 /// A state on the way to one that is clear.
 struct Tangle {
@@ -50,7 +43,7 @@ struct Attempt {
     std::vector<bool> moved;
     double largest_move = 0.0, stretch = 0.0;
 
-    bool tears() const { return stretch > most_stretch; }
+    bool tears() const { return stretch > tolerances::most_stretch; }
     bool better_than(const Attempt& other) const {
         if (tears() != other.tears()) return other.tears();
         return tears() ? stretch < other.stretch : largest_move < other.largest_move;
@@ -96,7 +89,7 @@ Patch first_patch(const Tangle& tangle, std::vector<int> conflict) {
 void add_both(const Vec3& direction, std::vector<Vec3>& directions) {
     if (!(direction.norm() > 0.0)) return;
     for (const Vec3& way : {Vec3(direction.normalized()), Vec3(-direction.normalized())}) {
-        const auto same = [&](const Vec3& other) { return other.dot(way) > 0.999; };
+        const auto same = [&](const Vec3& other) { return other.dot(way) > tolerances::same_direction; };
         if (std::none_of(directions.begin(), directions.end(), same)) directions.push_back(way);
     }
 }
@@ -203,7 +196,7 @@ struct Reaches {
 
 /// The move of `good`, which is enough, brought nearer to one that is too short.
 Attempt shortened(const Tangle& tangle, const Plan& plan, Reaches reaches, Attempt good) {
-    for (int k = 0; k < refinements && reaches.too_short < reaches.enough; ++k) {
+    for (int k = 0; k < tolerances::reach_refinements && reaches.too_short < reaches.enough; ++k) {
         const double middle = 0.5 * (reaches.too_short + reaches.enough);
         Attempt shorter = attempt(tangle, plan, middle);
         std::vector<bool> core = plan.core;
@@ -219,14 +212,16 @@ std::optional<Attempt> follow(const Tangle& tangle, const Patch& patch, const Wa
     std::vector<bool> core(tangle.positions.size());
     for (const int v : patch.vertices) core[v] = true;
     double reach = way.reach, too_short = way.reach;
-    const double farthest = way.nearest ? 8.0 * patch.margin : most;
-    for (int round = 0; round < most_rounds && reach < farthest && tangle.searches < most_searches; ++round) {
+    const double farthest = way.nearest ? tolerances::farthest_push * patch.margin : most;
+    for (int round = 0;
+         round < tolerances::most_way_rounds && reach < farthest && tangle.searches < tolerances::most_conflict_searches;
+         ++round) {
         Attempt found = attempt(tangle, {patch.obstacle, way, core}, reach);
         if (found.largest_move >= most) return std::nullopt;
         const Growth growth = grow_core(tangle, found, core);
         if (!growth.conflict) return shortened(tangle, {patch.obstacle, way, core}, {too_short, reach}, std::move(found));
         too_short = reach;
-        if (!growth.grown) reach *= reach_growth;
+        if (!growth.grown) reach *= tolerances::reach_growth;
     }
     return std::nullopt;
 }
@@ -293,13 +288,13 @@ std::optional<Untangled> untangle(const TangledCloth& cloth, std::span<const Sol
     std::vector<int> cause(positions.size(), -1);
     std::vector<int> conflict = conflicts_of(tangle);
     int failed = 0;
-    for (int k = 0; k < static_cast<int>(obstacles.size()) && failed < most_failures; ++k) {
+    for (int k = 0; k < static_cast<int>(obstacles.size()) && failed < tolerances::most_push_failures; ++k) {
         const Shallow end = push_out_shallow(k, conflict, tangle, cause);
         if (end == Shallow::nothing_to_do) continue;
         failed = end == Shallow::no_way ? failed + 1 : 0;
         if (end == Shallow::pushed_out) conflict = conflicts_of(tangle);
     }
-    for (int round = 0; round < most_patches; ++round) {
+    for (int round = 0; round < tolerances::most_patches; ++round) {
         const Patch patch = first_patch(tangle, std::move(conflict));
         if (patch.vertices.empty()) return Untangled{.positions = std::move(tangle.positions), .obstacle = std::move(cause)};
         if (holds_fixed(tangle, patch)) return std::nullopt;

@@ -5,6 +5,7 @@
 
 #include "certificate/triangle_gap.h"
 #include "certificate/triangle_overlap.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -13,9 +14,6 @@ using certificate::Box;
 using certificate::BoxTree;
 using certificate::Corners;
 using certificate::Overlap;
-
-/// Part of the thickness that moved cloth keeps from obstacles.
-constexpr double least_gap = 0.25;
 
 /// Disjoint sets of vertices, each known by its lowest member.
 class Parts {
@@ -46,7 +44,7 @@ struct PlacedCloth {
 
     /// Whether a triangle with a gap is nearer than it to one that it does not meet; a bound tells it of most.
     bool is_too_near(int i, const Corners& other) const {
-        const double surely_far = gap[i] * (1.0 + 1e-9);
+        const double surely_far = gap[i] * (1.0 + tolerances::bound_slack);
         if (certificate::triangle_separation(triangles[i], slab[i], other, surely_far) > surely_far) return false;
         return certificate::triangle_distance(triangles[i], other) < gap[i];
     }
@@ -60,7 +58,7 @@ PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std:
     for (const Triangle& t : cloth.triangles) {
         triangles.push_back(corners(x, t));
         const bool any = !moved.empty() && (moved[t[0]] || moved[t[1]] || moved[t[2]]);
-        gaps.push_back(any ? least_gap * cloth.thickness[t[0]] : 0.0);
+        gaps.push_back(any ? tolerances::untangled_gap * cloth.thickness[t[0]] : 0.0);
         slabs.push_back(any ? certificate::slab_of(triangles.back()) : certificate::Slab{});
         Box box = certificate::box_of(triangles.back());
         box.low.array() -= gaps.back();

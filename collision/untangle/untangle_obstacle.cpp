@@ -8,6 +8,7 @@
 #include "certificate/inside_test.h"
 #include "certificate/triangle_gap.h"
 #include "geometry/triangle_distance.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -32,7 +33,7 @@ bool meets(const Box& box, const Vec3& point, const Vec3& way) {
 
 /// Where the ray meets the triangle (Moeller and Trumbore 1997), its rim included; nothing where it misses or runs along it.
 std::optional<double> meeting(const Corners& t, const Vec3& point, const Vec3& way) {
-    constexpr double rim = 1e-9;
+    constexpr double rim = tolerances::ray_rim;
     const Vec3 u = t[1] - t[0], v = t[2] - t[0], p = way.cross(v);
     const double determinant = u.dot(p);
     if (determinant == 0.0) return std::nullopt;
@@ -64,7 +65,7 @@ std::optional<double> SolidObstacle::exit(const Vec3& point, const Vec3& way) co
                    if (const auto place = meeting(triangles_[item], point, way)) places.push_back(*place);
                });
     std::sort(places.begin(), places.end());
-    const double little = 1e-9 * (tree_.bounds().high - tree_.bounds().low).norm();
+    const double little = tolerances::beyond_exit * (tree_.bounds().high - tree_.bounds().low).norm();
     const auto leaves = [&](double place) { return !inside(point + (place + little) * way); };
     const auto first = std::find_if(places.begin(), places.end(), leaves);
     return first == places.end() ? std::nullopt : std::optional(*first);
@@ -73,7 +74,7 @@ std::optional<double> SolidObstacle::exit(const Vec3& point, const Vec3& way) co
 Vec3 SolidObstacle::pushed_out(const Vec3& point, double clearance) const {
     Box here;
     here.add(point);
-    const auto box_distance = [&](const Box& box) { return certificate::distance(here, box) * (1.0 - 1e-9); };
+    const auto box_distance = [&](const Box& box) { return certificate::distance(here, box) * (1.0 - tolerances::bound_slack); };
     const auto item_distance = [&](int i) { return certificate::point_triangle_distance(point, triangles_[i]); };
     const auto [nearest, distance] = tree_.nearest(std::numeric_limits<double>::infinity(), box_distance, item_distance);
     const bool within = inside(point);
@@ -81,7 +82,8 @@ Vec3 SolidObstacle::pushed_out(const Vec3& point, double clearance) const {
     const Corners& t = triangles_[nearest];
     const Vec3 foot = closest_on_triangle(point, t[0], t[1], t[2]).point;
     const double size = (t[1] - t[0]).norm() + (t[2] - t[0]).norm();
-    const Vec3 out = distance > 1e-9 * size ? Vec3((within ? foot - point : point - foot).normalized()) : normal_of(t);
+    const Vec3 out =
+        distance > tolerances::on_triangle * size ? Vec3((within ? foot - point : point - foot).normalized()) : normal_of(t);
     return foot + clearance * out;
 }
 

@@ -4,11 +4,10 @@
 #include <limits>
 #include <queue>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-/// How much less a vertex moves than its neighbour, by the length between them: stretches an edge by 12 % at most.
-constexpr double slope = 0.5;
 
 /// What is left of a move at a vertex; larger ones are passed on first, at equal size the lower vertex (Dijkstra 1959).
 struct Front {
@@ -63,7 +62,7 @@ void spread_moves(const TangledCloth& cloth, std::span<const Vec3> positions, co
     for (int v = 0; v < cloth.vertex_count(); ++v) {
         if (core[v]) start.push_back({moves[v].norm(), v, v});
     }
-    const Reached reached = pass_on(cloth, positions, std::move(start), slope, 0.0);
+    const Reached reached = pass_on(cloth, positions, std::move(start), tolerances::move_slope, 0.0);
     for (int v = 0; v < cloth.vertex_count(); ++v) {
         const int source = reached.source[v];
         if (!core[v]) moves[v] = Vec3::Zero();
