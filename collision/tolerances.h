@@ -179,7 +179,7 @@ constexpr double least_crossing_sine = 0.03;
 
 // ---- untangle/
 
-/// (l - l0)/l0. A way out that stretches an edge by more tears: others are preferred. The engine relaxes what is stretched.
+/// (l - l0)/l0. A route that stretches an edge by more tears: others are preferred. The engine relaxes what is stretched.
 constexpr double most_stretch = 0.5;
 
 /// Fraction of h that moved cloth keeps from obstacles. Less than cut_floor would start the run within the floor of cuts. Towards
@@ -190,20 +190,20 @@ constexpr double untangled_gap = 0.25;
 /// Small: cloth far away moves, too.
 constexpr double move_slope = 0.5;
 
-/// Factor by which a way out grows that was too short, and how often the last growth is halved again. Cost, and how close to the
-/// shortest the way is.
+/// Factor by which a route grows that was too short, and how often the last growth is halved again. Cost, and how close to the
+/// shortest the route is.
 constexpr double reach_growth = 1.5;
 constexpr int reach_refinements = 4;
 
-/// Cosine between two directions above which they are one way out. Smaller: ways are missed. Larger: searches are repeated.
+/// Cosine between two directions above which they are one route. Smaller: routes are missed. Larger: searches are repeated.
 constexpr double same_direction = 0.999;
 
 /// Times h. Pushing vertices to the nearest places of the surface is given up beyond.
 constexpr double farthest_push = 8.0;
 
-/// Where untangling gives up: patches in all; rounds of one way out; obstacles in a row that cloth cannot be pushed out of at
+/// Where untangling gives up: patches in all; rounds of one route; obstacles in a row that cloth cannot be pushed out of at
 /// once; searches for conflicts. Larger: hopeless starts take longer (seconds now). Smaller: solvable ones are refused.
-constexpr int most_patches = 256, most_way_rounds = 60, most_push_failures = 64;
+constexpr int most_patches = 256, most_route_rounds = 60, most_push_failures = 64;
 constexpr long most_conflict_searches = 4000;
 
 /// Barycentric. A ray meets a triangle up to this far beyond its rim, so that it slips through no edge between two of them.

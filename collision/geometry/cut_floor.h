@@ -15,11 +15,12 @@ inline double floor_below(double d, double h) {
     return d > least_cut_floor * h ? std::max(cut_remainder * d, least_cut_floor * h) : least_cut_remainder * d;
 }
 
-/// The distance, m, above which pairs keep their floor if they come closer by no more than `way`, m.
-inline double distance_for(double way, double h) {
+/// The distance, m, above which pairs keep their floor if they come closer by no more than `displacement`, m.
+inline double distance_that_keeps_floor(double displacement, double h) {
     using namespace tolerances;
-    const bool keeps_all = way > (1.0 / cut_remainder - 1.0) * cut_floor * h;
-    return keeps_all ? way + cut_floor * h : std::max(way / (1.0 - cut_remainder), way + least_cut_floor * h);
+    const bool keeps_all = displacement > (1.0 / cut_remainder - 1.0) * cut_floor * h;
+    return keeps_all ? displacement + cut_floor * h
+                     : std::max(displacement / (1.0 - cut_remainder), displacement + least_cut_floor * h);
 }
 
 }  // namespace percale

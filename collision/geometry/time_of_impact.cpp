@@ -51,13 +51,13 @@ double safe_time(const MovingFour& four, PairShape shape, double floor, double l
 }
 
 double gap_along(const MovingFour& four, unsigned side, const Vec3& direction, double time) {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (int i = 0; i < 4; ++i) {
         const double height = direction.dot(four.from[i]) + time * direction.dot(four.to[i] - four.from[i]);
-        if ((side >> i & 1U) != 0) least = std::min(least, height);
-        if ((side >> i & 1U) == 0) most = std::max(most, height);
+        if ((side >> i & 1U) != 0) lowest = std::min(lowest, height);
+        if ((side >> i & 1U) == 0) highest = std::max(highest, height);
     }
-    return least - most;
+    return lowest - highest;
 }
 
 }  // namespace percale

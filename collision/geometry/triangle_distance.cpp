@@ -35,10 +35,10 @@ PointTriangle at_face(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c
 
 PointTriangle on_segment(const Vec3& p, const Vec3& from, const Vec3& to, int corner) {
     const Vec3 along = to - from;
-    const double length = along.squaredNorm(), way = along.dot(p - from);
-    if (!(way > 0.0)) return at_vertex(p, from, corner);
-    if (way >= length) return at_vertex(p, to, (corner + 1) % 3);
-    return at_edge(p, from, to, way / length, corner);
+    const double length = along.squaredNorm(), projection = along.dot(p - from);
+    if (!(projection > 0.0)) return at_vertex(p, from, corner);
+    if (projection >= length) return at_vertex(p, to, (corner + 1) % 3);
+    return at_edge(p, from, to, projection / length, corner);
 }
 
 /// For triangles so narrow that products of dot products have no digits of the area left: weights by cross products, which lose

@@ -170,8 +170,8 @@ MovingFour moving_pair(const ContactPair& pair, const ClothMove& move, const Obs
         four.to[first_cloth + k] = move.to[pair.cloth[k]];
     }
     const auto set_obstacle = [&](int slot, int vertex) {
-        four.from[slot] = obstacle.at(vertex, move.part.from);
-        four.to[slot] = obstacle.at(vertex, move.part.to);
+        four.from[slot] = obstacle.at(vertex, move.fraction.from);
+        four.to[slot] = obstacle.at(vertex, move.fraction.to);
     };
     if (pair.kind == PairKind::vertex_face) {
         for (int k = 0; k < 3; ++k) set_obstacle(1 + k, obstacle.surface().triangles[pair.feature][k]);

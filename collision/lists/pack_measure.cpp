@@ -22,8 +22,8 @@ const PackKernels& chosen_kernels() {
 bool set_shape(const ContactPair& pair, std::span<const Vec3> cloth, const PlacedPack& placed, double size, PackQuery& query) {
     if (pair.kind == PairKind::edge_edge) {
         query.length = static_cast<float>((cloth[pair.cloth[1]] - cloth[pair.cloth[0]]).norm());
-        query.least_edge = placed.least_edge;
-        return std::min(query.length, query.least_edge) > query.size / static_cast<float>(tolerances::most_sharpness);
+        query.shortest_edge = placed.shortest_edge;
+        return std::min(query.length, query.shortest_edge) > query.size / static_cast<float>(tolerances::most_sharpness);
     }
     double sharpness = static_cast<double>(placed.sharpness);
     if (pair.kind == PairKind::face_vertex) {
@@ -54,7 +54,8 @@ PackAnswer measure(const ContactPair& pair, std::span<const Vec3> cloth, const P
     query.near = tolerances::rounded_up * static_cast<float>(limits.near);
     query.thickness = tolerances::rounded_up * static_cast<float>(limits.thickness);
     query.all = placed.all;
-    PackAnswer answer{.least = tolerances::no_bound, .least_row = tolerances::no_bound, .near = query.all, .row = query.all};
+    PackAnswer answer{
+        .distance_bound = tolerances::no_bound, .travel_to_contact = tolerances::no_bound, .near = query.all, .row = query.all};
     if (!set_shape(pair, cloth, placed, size, query)) return answer;
     const PackKernels::Function kernel = pair.kind == PairKind::vertex_face ? kernels.vertex_face
                                          : pair.kind == PairKind::edge_edge ? kernels.edge_edge

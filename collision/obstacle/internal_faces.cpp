@@ -25,22 +25,24 @@ struct Solid {
 /// How a triangle lies to all that are not its neighbours.
 enum class Meeting : unsigned char { none, touched, crossed };
 
-bool holds(const Triangle& t, int vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
+bool has_corner(const Triangle& t, int vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
 
-bool share_a_vertex(const Triangle& a, const Triangle& b) { return holds(b, a[0]) || holds(b, a[1]) || holds(b, a[2]); }
+bool share_a_vertex(const Triangle& a, const Triangle& b) {
+    return has_corner(b, a[0]) || has_corner(b, a[1]) || has_corner(b, a[2]);
+}
 
 /// Whether all corners of `other` that are not corners of `first`, too, lie clearly on one side of its plane: neighbours that do
 /// share no more than their common corners. Far above rounding, so that it needs no exact test.
 bool clearly_on_one_side(const Solid& solid, int first, int other) {
     const Corners& t = solid.corners[first];
     const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-    double least = 0.0;
+    double previous = 0.0;
     for (int k = 0; k < 3; ++k) {
-        if (holds(solid.triangles[first], solid.triangles[other][k])) continue;
+        if (has_corner(solid.triangles[first], solid.triangles[other][k])) continue;
         const Vec3 from = solid.corners[other][k] - t[0];
         const double height = normal.dot(from), little = tolerances::clear_side * normal.norm() * (from.norm() + t[0].norm());
-        if (std::abs(height) <= little || height * least < 0.0) return false;
-        least = height;
+        if (std::abs(height) <= little || height * previous < 0.0) return false;
+        previous = height;
     }
     return true;
 }

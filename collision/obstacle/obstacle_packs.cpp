@@ -130,7 +130,7 @@ void place_points(const FeaturePack& pack, const ObstacleSurface& surface, const
     if (pack.kind == PairKind::vertex_face)
         placed.sharpness = std::max(placed.sharpness, static_cast<float>(longest_over_area(x[0], x[1], x[2])));
     if (pack.kind == PairKind::edge_edge)
-        placed.least_edge = std::min(placed.least_edge, static_cast<float>((x[1] - x[0]).norm()));
+        placed.shortest_edge = std::min(placed.shortest_edge, static_cast<float>((x[1] - x[0]).norm()));
 }
 
 void place_directions(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, int lane,
@@ -238,7 +238,7 @@ const PlacedPack& place(ObstaclePacks& packs, int number, const ObstacleSurface&
     }
     placed = {.fraction = fraction,
               .centre = 0.5 * (box.low + box.high),
-              .least_edge = std::numeric_limits<float>::infinity(),
+              .shortest_edge = std::numeric_limits<float>::infinity(),
               .all = static_cast<unsigned char>((1U << pack.count) - 1U),
               .lanes = {}};
     for (int lane = 0; lane < pack_lanes; ++lane) {

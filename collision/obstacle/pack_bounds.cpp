@@ -48,7 +48,7 @@ PERCALE_INLINE unsigned char bits(Mask mask) {
 #endif
 }
 
-PERCALE_INLINE float least_of(Lanes a) {
+PERCALE_INLINE float smallest_of(Lanes a) {
     a = smaller(a, __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3));
     a = smaller(a, __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5));
     a = smaller(a, __builtin_shufflevector(a, a, 1, 0, 3, 2, 5, 4, 7, 6));
@@ -85,10 +85,10 @@ struct Apart {
 };
 
 PERCALE_INLINE Apart from_segment(const Point& p, const Point& a, const Point& b) {
-    const Point along = b - a, way = p - a;
-    const Lanes share = dot(way, along) / larger(dot(along, along), all(least_denominator));
-    const Point vector = way - clamp01(share) * along;
-    return {vector, dot(vector, vector), (share > -unsure_parameter) & (share < 1.0F + unsure_parameter)};
+    const Point along = b - a, offset = p - a;
+    const Lanes parameter = dot(offset, along) / larger(dot(along, along), all(least_denominator));
+    const Point vector = offset - clamp01(parameter) * along;
+    return {vector, dot(vector, vector), (parameter > -unsure_parameter) & (parameter < 1.0F + unsure_parameter)};
 }
 
 PERCALE_INLINE Apart nearer(const Apart& a, const Apart& b) {
@@ -112,8 +112,8 @@ PERCALE_INLINE Apart from_triangle(const Point& p, const Point& a, const Point& 
 }
 
 PERCALE_INLINE void answer(Lanes bound, Lanes row_bound, Mask may_be_row, const PackQuery& query, PackAnswer& result) {
-    result.least = least_of(bound);
-    result.least_row = least_of(larger(bound - query.thickness, row_bound));
+    result.distance_bound = smallest_of(bound);
+    result.travel_to_contact = smallest_of(larger(bound - query.thickness, row_bound));
     result.near = static_cast<unsigned char>(bits(bound < query.near) & query.all);
     result.row = static_cast<unsigned char>(bits(may_be_row) & result.near);
 }
@@ -128,11 +128,11 @@ void vertex_face(const PackLanes& lanes, const PackQuery& query, PackAnswer& res
 /// A contact's direction is square to both edges and lies between the normals n and m of the obstacle edge's triangles (or
 /// between their opposites). If the cloth edge u has n.u and m.u of one sign, no direction between them is square to it, until
 /// its ends have moved by half the smaller of the two.
-PERCALE_INLINE Lanes way_to_row(const PackLanes& lanes, const Point& u, float length) {
+PERCALE_INLINE Lanes travel_to_row(const PackLanes& lanes, const Point& u, float length) {
     const Lanes n = dot(u, lanes_point(lanes, 6)), m = dot(u, lanes_point(lanes, 9));
-    const Lanes way = 0.5F * (smaller(size_of(n), size_of(m)) - unsure_rise * length);
-    const Mask one_sign = (n * m > 0.0F) & (way > 0.0F);
-    return one_sign ? way : all(no_bound);
+    const Lanes travel = 0.5F * (smaller(size_of(n), size_of(m)) - unsure_rise * length);
+    const Mask one_sign = (n * m > 0.0F) & (travel > 0.0F);
+    return one_sign ? travel : all(no_bound);
 }
 
 void edge_edge(const PackLanes& lanes, const PackQuery& query, PackAnswer& result) {
@@ -149,10 +149,10 @@ void edge_edge(const PackLanes& lanes, const PackQuery& query, PackAnswer& resul
     const Lanes slack = pack_rounding * query.size / root(larger(sine_squared, all(pack_rounding)));
     const Lanes bound = root(dot(apart, apart)) - slack;
     const float s_unsure = unsure_crossing + unsure_crossing_per_size * query.size / query.length;
-    const float t_unsure = unsure_crossing + unsure_crossing_per_size * query.size / query.least_edge;
+    const float t_unsure = unsure_crossing + unsure_crossing_per_size * query.size / query.shortest_edge;
     const Mask inside = (s_line > -s_unsure) & (s_line < 1.0F + s_unsure) & (t_line > -t_unsure) & (t_line < 1.0F + t_unsure);
-    const Lanes way = way_to_row(lanes, u, query.length);
-    answer(bound, way, (inside | (sine_squared < unsure_parallel)) & (way <= 0.0F), query, result);
+    const Lanes travel = travel_to_row(lanes, u, query.length);
+    answer(bound, travel, (inside | (sine_squared < unsure_parallel)) & (travel <= 0.0F), query, result);
 }
 
 void face_vertex(const PackLanes& lanes, const PackQuery& query, PackAnswer& result) {
@@ -187,11 +187,11 @@ double largest_difference(const double* a, const double* b, long count) {
     return result;
 }
 
-float least(const float* values, long count) {
-    Lanes least_lanes = all(__builtin_inff());
+float smallest(const float* values, long count) {
+    Lanes smallest_lanes = all(__builtin_inff());
     long i = 0;
-    for (; i + pack_lanes <= count; i += pack_lanes) least_lanes = smaller(load(values + i), least_lanes);
-    float result = least_of(least_lanes);
+    for (; i + pack_lanes <= count; i += pack_lanes) smallest_lanes = smaller(load(values + i), smallest_lanes);
+    float result = smallest_of(smallest_lanes);
     for (; i < count; ++i) result = values[i] < result ? values[i] : result;
     return result;
 }
@@ -213,7 +213,7 @@ constexpr PackKernels kernels{.vertex_face = vertex_face,
                               .edge_edge = edge_edge,
                               .face_vertex = face_vertex,
                               .largest_difference = largest_difference,
-                              .least = least,
+                              .smallest = smallest,
                               .find_up_to = find_up_to};
 
 }  // namespace

@@ -22,7 +22,11 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
       cloth_(cloth.cloth.begin(), cloth.cloth.end()),
       rest_(cloth.rest.begin(), cloth.rest.end()),
       surface_(make_cloth_surface(triangles, vertex_thickness.size())),
-      memory_{.start = rest_, .way = std::vector<Vec3>(rest_.size(), Vec3::Zero()), .seen = rest_, .lists = {}, .pairs = {}} {
+      memory_{.start = rest_,
+              .displacement = std::vector<Vec3>(rest_.size(), Vec3::Zero()),
+              .seen = rest_,
+              .lists = {},
+              .pairs = {}} {
     for (int v = 0; v < static_cast<int>(cloth_.size()); ++v) {
         if (cloth_[v] >= 0) vertices_.push_back(v);
     }
@@ -61,19 +65,19 @@ double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3>
         for (SelfList& list : memory_.lists) list.travel += shrink(list);
     }
     std::copy(from.begin(), from.end(), memory_.seen.begin());
-    if (memory_.made && holds(from) && holds(to)) return 1.0;
+    if (memory_.made && covers(from) && covers(to)) return 1.0;
     memory_.made = true;
-    double share = 1.0;
+    double fraction = 1.0;
     old_pairs_ = memory_.pairs;
     std::span<const Vec3> end = to;
-    while (!rebuild(from, end, share < tolerances::least_covered)) {
-        share *= 0.5;
+    while (!rebuild(from, end, fraction < tolerances::least_covered)) {
+        fraction *= 0.5;
         shortened_.resize(from.size());
-        for (std::size_t i = 0; i < from.size(); ++i) shortened_[i] = from[i] + share * (to[i] - from[i]);
+        for (std::size_t i = 0; i < from.size(); ++i) shortened_[i] = from[i] + fraction * (to[i] - from[i]);
         end = shortened_;
     }
     take_over_zones();
-    return share;
+    return fraction;
 }
 
 Vec3 SelfContactLists::mean_motion(std::span<const Vec3> from, std::span<const Vec3> to) const {
@@ -82,18 +86,18 @@ Vec3 SelfContactLists::mean_motion(std::span<const Vec3> from, std::span<const V
     return mean / static_cast<double>(vertices_.size());
 }
 
-/// Whether a state is start + s way + t + e; s and t by least squares.
-bool SelfContactLists::holds(std::span<const Vec3> positions) const {
+/// Whether a state is start + s displacement + t + e; s and t by least squares.
+bool SelfContactLists::covers(std::span<const Vec3> positions) const {
     const Vec3 mean = mean_motion(memory_.start, positions);
     double along = 0.0, length = 0.0;
     for (const int v : vertices_) {
-        along += memory_.way[v].dot(positions[v] - memory_.start[v] - mean);
-        length += memory_.way[v].squaredNorm();
+        along += memory_.displacement[v].dot(positions[v] - memory_.start[v] - mean);
+        length += memory_.displacement[v].squaredNorm();
     }
     const double s = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
     return std::all_of(vertices_.begin(), vertices_.end(), [&](int v) {
         const double skin = tolerances::self_skin * thickness_[v];
-        return (positions[v] - memory_.start[v] - mean - s * memory_.way[v]).squaredNorm() <= skin * skin;
+        return (positions[v] - memory_.start[v] - mean - s * memory_.displacement[v]).squaredNorm() <= skin * skin;
     });
 }
 
@@ -118,7 +122,7 @@ void SelfContactLists::set_boxes() {
     for (const int v : vertices_) {
         vertex_boxes_[v] = Box{};
         vertex_boxes_[v].add(memory_.start[v]);
-        vertex_boxes_[v].add(memory_.start[v] + memory_.way[v]);
+        vertex_boxes_[v].add(memory_.start[v] + memory_.displacement[v]);
     }
     const auto box_of = [&](const auto& vertices) {
         Box box;
@@ -141,7 +145,7 @@ bool SelfContactLists::rebuild(std::span<const Vec3> from, std::span<const Vec3>
     const Vec3 mean = mean_motion(from, to);
     for (const int v : vertices_) {
         memory_.start[v] = from[v];
-        memory_.way[v] = to[v] - from[v] - mean;
+        memory_.displacement[v] = to[v] - from[v] - mean;
     }
     set_motion(from, to);
     set_boxes();
@@ -170,9 +174,9 @@ void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
     if (!one) pair_vertices(near_second_, near_first_, {room, limit}, from);
     pair_edges(one, {room, limit}, from);
     list.end = memory_.pairs.size();
-    list.least_reach = infinity;
+    list.smallest_reach = infinity;
     for (const SelfPair& pair : pairs(list)) {
-        list.least_reach = std::min(list.least_reach, pair.reach);
+        list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         list.thickness = std::max(list.thickness, pair.thickness);
     }
 }

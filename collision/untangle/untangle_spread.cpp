@@ -16,14 +16,15 @@ struct Front {
     bool operator<(const Front& other) const { return size != other.size ? size < other.size : vertex > other.vertex; }
 };
 
-/// For each vertex the source whose value, less what the way takes, is largest there, and that value; source -1 below `least`.
+/// For each vertex the source whose value, less what the length to it takes, is largest there, and that value; source -1 below
+/// `smallest`.
 struct Reached {
     std::vector<double> size;
     std::vector<int> source;
 };
 
-Reached pass_on(const TangledCloth& cloth, std::span<const Vec3> x, std::vector<Front> start, double loss, double least) {
-    Reached reached{std::vector<double>(x.size(), least), std::vector<int>(x.size(), -1)};
+Reached pass_on(const TangledCloth& cloth, std::span<const Vec3> x, std::vector<Front> start, double loss, double smallest) {
+    Reached reached{std::vector<double>(x.size(), smallest), std::vector<int>(x.size(), -1)};
     std::priority_queue<Front> fronts;
     const auto offer = [&](const Front& front) {
         if (!(front.size > reached.size[front.vertex])) return;
