@@ -3,8 +3,10 @@
 /// Every numerical constant of the layer that decides something. What is no choice stands where it is used: sizes of arrays,
 /// numbers of a formula, and the error bounds of the exact predicates (certificate/exact_orientation.cpp), which are proven.
 ///
-/// A constant of "cost alone" changes no contact and no cut when it changes, only what is stored, asked and measured. Lengths are
-/// given as fractions of the thickness, h: the distance below which cloth is in contact, usually 1 mm to 10 mm.
+/// A constant of "cost alone" adds and removes no contact: it changes what is stored, asked and measured. It may still move a
+/// cut, and with it the bits of a run: a pair that a bound excuses may use up all of its clearance (distance less floor), one
+/// that is measured leaves `clearance_left` of it. Lengths are given as fractions of the thickness, h: the distance below which
+/// cloth is in contact, usually 1 mm to 10 mm.
 namespace percale::tolerances {
 
 // ---- Shared
@@ -24,11 +26,11 @@ constexpr double rounded_off = 1e-6;
 // ---- geometry/
 
 /// Fraction of h. The distance that a cut leaves where there was more than twice as much. 0: distances collapse to rounding,
-/// where the direction of a contact is lost. Towards 1: cuts come before contact forces can act, and steps advance little.
+/// where the direction of a contact is lost. Larger: cloth is stopped farther out in the zone where contact forces act.
 constexpr double cut_floor = 0.2;
 
-/// Fraction of a distance below 2 cut_floor that a cut leaves. Towards 1: a vertex that is near can hardly come nearer in one
-/// call. Towards 0: one call may use up what the following ones need.
+/// Fraction of a distance below cut_floor / cut_remainder (0.4 h) that a cut leaves. Towards 1: a vertex that is near can hardly
+/// come nearer in one call. Towards 0: one call may use up what the following ones need.
 constexpr double cut_remainder = 0.5;
 
 /// Fraction of h. No cut leaves less, unless less was there. 0: distances halve until rounding decides.
@@ -82,7 +84,7 @@ constexpr double beyond_face = 1e-9;
 /// gives up and all faces stay: correct, with contacts inside the body's overlaps.
 constexpr long most_internal_tests = 2000000, most_internal_tests_per_triangle = 200;
 
-/// Triangles of the obstacle in a patch, the unit of a backend's tree. Cost alone.
+/// Triangles of the obstacle in a patch, the unit of a backend's tree. The order of rows depends on it, as on the cluster's.
 constexpr unsigned long triangles_per_patch = 16;
 
 /// Fraction of coordinates. How much a box grows that is turned back to where the tree was built. Below the rounding of two
@@ -96,10 +98,10 @@ constexpr double needle_area = 1e-4;
 /// The same for the bound of a triangle's sharpness. Narrower ones are measured exactly.
 constexpr double flat_triangle_area = 1e-12;
 
-/// Of the cone of directions in which a vertex can be closest. Dot product of unit vectors up to which a ray is below an edge;
-/// length of a cross product below which two edges are parallel; length of the sum of rays below which there is no cone; cosine
-/// of the widest cone worth a test; edges at the vertex worth the search. The last three are cost alone. Smaller first: the cone
-/// gets too narrow and misses contacts.
+/// Of the cone of directions in which a vertex can be closest. `ray_below`: dot product of unit vectors up to which a ray is
+/// below an edge; 0 loses rays to rounding, the cone gets too narrow and contacts are missed. `parallel_edges`: length of a cross
+/// product below which two edges give no ray. Then, cost alone: length of the sum of rays below which there is no cone; cosine of
+/// the widest cone worth a test; edges at the vertex worth the search.
 constexpr double ray_below = 1e-6, parallel_edges = 1e-3, least_ray_sum = 0.5, widest_cone = 0.2;
 constexpr unsigned long most_cone_edges = 16;
 
@@ -159,7 +161,7 @@ constexpr double forgetting_displacement = 0.1;
 /// Fraction of h. How far a vertex may be from the states that the lists hold for. As box_skin. Cost alone.
 constexpr double self_skin = 0.5;
 
-/// Fraction of the distance at rest below which two features of one cloth are in contact at the latest. 1 and more: a mesh finer
+/// Fraction of the distance at rest below which two features of one cloth are in contact at the latest. Above 1: a mesh finer
 /// than its thickness pushes itself apart at rest. Small: a fold closes to nearly nothing at its crease.
 constexpr double contact_of_rest = 0.5;
 
@@ -169,8 +171,8 @@ constexpr long most_self_pairs = 4000000, most_self_pairs_per_vertex = 300;
 /// Sine. A face that falls or rises by less is flat against an edge that crosses it.
 constexpr double flat_sine = 0.05;
 
-/// Fraction of h below which edges that cross in flat cloth are in contact. 1: a crossing shares its contact with the vertices
-/// and faces around it, which meet first.
+/// Fraction of h below which edges that cross in flat cloth are in contact. Vertices and faces around them meet
+/// first: at 1 one contact would count several times.
 constexpr double flat_crossing = 0.5;
 
 /// Sine (2 degrees). Edges at smaller angles have no contact of their own, their ends have. 0: closest points jump from end to
@@ -233,8 +235,8 @@ constexpr int most_uneven_split = 8;
 
 // ---- bullet/
 
-/// Fraction of the obstacle's diagonal. How much larger the box is in which Bullet quantises. 0: the box of a flat obstacle has
-/// no extent to divide by.
+/// Fraction of the obstacle's diagonal. How much larger than the obstacle the box is that Bullet quantises in and that asked
+/// boxes are first held against.
 constexpr double quantised_box = 1e-6;
 
 }  // namespace percale::tolerances
