@@ -172,7 +172,7 @@ void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
     if (!one) pair_vertices(near_second_, near_first_, {room, limit}, from);
     pair_edges(one, {room, limit}, from);
     list.end = memory_.pairs.size();
-    list.smallest_reach = infinity;
+    list.smallest_reach = std::numeric_limits<double>::infinity();
     for (const SelfPair& pair : pairs(list)) {
         list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         list.thickness = std::max(list.thickness, pair.thickness);
