@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # All that a change must pass, in order; stops at the first stage that fails: .ci/check.sh [STAGE...]
-# Stages: format layers release scenes consumer engine_only sanitizers fuzz. Builds are kept under build/ci-*. Each compiler builds
-# everything once, g++ as the README says and clang++ under sanitizers; engine_only builds the engine alone.
+# Stages: format layers release scenes perf consumer engine_only sanitizers fuzz; only on demand: night. Builds are kept under build/ci-*.
+# Each compiler builds what it tests once: g++ all, as the README says, in batches; clang++ the tests, under sanitizers, file by file;
+# engine_only the engine alone.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
 
-stages=(format layers release scenes consumer engine_only sanitizers fuzz)
+stages=(format layers release scenes perf consumer engine_only sanitizers fuzz)
+on_demand=(night)
 release_copy="$root/build/ci-release/a path with a space"
 jobs=${PERCALE_JOBS:-2}
 export CMAKE_BUILD_PARALLEL_LEVEL=$jobs CTEST_PARALLEL_LEVEL=$jobs CTEST_OUTPUT_ON_FAILURE=1
@@ -25,13 +27,12 @@ project_files() {
     fi
 }
 
-# configure_and_build FOLDER [CMAKE ARGUMENT...]
-configure_and_build() {
+# configure FOLDER [CMAKE ARGUMENT...]
+configure() {
     local folder=$1 generator=()
     shift
     if command -v ninja >/dev/null; then generator=(-G Ninja); fi
     cmake -B "$folder" "${generator[@]}" -DPERCALE_REAL_MESHES="$PERCALE_REAL_MESHES" "$@" >"$folder.log" 2>&1 || { cat "$folder.log"; return 1; }
-    cmake --build "$folder"
 }
 
 # The shell or C++ text of the README's fenced block behind the line <!-- ci:NAME -->.
@@ -50,6 +51,7 @@ stage_layers() {
     python3 .ci/layers.py
     python3 .ci/layers_test.py
     python3 .ci/perf_gate_test.py
+    python3 .ci/quick_test.py
 }
 
 # The README's two commands, as a newcomer would type them, in a copy of the checkout in a path with a space: the release build by g++
@@ -82,27 +84,59 @@ stage_release() {
     PERCALE_REAL_MESHES=$root/build/ci-release/none ctest --test-dir "$release_copy/build" --no-tests=error -R 'body scan|scanned'
 }
 
-# The engine must build where FCL, Bullet and assimp are missing; CMake is told not to find them. Nor may a file lean on headers that
-# are precompiled elsewhere.
+# The engine must build where FCL, Bullet and assimp are missing; CMake is told not to find them. Its tests run in the stages release and
+# sanitizers; here a towel hangs. File by file: none may lean on what another one of its batch includes.
 stage_engine_only() {
     local hidden=() package
     for package in fcl ccd octomap Bullet assimp tomlplusplus nlohmann_json CLI11; do
         hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
     done
-    configure_and_build build/ci-engine-only --preset engine-only -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "${hidden[@]}"
-    ctest --test-dir build/ci-engine-only --no-tests=error
+    configure build/ci-engine-only --preset engine-only -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_TESTS=OFF -DPERCALE_UNITY=OFF "${hidden[@]}"
+    cmake --build build/ci-engine-only
+    rm -rf build/ci-engine-only/installed
+    cmake --install build/ci-engine-only --prefix build/ci-engine-only/installed >>build/ci-engine-only.log
+    cmake -S .ci/consumer -B build/ci-engine-only/consumer -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release -DENGINE_ONLY=ON \
+        -DCMAKE_PREFIX_PATH="$root/build/ci-engine-only/installed" "${hidden[@]}" >>build/ci-engine-only.log
+    cmake --build build/ci-engine-only/consumer
+    ctest --test-dir build/ci-engine-only/consumer --no-tests=error
 }
 
-# clang++, address and undefined-behaviour sanitizers, with what the stage fuzz needs.
+# build_sanitizers TARGET...: clang++, address and undefined-behaviour sanitizers. Sources one by one, so that none leans on its batch.
 build_sanitizers() {
-    configure_and_build build/ci-sanitizers -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-        -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only"
+    configure build/ci-sanitizers -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF \
+        -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only"
+    cmake --build build/ci-sanitizers --target "$@"
 }
 
-# Without whole runs and laws, which go the ways of unit tests many times over.
+# run_file LAYER NAME: the cases of the test files of that name, without laws, in one process.
+run_file() {
+    local log=build/ci-sanitizers/cases/$1.$2.log
+    "build/ci-sanitizers/percale_$1_tests" -# "[#$2]~[law]" >"$log" 2>&1 || { echo "$1, $2:"; tail -80 "$log"; return 1; }
+}
+
+# The test files of a layer's program, by name; those of properties/ are asked for in both programs that have some.
+test_files() {
+    find "tests/$1" tests/properties -name '*_test.cpp' -printf '%f\n' | sed 's/\.cpp$//' | sort -u | sed "s/^/$1 /"
+}
+
+# Without whole runs and laws, which go the ways of unit tests many times over. A process for each case would take longer than the case,
+# so there is one for each file; that no case was left out is checked by their number.
 stage_sanitizers() {
-    build_sanitizers
-    UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/ci-sanitizers --no-tests=error -LE 'long|validation'
+    local layer wanted ran
+    build_sanitizers percale_engine_tests percale_collision_tests percale_scenes_tests fuzz
+    rm -rf build/ci-sanitizers/cases
+    mkdir -p build/ci-sanitizers/cases
+    export -f run_file
+    export UBSAN_OPTIONS=print_stacktrace=1
+    for layer in engine collision scenes; do test_files "$layer"; done | xargs -P "$jobs" -n 2 bash -c 'run_file "$1" "$2"' run_file
+    # The exit code of a listing is the number of cases.
+    wanted=$(for layer in engine collision scenes; do
+        "build/ci-sanitizers/percale_${layer}_tests" --list-test-names-only '~[law]' || true
+    done | wc -l)
+    ran=$(sed -n -E 's/^All tests passed .* in ([0-9]+) test cases?.*/\1/p; s/^test cases: +([0-9]+) \| +\1 passed.*/\1/p' build/ci-sanitizers/cases/*.log |
+        awk '{ sum += $1 } END { print sum + 0 }')
+    echo "$ran of $wanted cases passed under sanitizers"
+    [ "$wanted" -gt 0 ] && [ "$ran" -eq "$wanted" ]
 }
 
 # fuzz_one NAME: from the corpus and what it finds; what fails is left in build/ci-fuzz-found. Sanitizers make a second about three.
@@ -117,7 +151,7 @@ fuzz_one() {
 
 # Targets of tests/fuzz for half a minute each, as many at once as there are jobs.
 stage_fuzz() {
-    build_sanitizers
+    build_sanitizers fuzz
     rm -rf "$root/build/ci-fuzz-found"
     export -f fuzz_one
     export root
@@ -127,6 +161,22 @@ stage_fuzz() {
 stage_scenes() {
     [ -x "$release_copy/build/percale" ] || { echo "$release_copy/build/percale is missing: run the stage release first"; return 1; }
     "$release_copy/build/percale" check data/scenes/*.toml
+}
+
+# Instructions of the steps of small scenes against .ci/instructions.json.
+stage_perf() {
+    [ -x "$release_copy/build/percale" ] || { echo "$release_copy/build/percale is missing: run the stage release first"; return 1; }
+    python3 .ci/perf_gate.py --program "$release_copy/build/percale"
+}
+
+# What takes longer than a change can wait for: the engine's tests and laws by clang++ without sanitizers, the hidden soak tests, and
+# five minutes a fuzz target.
+stage_night() {
+    configure build/ci-night -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DCMAKE_BUILD_TYPE=Release
+    cmake --build build/ci-night
+    ctest --test-dir build/ci-night --no-tests=error
+    build/ci-night/percale_validation_tests '[.soak]'
+    PERCALE_FUZZ_SECONDS=${PERCALE_FUZZ_SECONDS:-300} stage_fuzz
 }
 
 # Installs into a fresh prefix and builds somebody else's program against it, by CMake and by pkg-config.
@@ -152,7 +202,7 @@ stage_consumer() {
 selected=("$@")
 [ ${#selected[@]} -gt 0 ] || selected=("${stages[@]}")
 for stage in "${selected[@]}"; do
-    case " ${stages[*]} " in *" $stage "*) ;; *) echo "check.sh: no stage '$stage' (${stages[*]})"; exit 2 ;; esac
+    case " ${stages[*]} ${on_demand[*]} " in *" $stage "*) ;; *) echo "check.sh: no stage '$stage' (${stages[*]} ${on_demand[*]})"; exit 2 ;; esac
 done
 
 mkdir -p build

@@ -1,14 +1,19 @@
 #!/usr/bin/env python3
-"""Fails where a change makes a step dearer: .ci/perf_gate.py [--base REF] [--limit PERCENT] [--json FILE].
+"""Fails where a change makes a step dearer: .ci/perf_gate.py --program FILE [--store], or .ci/perf_gate.py [--base REF].
 
-Builds the program of REF and of the working tree side by side and counts, with callgrind, the instructions that each
-spends in time steps of small scenes. Instructions do not depend on what else the machine does. A scene above the limit
-passes only if .github/CHANGELOG.md has a line with the scene's name under a heading "Performance" that REF does not
-have. Exit code 0: passed, 1: a scene is dearer, 2: could not be measured. Needs git, cmake, a compiler and valgrind.
+Counts, with callgrind, the instructions that a program spends in time steps of small scenes; they do not depend on what
+else the machine does. With --program the counts are compared with .ci/instructions.json, which needs no history and no
+second build; --store writes that file anew, which a commit does that makes steps dearer on purpose or cheaper. Kernels and
+the C library's functions are held to the instructions that every machine of 64 bits has. Counts of another compiler or
+C library are another matter: they are printed, not compared.
+With --base the program of REF and of the working tree are built side by side; a scene above the limit passes only if
+.github/CHANGELOG.md has a line with the scene's name under a heading "Performance" that REF does not have.
+Exit code 0: passed, 1: a scene is dearer, 2: could not be measured. Needs valgrind, with --base git, cmake and a compiler.
 """
 import argparse
 import json
 import os
+import platform
 import re
 import shutil
 import subprocess
@@ -17,6 +22,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+STORED = '.ci/instructions.json'
 CHANGELOG = '.github/CHANGELOG.md'
 COUNTED = 'percale::Simulation::step()'  # the rest of the program reads files and writes reports
 
@@ -52,6 +58,10 @@ SCENES = {
                        + 'motion = [{ time = 0.0, translation = [0.0, 0.0, 0.0] }, { time = 0.3, translation = [0.0, 0.15, 0.0] }]\n',
     'two_cloths': 'duration = 0.25\n' + FABRIC + cloth('near', 0.262, vertices=17) + cloth('far', 1.0, '[0, 16]', vertices=17) + BALL,
 }
+
+
+# What the counted program runs with: a count must not depend on the processor.
+EVERY_MACHINE = {'PERCALE_INSTRUCTIONS': 'baseline', 'GLIBC_TUNABLES': 'glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX512F,-ERMS,-FSRM'}
 
 
 class CannotMeasure(Exception):
@@ -157,7 +167,7 @@ def count(program, scene_file, folder):
     counts = folder / 'callgrind.out'
     counts.unlink(missing_ok=True)
     run(['valgrind', '--tool=callgrind', f'--callgrind-out-file={counts}', f'--toggle-collect={COUNTED}', program, 'run', scene_file,
-         '-o', folder / 'run', '--quiet'])
+         '-o', folder / 'run', '--quiet', '--threads', '1'], env={**os.environ, **EVERY_MACHINE})
     return counted_instructions(counts.read_text())
 
 
@@ -212,17 +222,56 @@ def gate(root, options, scratch):
     return 1 if dearer else 0
 
 
+def toolchain(program):
+    """What else than the source the counts depend on: compiler and C library of this program."""
+    found = re.search(rb'(?:GCC: \([^)]*\)|clang version) [0-9.]+', program.read_bytes())
+    compiler = re.sub(r' \([^)]*\)', '', found.group().decode()) if found else 'an unknown compiler'
+    return f'{compiler}, {" ".join(platform.libc_ver())}, {platform.machine()}'
+
+
+def judge_stored(stored, tools, counts, limit):
+    """(verdicts, whether they count): scenes of another compiler are not comparable."""
+    comparable = stored['toolchain'] == tools
+    return judge(stored['scenes'] if comparable else {}, counts, set(), limit), comparable
+
+
+def compare_stored(root, options, scratch):
+    program = Path(options.program).resolve()
+    if not program.is_file():
+        raise CannotMeasure(f'{options.program}: no such program')
+    counts, tools = count_all(program, scratch / 'runs', False), toolchain(program)
+    if options.store:
+        (root / STORED).write_text(json.dumps({'toolchain': tools, 'scenes': counts}, indent=2) + '\n')
+        print(f'{STORED} holds the counts of this program ({tools})')
+        return 0
+    stored = json.loads((root / STORED).read_text())
+    verdicts, comparable = judge_stored(stored, tools, counts, options.limit)
+    print(f'instructions in {COUNTED}, base {STORED}\n{table(verdicts)}')
+    if not comparable:
+        print(f'perf_gate: not compared: counts are stored for {stored["toolchain"]}, this is {tools}')
+    cheaper = [v.scene for v in verdicts if v.base and v.head * 100 < v.base * (100 - options.limit)]
+    if cheaper:
+        print(f'perf_gate: cheaper by more than {options.limit:g} %: {", ".join(cheaper)}; keep that: --store')
+    dearer = [v.scene for v in verdicts if v.word == 'dearer']
+    if dearer:
+        print(f'perf_gate: dearer by more than {options.limit:g} %: {", ".join(dearer)}. If that is meant, store the counts '
+              f'(--store) and say why in the commit.')
+    return 1 if dearer else 0
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument('--base', help='git ref to compare with (default: origin/main, or HEAD~1)')
-    parser.add_argument('--limit', type=float, default=5.0, help='percent that a scene may become dearer (default 5)')
+    parser.add_argument('--program', help=f'a built program, whose counts are compared with {STORED}')
+    parser.add_argument('--store', action='store_true', help=f'with --program: write {STORED}')
+    parser.add_argument('--limit', type=float, default=1.0, help='percent that a scene may become dearer (default 1)')
     parser.add_argument('--jobs', type=int, default=2, help='parallel compilations (default 2)')
     parser.add_argument('--json', help='also write the table to this file')
     options = parser.parse_args(arguments)
     root = Path(__file__).resolve().parent.parent
     try:
         with tempfile.TemporaryDirectory(prefix='percale-perf-') as scratch:
-            return gate(root, options, Path(scratch))
+            return (compare_stored if options.program else gate)(root, options, Path(scratch))
     except (CannotMeasure, OSError) as error:
         print(f'perf_gate: {error}', file=sys.stderr)
         return 2

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Proves the decisions of perf_gate.py without building anything."""
+import json
 import sys
+import tempfile
 import tomllib
 import unittest
 from pathlib import Path
@@ -43,6 +45,31 @@ class Judgement(unittest.TestCase):
         text = perf_gate.table(perf_gate.judge({'hang': 1000000}, {'hang': 1500000, 'sphere': 7}, set(), 5.0))
         self.assertRegex(text, r'hang +1,000,000 +1,500,000 +1\.5000  dearer')
         self.assertRegex(text, r'sphere +- +7 +-  new')
+
+
+class Stored(unittest.TestCase):
+    STORED = {'toolchain': 'GCC: 12.2.0', 'scenes': {'hang': 1000, 'sphere': 1000}}
+
+    def test_counts_are_compared_with_those_of_the_same_compiler(self):
+        verdicts, comparable = perf_gate.judge_stored(self.STORED, 'GCC: 12.2.0', {'hang': 1010, 'sphere': 1011}, 1.0)
+        self.assertEqual(([v.word for v in verdicts], comparable), (['ok', 'dearer'], True))
+
+    def test_counts_of_another_compiler_are_not_compared(self):
+        verdicts, comparable = perf_gate.judge_stored(self.STORED, 'GCC: 13.1.0', {'hang': 9999}, 1.0)
+        self.assertEqual(([v.word for v in verdicts], comparable), (['new'], False))
+
+    def test_the_compiler_is_read_from_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = Path(folder) / 'program'
+            program.write_bytes(b'\x7fELF\0\xffGCC: (Debian 12.2.0-14+deb12u1) 12.2.0\0')
+            self.assertTrue(perf_gate.toolchain(program).startswith('GCC: 12.2.0, '))
+
+    def test_every_scene_has_a_stored_count(self):
+        stored = json.loads((Path(perf_gate.__file__).parent / 'instructions.json').read_text())
+        self.assertEqual(set(stored['scenes']), set(perf_gate.SCENES))
+
+    def test_a_program_that_is_missing_ends_with_2(self):
+        self.assertEqual(perf_gate.main(['--program', 'no-such-program']), 2)
 
 
 class Changelog(unittest.TestCase):

@@ -11,17 +11,11 @@
 #include "lists/pack_measure.h"
 #include "percale/certify.h"
 #include "self/self_contact_detection.h"
+#include "tolerances.h"
 #include "untangle/untangle.h"
 
 namespace percale {
 namespace {
-
-constexpr double kept_way = 0.1;  // of the thickness: a vertex that has moved no farther keeps its contacts from step to step
-
-/// Pairs farther apart than this keep their floor if they come closer by no more than `way`.
-double within(double way, double h) {
-    return way > largest_floor * h ? way + largest_floor * h : std::max(2.0 * way, way + 1e-3 * h);
-}
 
 bool stays_above(const PackHull& hull, const ContactPair& pair, const ClothMove& move, double height) {
     return height_above(hull, pair.vertices(), move.from) > height && height_above(hull, pair.vertices(), move.to) > height;
@@ -81,22 +75,22 @@ public:
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
         if (!lists_->empty()) forget_contacts(start);
-        lists_->cover({.from = start, .to = predicted, .part = {0.0, 1.0}}, obstacles_);
+        lists_->cover({.from = start, .to = predicted, .fraction = {0.0, 1.0}}, obstacles_);
         if (between_cloths_) between_cloths_->refresh(start, predicted);
     }
 
     void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, positions);
-        lists_->cover({.from = positions, .to = positions, .part = {fraction, fraction}}, obstacles_);
+        lists_->cover({.from = positions, .to = positions, .fraction = {fraction, fraction}}, obstacles_);
         rows.clear();
         smallest_distance_ = std::numeric_limits<double>::infinity();
         if (!lists_->empty()) add_rows(positions, fraction, rows);
         if (between_cloths_) smallest_distance_ = std::min(smallest_distance_, between_cloths_->add_rows(positions, rows));
     }
 
-    double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) override {
+    double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction fraction) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, from);
-        const ClothMove move{.from = from, .to = to, .part = part};
+        const ClothMove move{.from = from, .to = to, .fraction = fraction};
         double safe = lists_->cover(move, obstacles_);
         if (!lists_->empty()) safe = cut(move, safe);
         return between_cloths_ ? std::min(safe, between_cloths_->largest_safe_fraction(from, to)) : safe;
@@ -107,7 +101,7 @@ public:
     void save(StateWriter& state) const override {
         state(scene_hash(triangles_, thickness_, obstacles_));
         for (const auto& obstacle : obstacles_) state(obstacle->start_pose(), obstacle->end_pose());
-        state(kept_at_, smallest_distance_, lists_.has_value());
+        state(forgotten_at_, smallest_distance_, lists_.has_value());
         if (lists_) percale::save(*lists_, obstacles_, state);
         if (between_cloths_) between_cloths_->save(state);
     }
@@ -118,18 +112,18 @@ public:
         if (hash != scene_hash(triangles_, thickness_, obstacles_))
             throw SceneError("saved state: it is of other cloth or other obstacles than the detector has");
         const std::vector<std::array<Pose, 2>> poses = restored_poses(obstacles_, state);
-        std::vector<Vec3> kept_at;
+        std::vector<Vec3> forgotten_at;
         double smallest_distance = 0.0;
         bool listed = false;
-        state(kept_at, smallest_distance, listed);
-        state.demand(kept_at.empty() || kept_at.size() == thickness_.size(), "a wrong number of vertices");
+        state(forgotten_at, smallest_distance, listed);
+        state.demand(forgotten_at.empty() || forgotten_at.size() == thickness_.size(), "a wrong number of vertices");
         std::optional<CandidateLists> lists;
         if (listed) lists = restored_lists(triangles_, thickness_, obstacles_, state);
         std::optional<SelfContactDetection> between_cloths = between_cloths_;
         if (between_cloths) between_cloths->restore(state);
         state.demand(state.at_end(), "there is more than belongs to it");
         for (std::size_t i = 0; i < obstacles_.size(); ++i) obstacles_[i]->move(poses[i][0], poses[i][1]);
-        kept_at_ = std::move(kept_at);
+        forgotten_at_ = std::move(forgotten_at);
         smallest_distance_ = smallest_distance;
         lists_ = std::move(lists);
         if (lists_) lists_->settle(obstacles_);
@@ -148,7 +142,7 @@ private:
             fetch_ahead(i);
             add_lane(positions, fraction, lanes_[i], rows);
         }
-        for (ClusterList* list : near_clusters_) CandidateLists::set_least(*list);
+        for (ClusterList* list : near_clusters_) CandidateLists::set_smallest_bounds(*list);
     }
 
     void find_near() {
@@ -224,7 +218,8 @@ private:
             }
             const SelectedPack& at = selected_[i];
             const PackAnswer answer = measure_pack(here, at, thickness_[at.feature().cloth[0]]);
-            for (unsigned lanes = answer.row | (at.list->packs.at[at.index].held & answer.near); lanes != 0; lanes &= lanes - 1) {
+            for (unsigned lanes = answer.row | (at.list->packs.at[at.index].active & answer.near); lanes != 0;
+                 lanes &= lanes - 1) {
                 lanes_.push_back({at, std::countr_zero(lanes)});
                 __builtin_prefetch(&packs_for(at.feature()).packs[at.number()].feature);
             }
@@ -233,10 +228,11 @@ private:
 
     /// Lowers `safe` to what all clusters allow.
     double cut(const ClothMove& move, double safe) {
-        double obstacle_way = 0.0;
-        for (const auto& obstacle : obstacles_) obstacle_way = std::max(obstacle_way, obstacle->longest_way());
-        obstacle_way *= move.part.to - move.part.from;
-        for (std::size_t i = 0; i < lists_->lists().size(); ++i) safe = cut_cluster(move, obstacle_way, i, safe);
+        double obstacle_displacement = 0.0;
+        for (const auto& obstacle : obstacles_)
+            obstacle_displacement = std::max(obstacle_displacement, obstacle->largest_displacement());
+        obstacle_displacement *= move.fraction.to - move.fraction.from;
+        for (std::size_t i = 0; i < lists_->lists().size(); ++i) safe = cut_cluster(move, obstacle_displacement, i, safe);
         return safe;
     }
 
@@ -244,23 +240,24 @@ private:
     /// that rests stay, or contacts that join while a step is solved would be missing at the start of the next: the cloth would
     /// tremble between the two.
     void forget_contacts(std::span<const Vec3> positions) {
-        const bool all = kept_at_.size() != positions.size() ||
-                         std::any_of(obstacles_.begin(), obstacles_.end(), [](const auto& o) { return o->longest_way() > 0.0; });
-        kept_at_.resize(positions.size(), Vec3::Zero());
+        const bool all =
+            forgotten_at_.size() != positions.size() ||
+            std::any_of(obstacles_.begin(), obstacles_.end(), [](const auto& o) { return o->largest_displacement() > 0.0; });
+        forgotten_at_.resize(positions.size(), Vec3::Zero());
         moved_.resize(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            moved_[i] = all || (positions[i] - kept_at_[i]).norm() > kept_way * thickness_[i];
-            if (moved_[i]) kept_at_[i] = positions[i];
+            moved_[i] = all || (positions[i] - forgotten_at_[i]).norm() > tolerances::forgetting_displacement * thickness_[i];
+            if (moved_[i]) forgotten_at_[i] = positions[i];
         }
         for (ClusterList& list : lists_->lists()) {
-            if (!list.holds) continue;
-            list.holds = false;
+            if (!list.has_active) continue;
+            list.has_active = false;
             for (std::size_t i = 0; i < list.packs.size(); ++i) {
-                if (list.packs.at[i].held == 0) continue;
+                if (list.packs.at[i].active == 0) continue;
                 const std::span<const int> cloth = list.features[list.packs.at[i].feature].vertices();
                 if (std::any_of(cloth.begin(), cloth.end(), [&](int vertex) { return moved_[vertex]; }))
-                    list.packs.at[i].held = 0;
-                list.holds = list.holds || list.packs.at[i].held != 0;
+                    list.packs.at[i].active = 0;
+                list.has_active = list.has_active || list.packs.at[i].active != 0;
             }
         }
     }
@@ -268,10 +265,10 @@ private:
     PackAnswer measure_pack(const ClothMove& move, const SelectedPack& at, double near) {
         const ContactPair& feature = at.feature();
         const double thickness = thickness_[feature.cloth[0]];
-        const PlacedPack& placed = obstacles_[feature.obstacle]->placed(at.number(), move.part.from);
+        const PlacedPack& placed = obstacles_[feature.obstacle]->placed(at.number(), move.fraction.from);
         const PackAnswer answer = measure(feature, move.from, placed, {.near = near, .thickness = thickness});
-        at.list->packs.raise(at.index, static_cast<double>(answer.least), static_cast<double>(answer.least_row), thickness,
-                             at.list->travel);
+        at.list->packs.raise(at.index, static_cast<double>(answer.distance_bound), static_cast<double>(answer.travel_to_contact),
+                             thickness, at.list->travel);
         return answer;
     }
 
@@ -299,10 +296,10 @@ private:
         // that the force is continuous where closest points pass from one feature to the next.
         const auto& [list, pack] = at.place;
         if (contact.local_minimum) {
-            list->packs.hold(pack, at.lane, thickness);
-            list->holds = true;
+            list->packs.activate(pack, at.lane, thickness);
+            list->has_active = true;
         }
-        if ((list->packs.at[pack].held >> at.lane & 1U) != 0) add_row(pair, contact, thickness, rows);
+        if ((list->packs.at[pack].active >> at.lane & 1U) != 0) add_row(pair, contact, thickness, rows);
     }
 
     void add_row(const ContactPair& pair, const PairContact& contact, double thickness, ContactRows& rows) const {
@@ -322,26 +319,28 @@ private:
     /// Where a cloth feature goes during a move.
     struct FeatureMove {
         int number = -1;  // in the list
-        double way = 0.0, thickness = 0.0;
+        double displacement = 0.0, thickness = 0.0;
         Box room;
     };
     void set_move(const ClothMove& move, const ContactPair& feature, FeatureMove& own) const {
         own.thickness = thickness_[feature.cloth[0]];
-        own.way = 0.0;
+        own.displacement = 0.0;
         own.room = Box();
         for (const int vertex : feature.vertices()) {
-            own.way = std::max(own.way, lists_->ways()[vertex]);
+            own.displacement = std::max(own.displacement, lists_->displacements()[vertex]);
             own.room.add(move.from[vertex]);
             own.room.add(move.to[vertex]);
         }
-        own.room.grow(largest_floor * own.thickness);
+        own.room.grow(tolerances::cut_floor * own.thickness);
     }
 
-    /// Lowers `safe` where a pair of the cluster needs it. `obstacle_way`: how far obstacles go during the whole move.
-    double cut_cluster(const ClothMove& move, double obstacle_way, std::size_t cluster, double safe) {
+    /// Lowers `safe` where a pair of the cluster needs it. `obstacle_displacement`: how far obstacles go during the whole move.
+    double cut_cluster(const ClothMove& move, double obstacle_displacement, std::size_t cluster, double safe) {
         ClusterList& list = lists_->lists()[cluster];
-        const double limit = list.travel + within((lists_->cluster_way(cluster) + obstacle_way) * safe, list.thickness);
-        if (list.least_reach >= limit) return safe;
+        const double limit =
+            list.travel +
+            distance_that_keeps_floor((lists_->cluster_displacement(cluster) + obstacle_displacement) * safe, list.thickness);
+        if (list.smallest_reach >= limit) return safe;
         FeatureMove own;
         for (const int pack : packs_up_to(list.packs.reach, limit)) {
             const SelectedPack at{&list, pack};
@@ -350,14 +349,14 @@ private:
                 own.number = list.packs.at[pack].feature;
                 set_move(move, feature, own);
             }
-            const double near = within((own.way + obstacle_way) * safe, own.thickness);
+            const double near = distance_that_keeps_floor((own.displacement + obstacle_displacement) * safe, own.thickness);
             if (static_cast<double>(list.packs.reach[pack]) - list.travel >= near) continue;
             const PackHull& hull = hull_of(at);
             const bool may_cross =
-                !stays_above(hull, feature, move, largest_floor * own.thickness) && hull.box().overlaps(own.room);
+                !stays_above(hull, feature, move, tolerances::cut_floor * own.thickness) && hull.box().overlaps(own.room);
             if (may_cross) safe = cut_pack(move, near, at, safe);
         }
-        CandidateLists::set_least(list);
+        CandidateLists::set_smallest_bounds(list);
         return safe;
     }
 
@@ -366,12 +365,12 @@ private:
         const Obstacle& obstacle = *obstacles_[at.feature().obstacle];
         for (unsigned lanes = answer.near; lanes != 0; lanes &= lanes - 1) {
             const ContactPair pair = at.feature().with(obstacle.packs().packs[at.number()], std::countr_zero(lanes));
-            const Vec3 apart = pair_apart(pair, move.from, obstacle, move.part.from);
+            const Vec3 apart = pair_apart(pair, move.from, obstacle, move.fraction.from);
             const double distance = apart.norm(), floor = floor_below(distance, thickness_[pair.cloth[0]]);
             const MovingFour four = moving_pair(pair, move, obstacle);
             // Convex features that a plane parts at both ends of a straight move are parted by it throughout.
-            const double kept = floor + 0.1 * (distance - floor);
-            if (distance > 0.0 && gap_along(four, cloth_slots(pair.kind), apart / distance, safe) >= kept) continue;
+            const double enough = floor + tolerances::clearance_left * (distance - floor);
+            if (distance > 0.0 && gap_along(four, cloth_slots(pair.kind), apart / distance, safe) >= enough) continue;
             safe = safe_time(four, shape_of(pair.kind), floor, safe);
         }
         return safe;
@@ -386,7 +385,7 @@ private:
     std::vector<int> found_;
     std::vector<SelectedPack> candidates_, selected_;
     std::vector<SelectedLane> lanes_;
-    std::vector<Vec3> kept_at_;                           // m, where each vertex was when its contacts were last forgotten
+    std::vector<Vec3> forgotten_at_;                      // m, where each vertex was when its contacts were last forgotten
     std::vector<unsigned char> moved_;                    // whether they are to be forgotten now
     std::optional<SelfContactDetection> between_cloths_;  // if any cloth meets cloth
     double smallest_distance_ = std::numeric_limits<double>::infinity();

@@ -4,6 +4,7 @@
 #include "bullet/bullet_tree.h"
 #include "detector.h"
 #include "percale/detectors.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -33,7 +34,7 @@ public:
         btTriangleIndexVertexArray mesh(static_cast<int>(triangles.size()), const_cast<int*>(triangles[0].data()),
                                         sizeof(Triangle), static_cast<int>(vertices.size()),
                                         const_cast<double*>(vertices[0].data()), sizeof(Vec3));
-        const double margin = 1e-6 * (bounds_.high - bounds_.low).norm();
+        const double margin = tolerances::quantised_box * (bounds_.high - bounds_.low).norm();
         bounds_.grow(margin);
         tree_.build(&mesh, true, to_bullet(bounds_.low), to_bullet(bounds_.high));
     }

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "tolerances.h"
+
 namespace percale::certificate {
 namespace {
-
-constexpr int leaf_size = 4;
 
 std::vector<Box> boxes_of(std::span<const Corners> triangles) {
     std::vector<Box> boxes;
@@ -68,7 +68,7 @@ void BoxTree::split(int node, int first, int count) {
     nodes_[node].box = box;
     nodes_[node].extent = (box.high - box.low).sum();
     nodes_[node].first = first;
-    if (count <= leaf_size) {
+    if (count <= tolerances::leaf_size) {
         nodes_[node].count = count;
         return;
     }
@@ -93,7 +93,7 @@ int BoxTree::partition(int first, int count) {
     const auto begin = order_.begin() + first, end = begin + count;
     const auto cut = std::partition(begin, end, [&](int item) { return coordinate(item) < middle; });
     const int left = static_cast<int>(cut - begin);
-    if (8 * std::min(left, count - left) >= count) return left;
+    if (tolerances::most_uneven_split * std::min(left, count - left) >= count) return left;
     std::nth_element(begin, begin + count / 2, end, [&](int a, int b) { return coordinate(a) < coordinate(b); });
     return count / 2;
 }

@@ -12,6 +12,7 @@
 #include "certificate/triangle_gap.h"
 #include "certificate/triangle_overlap.h"
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -19,8 +20,8 @@ namespace {
 using namespace certificate;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Room for rounding where a bound of a distance decides that a pair need not be measured.
-constexpr double bound_slack = 1.0 - 1e-9;
+// A bound times this excuses a pair from measurement.
+constexpr double below_bound = 1.0 - tolerances::bound_slack;
 
 struct Surface {
     std::vector<Corners> triangles;
@@ -35,10 +36,9 @@ void check_limit(double limit) {
 
 /// Squared areas stay below overflow.
 void check_range(const TriangleMesh& mesh, const std::string& name) {
-    constexpr double largest = 1e75;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
         const double size = mesh.vertices[v].cwiseAbs().maxCoeff();
-        if (size <= largest) continue;
+        if (size <= tolerances::largest_coordinate) continue;
         throw SceneError(name + ": vertex " + std::to_string(v) + " has a coordinate of magnitude " + std::to_string(size) +
                          " m; the largest allowed is 1e75 m");
     }
@@ -113,7 +113,7 @@ std::vector<int> vertices_inside(const TriangleMesh& cloth, const Surface& obsta
 double distance_to_surface(const Vec3& x, const Surface& surface) {
     Box here;
     here.add(x);
-    const auto box_distance = [&](const Box& box) { return distance(here, box) * bound_slack; };
+    const auto box_distance = [&](const Box& box) { return distance(here, box) * below_bound; };
     const auto item_distance = [&](int i) { return point_triangle_distance(x, surface.triangles[i]); };
     return surface.tree.nearest(infinity, box_distance, item_distance).second;
 }
@@ -135,7 +135,7 @@ double smallest_distance(const Surface& cloth, const Surface& obstacle, double l
     for (const Corners& triangle : cloth.triangles) slabs.push_back(slab_of(triangle));
     return cloth.tree.nearest_pair(obstacle.tree, limit, [&](int i, int j, double best) {
         const Corners &a = cloth.triangles[i], &b = obstacle.triangles[j];
-        const double too_far = best / bound_slack;
+        const double too_far = best / below_bound;
         return triangle_separation(a, slabs[i], b, too_far) > too_far ? infinity : triangle_distance(a, b);
     });
 }

@@ -23,15 +23,15 @@ class Expansion {
 public:
     /// Grow-expansion: error-free two-sum of `value` with every term from the smallest up.
     void add(double value) {
-        int kept = 0;
+        int terms = 0;
         for (int i = 0; i < count_; ++i) {
-            const double term = term_[i], sum = value + term, part = sum - value;
-            const double error = (value - (sum - part)) + (term - part);
-            if (error != 0.0) term_[kept++] = error;
+            const double term = term_[i], sum = value + term, added = sum - value;
+            const double error = (value - (sum - added)) + (term - added);
+            if (error != 0.0) term_[terms++] = error;
             value = sum;
         }
-        if (value != 0.0) term_[kept++] = value;
-        count_ = kept;
+        if (value != 0.0) term_[terms++] = value;
+        count_ = terms;
     }
 
     /// a b exactly: the fused multiply-add returns the rounding error of the product.
@@ -72,8 +72,8 @@ Vec3 shifted(const Vec3& a, int exponent) {
 
 /// Whether the double a - b is the exact difference (the tail of two-diff is zero).
 bool difference_is_exact(double a, double b) {
-    const double difference = a - b, part = a - difference;
-    return (a - (difference + part)) + (part - b) == 0.0;
+    const double difference = a - b, subtracted = a - difference;
+    return (a - (difference + subtracted)) + (subtracted - b) == 0.0;
 }
 
 bool difference_is_exact(const Vec3& a, const Vec3& b) {

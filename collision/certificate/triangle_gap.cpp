@@ -8,10 +8,6 @@
 namespace percale::certificate {
 namespace {
 
-bool lexicographically_less(const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
-
 Corners sorted(Corners t) {
     std::sort(t.begin(), t.end(), lexicographically_less);
     return t;

@@ -22,10 +22,6 @@ Signs sides(const Corners& corners, const Corners& plane) {
 
 int projection_axis(const Corners& t) { return certificate::projection_axis(t[0], t[1], t[2]); }
 
-bool lexicographically_less(const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
-
 /// Segments on one common line, or points: their order along the line is the lexicographic order of coordinates.
 bool collinear_segments_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
     const auto [low_a, high_a] = std::minmax(p, q, lexicographically_less);

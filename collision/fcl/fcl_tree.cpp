@@ -12,7 +12,7 @@ namespace {
 static_assert(sizeof(fcl::AABBd) == 6 * sizeof(double), "FCL must be compiled with baseline instruction-set flags");
 
 /// FCL's tree of axis-parallel boxes over a mesh, walked by ourselves: FCL's own queries copy the tree at each call and return
-/// wrong signs (collision/README.md).
+/// wrong signs (collision/obstacle/README.md).
 class FclTree : public ObstacleTree {
 public:
     FclTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {

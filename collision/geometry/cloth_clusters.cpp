@@ -5,11 +5,10 @@
 #include <utility>
 
 #include "geometry/morton_order.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr std::size_t triangles_per_cluster = 8;
 
 /// Gives features to the first cluster that asks for them.
 class Ownership {
@@ -49,9 +48,9 @@ ClothClusters make_clusters(std::span<const Triangle> triangles, std::span<const
 ClothClusters make_clusters(std::span<const Triangle> triangles, std::size_t vertices, std::span<const int> order) {
     ClothClusters result;
     Ownership ownership(vertices, triangles.size());
-    for (std::size_t from = 0; from < order.size(); from += triangles_per_cluster) {
+    for (std::size_t from = 0; from < order.size(); from += tolerances::triangles_per_cluster) {
         ClothCluster& cluster = result.clusters.emplace_back();
-        const std::size_t to = std::min(order.size(), from + triangles_per_cluster);
+        const std::size_t to = std::min(order.size(), from + tolerances::triangles_per_cluster);
         cluster.triangles.assign(order.begin() + static_cast<long>(from), order.begin() + static_cast<long>(to));
         ownership.fill(cluster, triangles);
     }

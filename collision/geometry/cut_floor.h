@@ -2,16 +2,25 @@
 
 #include <algorithm>
 
+#include "tolerances.h"
+
 namespace percale {
 
-constexpr double largest_floor = 0.2;  // of the thickness
-
 /// The distance a cut leaves of a distance d, m: a fifth of the thickness h for d above 0.4 h, half of d below, but never less
-/// than h/1000 unless d itself is there. Without a floor distances collapse to rounding, where directions are lost; a fixed floor
-/// would lock vertices.
+/// than h/1000 unless d itself is there (tolerances.h). Without a floor distances collapse to rounding, where directions are
+/// lost; a fixed floor would lock vertices.
 inline double floor_below(double d, double h) {
-    if (d > 2.0 * largest_floor * h) return largest_floor * h;
-    return d > 1e-3 * h ? std::max(0.5 * d, 1e-3 * h) : 0.999 * d;
+    using namespace tolerances;
+    if (d > cut_floor / cut_remainder * h) return cut_floor * h;
+    return d > least_cut_floor * h ? std::max(cut_remainder * d, least_cut_floor * h) : least_cut_remainder * d;
+}
+
+/// The distance, m, above which pairs keep their floor if they come closer by no more than `displacement`, m.
+inline double distance_that_keeps_floor(double displacement, double h) {
+    using namespace tolerances;
+    const bool keeps_all = displacement > (1.0 / cut_remainder - 1.0) * cut_floor * h;
+    return keeps_all ? displacement + cut_floor * h
+                     : std::max(displacement / (1.0 - cut_remainder), displacement + least_cut_floor * h);
 }
 
 }  // namespace percale

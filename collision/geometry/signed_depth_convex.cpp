@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
@@ -30,7 +32,7 @@ double extent(Points points) {
 }
 
 /// How far the first set has to go along the direction to be beyond the second.
-double way_out(Points first, Points second, const Vec3& direction) {
+double exit_distance(Points first, Points second, const Vec3& direction) {
     return farthest(second, direction).dot(direction) - farthest(first, -direction).dot(direction);
 }
 
@@ -41,16 +43,16 @@ std::optional<HullOverlap> hull_overlap(Points first, Points second) {
     CCD_INIT(&ccd);
     ccd.support1 = ccd.support2 = support;
     // At the library's own tolerance depths are wrong by centimetres, and without a limit it may not come to an end.
-    ccd.epa_tolerance = 1e-9 * std::max(extent(first), extent(second));
-    ccd.max_iterations = 1000;
+    ccd.epa_tolerance = tolerances::hull_depth * std::max(extent(first), extent(second));
+    ccd.max_iterations = tolerances::most_hull_iterations;
     ccd_real_t depth = 0.0;
-    ccd_vec3_t way, place;
-    if (ccdGJKPenetration(&first, &second, &ccd, &depth, &way, &place) != 0) return std::nullopt;
-    Vec3 direction(way.v[0], way.v[1], way.v[2]);
+    ccd_vec3_t axis, place;
+    if (ccdGJKPenetration(&first, &second, &ccd, &depth, &axis, &place) != 0) return std::nullopt;
+    Vec3 direction(axis.v[0], axis.v[1], axis.v[2]);
     if (!(direction.norm() > 0.0)) return std::nullopt;
     direction.normalize();
     // The supports along the direction give a depth that is enough whatever the polytope's error.
-    const double ahead = way_out(first, second, direction), back = way_out(first, second, -direction);
+    const double ahead = exit_distance(first, second, direction), back = exit_distance(first, second, -direction);
     if (ahead <= back) return HullOverlap{.depth = ahead, .direction = direction};
     return HullOverlap{.depth = back, .direction = -direction};
 }

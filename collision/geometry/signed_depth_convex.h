@@ -14,7 +14,8 @@ struct HullOverlap {
 };
 
 /// The shortest such move, by libccd's expanding polytope (GJK, van den Bergh 2001); 0.1 mm near the shortest at the size of
-/// metres, never too short. Nothing where the hulls do not overlap. Both sets not empty.
+/// metres, never too short. At the library's default tolerance depths are wrong by up to 24 mm, by its other method (MPR) by 11
+/// mm at any setting. Nothing where the hulls do not overlap. Both sets not empty.
 std::optional<HullOverlap> hull_overlap(std::span<const Vec3> first, std::span<const Vec3> second);
 
 }  // namespace percale

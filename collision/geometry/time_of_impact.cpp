@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/triangle_distance.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -24,8 +25,6 @@ double largest_approach(const std::array<Vec3, 4>& motion, PairShape shape) {
 }  // namespace
 
 double safe_time(const MovingFour& four, PairShape shape, double floor, double latest) {
-    constexpr double kept = 0.1;  // share of the clearance left at the end
-    constexpr int most_advances = 500;
     std::array<Vec3, 4> x = four.from, motion;
     Vec3 mean = Vec3::Zero();
     for (int i = 0; i < 4; ++i) mean += 0.25 * (four.to[i] - four.from[i]);
@@ -40,25 +39,25 @@ double safe_time(const MovingFour& four, PairShape shape, double floor, double l
     const double first = clearance();
     if (!(first > 0.0)) return 0.0;
     double time = 0.0, left = first;
-    for (int advance = 0; advance < most_advances; ++advance) {
-        const double next = time + (1.0 - kept) * left / speed;
+    for (int advance = 0; advance < tolerances::most_advances; ++advance) {
+        const double next = time + (1.0 - tolerances::clearance_left) * left / speed;
         if (next >= latest) return latest;
         for (int i = 0; i < 4; ++i) x[i] = four.from[i] + next * motion[i];
         left = clearance();
-        if (left < kept * first) return left > 0.0 ? next : time;
+        if (left < tolerances::clearance_left * first) return left > 0.0 ? next : time;
         time = next;
     }
     return time;
 }
 
 double gap_along(const MovingFour& four, unsigned side, const Vec3& direction, double time) {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (int i = 0; i < 4; ++i) {
         const double height = direction.dot(four.from[i]) + time * direction.dot(four.to[i] - four.from[i]);
-        if ((side >> i & 1U) != 0) least = std::min(least, height);
-        if ((side >> i & 1U) == 0) most = std::max(most, height);
+        if ((side >> i & 1U) != 0) lowest = std::min(lowest, height);
+        if ((side >> i & 1U) == 0) highest = std::max(highest, height);
     }
-    return least - most;
+    return lowest - highest;
 }
 
 }  // namespace percale

@@ -15,7 +15,7 @@ enum class PairShape { point_triangle, edge_edge };  // point 0 against 1 2 3; 0
 
 /// A time in [0, latest] up to which the distance is proven to stay above `floor` (m, below the distance at the start):
 /// `latest` if that holds throughout, else a time at which little more than a tenth of the starting clearance is left, or an
-/// earlier one where a clearance that is tiny against the way would take more than 500 advances. Additive conservative
+/// earlier one where a clearance that is tiny against the displacement would take more than 500 advances. Additive conservative
 /// advancement with thickness (Li, Kaufman and Jiang 2021): no roots, hence no missed coplanar or parallel hits.
 double safe_time(const MovingFour& four, PairShape shape, double floor, double latest);
 

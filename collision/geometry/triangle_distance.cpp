@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
@@ -33,10 +35,10 @@ PointTriangle at_face(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c
 
 PointTriangle on_segment(const Vec3& p, const Vec3& from, const Vec3& to, int corner) {
     const Vec3 along = to - from;
-    const double length = along.squaredNorm(), way = along.dot(p - from);
-    if (!(way > 0.0)) return at_vertex(p, from, corner);
-    if (way >= length) return at_vertex(p, to, (corner + 1) % 3);
-    return at_edge(p, from, to, way / length, corner);
+    const double length = along.squaredNorm(), projection = along.dot(p - from);
+    if (!(projection > 0.0)) return at_vertex(p, from, corner);
+    if (projection >= length) return at_vertex(p, to, (corner + 1) % 3);
+    return at_edge(p, from, to, projection / length, corner);
 }
 
 /// For triangles so narrow that products of dot products have no digits of the area left: weights by cross products, which lose
@@ -74,7 +76,7 @@ PointTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
     if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return at_edge(p, b, c, (d4 - d3) / ((d4 - d3) + (d5 - d6)), 1);
     // The sum is |ab x ac|^2 with the rounding of the longest edge to the fourth.
     const double sum = va + vb + vc, longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-    if (!(sum > 1e-6 * longest * longest)) return on_sliver(p, a, b, c);
+    if (!(sum > tolerances::sliver_area * longest * longest)) return on_sliver(p, a, b, c);
     return at_face(p, a, b, c, {va / sum, vb / sum, vc / sum});
 }
 

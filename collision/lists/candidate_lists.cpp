@@ -6,15 +6,14 @@
 #include <limits>
 
 #include "lists/pack_measure.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
 
-constexpr double skin_share = 0.4;    // of the thickness: room around a vertex before its lists are built anew
-constexpr double least_share = 1e-4;  // of a move: below it lists are built however many packs they hold
-constexpr double skin_of_way = 0.2;   // of the move the list is built for
-
-double skin(double thickness, double way) { return skin_share * thickness + skin_of_way * way; }
+double skin(double thickness, double displacement) {
+    return tolerances::box_skin * thickness + tolerances::box_skin_of_displacement * displacement;
+}
 
 /// How far a point inside a box is from its sides; negative outside.
 double depth(const Box& box, const Vec3& x) { return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff()); }
@@ -33,8 +32,8 @@ void ListedPacks::add(int cloth_feature, int number, double apart, double thickn
     at.push_back({.feature = cloth_feature, .number = static_cast<unsigned>(number)});
 }
 
-void ListedPacks::hold(std::size_t i, unsigned lane, double thickness) {
-    at[i].held |= 1U << lane & 0xffU;
+void ListedPacks::activate(std::size_t i, unsigned lane, double thickness) {
+    at[i].active |= 1U << lane & 0xffU;
     wake[i] = below(static_cast<double>(reach[i]) - thickness);
 }
 
@@ -56,8 +55,8 @@ CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<co
       clusters_(std::move(clusters)),
       vertex_start_(1, 0),
       memory_(std::move(memory)),
-      way_(thickness_.size(), 0.0),
-      cluster_way_(clusters_.clusters.size(), 0.0),
+      displacement_(thickness_.size(), 0.0),
+      cluster_displacement_(clusters_.clusters.size(), 0.0),
       moved_(thickness_.size(), 0.0),
       vertex_boxes_(thickness_.size()) {
     memory_.lists.resize(clusters_.clusters.size());
@@ -81,7 +80,7 @@ bool CandidateLists::covers(std::size_t cluster, const ClothMove& move, int vers
     ClusterList& list = memory_.lists[cluster];
     if (list.version != version) return false;
     const std::span<const int> vertices = vertices_of(cluster);
-    if (list.travel + cluster_way_[cluster] <= list.inside_until) return true;
+    if (list.travel + cluster_displacement_[cluster] <= list.inside_until) return true;
     double room = list.thickness, room_at_end = room;
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         room = std::min(room, depth(list.boxes[k], move.from[vertices[k]]));
@@ -99,7 +98,7 @@ Box CandidateLists::set_boxes(std::size_t cluster, const ClothMove& move) {
         Box& box = list.boxes.emplace_back();
         box.add(move.from[vertex]);
         box.add(move.to[vertex]);
-        box.grow(skin(list.thickness, way_[vertex]));
+        box.grow(skin(list.thickness, displacement_[vertex]));
         whole.add(box);
     }
     whole.grow(list.thickness);
@@ -137,7 +136,7 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
 
 /// Whether the plane keeps the pack out of the thickness of vertices that stay in their boxes.
 bool CandidateLists::stays_above(const PackHull& hull, std::span<const int> vertices, double thickness) const {
-    const double enough = hull.offset + (1.0 + 1e-6) * thickness;
+    const double enough = hull.offset + (1.0 + tolerances::hull_slack) * thickness;
     return std::all_of(vertices.begin(), vertices.end(), [&](int vertex) {
         const Box& box = vertex_boxes_[vertex];
         const Vec3 twice_centre = box.low + box.high, sides = box.high - box.low;
@@ -164,29 +163,31 @@ void CandidateLists::add_features(std::size_t cluster, int obstacle_number, cons
     }
 }
 
-void CandidateLists::set_ways(const ClothMove& move) {
-    std::fill(cluster_way_.begin(), cluster_way_.end(), 0.0);
+void CandidateLists::set_displacements(const ClothMove& move) {
+    std::fill(cluster_displacement_.begin(), cluster_displacement_.end(), 0.0);
     if (move.from.data() == move.to.data()) {
-        std::fill(way_.begin(), way_.end(), 0.0);
+        std::fill(displacement_.begin(), displacement_.end(), 0.0);
         return;
     }
-    for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = (move.to[i] - move.from[i]).norm();
+    for (std::size_t i = 0; i < displacement_.size(); ++i) displacement_[i] = (move.to[i] - move.from[i]).norm();
     for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
-        for (const int vertex : vertices_of(i)) cluster_way_[i] = std::max(cluster_way_[i], way_[vertex]);
+        for (const int vertex : vertices_of(i))
+            cluster_displacement_[i] = std::max(cluster_displacement_[i], displacement_[vertex]);
     }
 }
 
-/// Whether all cloth stays away from all obstacles' boxes. One look at the distance allows for that much way, so that cloth far
-/// away costs one pass over its vertices.
+/// Whether all cloth stays away from all obstacles' boxes. One look at the distance allows for that displacement, so that cloth
+/// far away costs one pass over its vertices.
 bool CandidateLists::is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version) {
     const auto stays = [&] {
         const auto count = 3 * static_cast<long>(memory_.anchor.size());
-        const auto way = [&](std::span<const Vec3> x) {
+        const auto displacement = [&](std::span<const Vec3> x) {
             return std::sqrt(3.0) * pack_kernels().largest_difference(x[0].data(), memory_.anchor[0].data(), count);
         };
-        return way(move.from) < memory_.room && (move.to.data() == move.from.data() || way(move.to) < memory_.room);
+        return displacement(move.from) < memory_.room &&
+               (move.to.data() == move.from.data() || displacement(move.to) < memory_.room);
     };
-    if (way_.empty()) return true;
+    if (displacement_.empty()) return true;
     if (!memory_.empty) return false;
     if (memory_.room_version == version && memory_.room > 0.0 && stays()) return true;
     if (move.to.data() == move.from.data()) return false;
@@ -203,31 +204,31 @@ bool CandidateLists::is_out_of_reach(const ClothMove& move, const Obstacles& obs
 double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
     const int version = total_version(obstacles);
     if (is_out_of_reach(move, obstacles, version)) return 1.0;
-    advance(move.from, move.part.from, obstacles);
-    set_ways(move);
+    advance(move.from, move.fraction.from, obstacles);
+    set_displacements(move);
     dirty_.clear();
-    held_.clear();
+    active_pairs_.clear();
     for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
         if (covers(i, move, version)) continue;
         dirty_.push_back(i);
-        keep_held(i, obstacles);
+        collect_active(i, obstacles);
         memory_.lists[i].version = version;
     }
     if (dirty_.empty()) return 1.0;
-    double share = 1.0;
+    double fraction = 1.0;
     ClothMove covered = move;
-    while (!rebuild(covered, obstacles, share < least_share)) {
-        share *= 0.5;
+    while (!rebuild(covered, obstacles, fraction < tolerances::least_covered)) {
+        fraction *= 0.5;
         shortened_.resize(move.from.size());
-        for (std::size_t i = 0; i < shortened_.size(); ++i) shortened_[i] = move.from[i] + share * (move.to[i] - move.from[i]);
+        for (std::size_t i = 0; i < shortened_.size(); ++i) shortened_[i] = move.from[i] + fraction * (move.to[i] - move.from[i]);
         covered.to = shortened_;
-        set_ways(covered);
+        set_displacements(covered);
     }
-    if (share < 1.0) set_ways(move);
-    mark_held(obstacles);
+    if (fraction < 1.0) set_displacements(move);
+    activate_again(obstacles);
     memory_.empty =
         std::all_of(memory_.lists.begin(), memory_.lists.end(), [](const ClusterList& list) { return list.features.empty(); });
-    return share;
+    return fraction;
 }
 
 void CandidateLists::empty_dirty(const ClothMove& move) {
@@ -237,22 +238,24 @@ void CandidateLists::empty_dirty(const ClothMove& move) {
         ClusterList& list = memory_.lists[i];
         list.features.clear();
         list.packs.clear();
-        list.holds = false;
+        list.has_active = false;
         list.travel = 0.0;
         asked_.push_back(set_boxes(i, move));
     }
 }
 
-void CandidateLists::set_least(ClusterList& list) {
+void CandidateLists::set_smallest_bounds(ClusterList& list) {
     const ListedPacks& packs = list.packs;
     const auto count = static_cast<long>(packs.size());
-    list.least_reach = static_cast<double>(pack_kernels().least(packs.reach.data(), count));
-    list.quiet_until = static_cast<double>(pack_kernels().least(packs.wake.data(), count));
+    list.smallest_reach = static_cast<double>(pack_kernels().smallest(packs.reach.data(), count));
+    list.quiet_until = static_cast<double>(pack_kernels().smallest(packs.wake.data(), count));
 }
 
 /// Builds the dirty lists anew; false (and lists of no use) if they would hold too many packs, unless `whatever_it_takes`.
 bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes) {
-    const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 500000L + 40L * static_cast<long>(way_.size());
+    const long most = whatever_it_takes
+                          ? std::numeric_limits<long>::max()
+                          : tolerances::most_packs + tolerances::most_packs_per_vertex * static_cast<long>(displacement_.size());
     empty_dirty(move);
     for (std::size_t number = 0; number < obstacles.size(); ++number) {
         obstacles[number]->find(asked_, found_);
@@ -264,63 +267,64 @@ bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, 
             if (listed_ > most) return false;
         }
     }
-    for (const std::size_t i : dirty_) set_least(memory_.lists[i]);
+    for (const std::size_t i : dirty_) set_smallest_bounds(memory_.lists[i]);
     return true;
 }
 
-void CandidateLists::keep_held(std::size_t cluster, const Obstacles& obstacles) {
+void CandidateLists::collect_active(std::size_t cluster, const Obstacles& obstacles) {
     const ClusterList& list = memory_.lists[cluster];
-    if (!list.holds) return;
+    if (!list.has_active) return;
     for (std::size_t i = 0; i < list.packs.size(); ++i) {
-        if (list.packs.at[i].held == 0) continue;
+        if (list.packs.at[i].active == 0) continue;
         const ContactPair& feature = list.features[list.packs.at[i].feature];
         const FeaturePack& pack = obstacles[feature.obstacle]->packs().packs[list.packs.at[i].number];
-        for (unsigned held = list.packs.at[i].held; held != 0; held &= held - 1) {
-            held_.emplace_back(cluster, feature.with(pack, std::countr_zero(held)));
+        for (unsigned active = list.packs.at[i].active; active != 0; active &= active - 1) {
+            active_pairs_.emplace_back(cluster, feature.with(pack, std::countr_zero(active)));
         }
     }
 }
 
 /// What was a contact in a list stays one in the list that replaces it.
-void CandidateLists::mark_held(const Obstacles& obstacles) {
-    for (const auto& [cluster, held] : held_) {
+void CandidateLists::activate_again(const Obstacles& obstacles) {
+    for (const auto& [cluster, contact] : active_pairs_) {
         ClusterList& list = memory_.lists[cluster];
-        const int place = obstacles[held.obstacle]->packs().place_of[static_cast<int>(held.kind)][held.feature];
+        const int place = obstacles[contact.obstacle]->packs().place_of[static_cast<int>(contact.kind)][contact.feature];
         for (std::size_t f = 0; f < list.features.size(); ++f) {
             const ContactPair& pair = list.features[f];
-            if (pair.kind == held.kind && pair.cloth == held.cloth && pair.obstacle == held.obstacle) hold(list, f, place);
+            if (pair.kind == contact.kind && pair.cloth == contact.cloth && pair.obstacle == contact.obstacle)
+                activate(list, f, place);
         }
     }
 }
 
-/// Holds the lane at a place of ObstaclePacks::place_of, if the feature is listed with its pack.
-void CandidateLists::hold(ClusterList& list, std::size_t feature, int place) const {
+/// Makes active the lane at a place of ObstaclePacks::place_of, if the feature is listed with its pack.
+void CandidateLists::activate(ClusterList& list, std::size_t feature, int place) const {
     std::vector<ListedPack>& packs = list.packs.at;
     const auto first = std::partition_point(
         packs.begin(), packs.end(), [&](const ListedPack& pack) { return static_cast<std::size_t>(pack.feature) < feature; });
     for (std::size_t i = first - packs.begin(); i < packs.size() && static_cast<std::size_t>(packs[i].feature) == feature; ++i) {
         if (static_cast<int>(packs[i].number) != place / pack_lanes) continue;
-        list.packs.hold(i, place % pack_lanes, thickness_[list.features[feature].cloth[0]]);
+        list.packs.activate(i, place % pack_lanes, thickness_[list.features[feature].cloth[0]]);
         list.quiet_until = std::min(list.quiet_until, static_cast<double>(list.packs.wake[i]));
-        list.holds = true;
+        list.has_active = true;
     }
 }
 
 void CandidateLists::advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles) {
-    double way = 0.0;
-    for (const auto& obstacle : obstacles) way = std::max(way, obstacle->longest_way());
-    way *= std::abs(fraction - memory_.seen_fraction);
+    double displacement = 0.0;
+    for (const auto& obstacle : obstacles) displacement = std::max(displacement, obstacle->largest_displacement());
+    displacement *= std::abs(fraction - memory_.seen_fraction);
     double most = 0.0;
     for (std::size_t i = 0; i < moved_.size(); ++i) {
         moved_[i] = (positions[i] - memory_.seen[i]).squaredNorm();
         most = std::max(most, moved_[i]);
     }
     memory_.seen_fraction = fraction;
-    if (most == 0.0 && way == 0.0) return;
+    if (most == 0.0 && displacement == 0.0) return;
     for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
         double square = 0.0;
         for (const int vertex : vertices_of(i)) square = std::max(square, moved_[vertex]);
-        memory_.lists[i].travel += std::sqrt(square) + way;
+        memory_.lists[i].travel += std::sqrt(square) + displacement;
     }
     std::copy(positions.begin(), positions.end(), memory_.seen.begin());
 }

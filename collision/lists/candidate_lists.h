@@ -10,41 +10,43 @@
 #include "geometry/cloth_clusters.h"
 #include "lists/contact_pair.h"
 #include "obstacle/obstacle.h"
+#include "tolerances.h"
 
 namespace percale {
 
 using Obstacles = std::vector<std::unique_ptr<Obstacle>>;
 
 /// The next number below in single precision, or one near it.
-inline float below(double x) { return static_cast<float>(x - 1e-6 * std::abs(x)); }
+inline float below(double x) { return static_cast<float>(x - tolerances::rounded_off * std::abs(x)); }
 
 /// The next number above in single precision, or one near it.
-inline float above(double x) { return static_cast<float>(x + 1e-6 * std::abs(x)); }
+inline float above(double x) { return static_cast<float>(x + tolerances::rounded_off * std::abs(x)); }
 
 /// A pack of obstacle features that can come near a cloth feature.
 struct ListedPack {
     int feature = 0;           // of the cluster's list
     unsigned number : 24 = 0;  // of the pack, among those of the feature's obstacle
-    unsigned held : 8 = 0;     // lanes that have been contacts since the last refresh: they stay so while they are near
+    unsigned active : 8 = 0;   // lanes that have been contacts since the last refresh: they stay so while they are near
 };
 
 /// The packs of a cluster, in the order of its features, with lower bounds that the list's travel uses up. Each bound has an
 /// array of its own, because it is all that is read of packs that stay away.
 struct ListedPacks {
-    std::vector<float> reach;  // m, least distance + travel when last measured: reach - travel is below all distances
+    std::vector<float> reach;  // m, smallest distance bound + travel when last measured: reach - travel is below all distances
     std::vector<float> wake;   // m, while travel is below this, no pair of the pack is a row
     std::vector<ListedPack> at;
 
     std::size_t size() const { return reach.size(); }
     void clear();
     void add(int cloth_feature, int number, double apart, double thickness);
-    /// Nothing of the pack is nearer than `least`, and travel must grow by `to_contact` before anything new can be a contact.
-    void raise(std::size_t i, double least, double to_contact, double thickness, double travel) {
-        reach[i] = std::max(reach[i], below(least + travel));
+    /// Nothing of the pack is nearer than `distance_bound`, and travel must grow by `to_contact` before anything new can be a
+    /// contact.
+    void raise(std::size_t i, double distance_bound, double to_contact, double thickness, double travel) {
+        reach[i] = std::max(reach[i], below(distance_bound + travel));
         const float near = below(static_cast<double>(reach[i]) - thickness);
-        wake[i] = std::max(wake[i], at[i].held != 0 ? near : std::max(near, below(to_contact + travel)));
+        wake[i] = std::max(wake[i], at[i].active != 0 ? near : std::max(near, below(to_contact + travel)));
     }
-    void hold(std::size_t i, unsigned lane, double thickness);
+    void activate(std::size_t i, unsigned lane, double thickness);
 };
 
 /// Versions of lists that were read from bytes, where the obstacles' own are not known: good for the obstacles where they are, or
@@ -56,13 +58,13 @@ struct ClusterList {
     std::vector<Box> boxes;             // one for each of the cluster's vertices (ClothCluster::all_vertices)
     std::vector<ContactPair> features;  // by obstacle, kind, cloth feature; without an obstacle feature
     ListedPacks packs;
-    double thickness = 0.0;      // m, largest of its vertices
-    double travel = 0.0;         // m, bound of how much any distance has shrunk since the list was made
-    double least_reach = 0.0;    // least ListedPacks::reach
-    double quiet_until = 0.0;    // least ListedPacks::wake
-    double inside_until = -1.0;  // m, travel up to which all vertices are surely in their boxes
-    bool holds = false;          // some lane is held
-    int version = no_version;    // of the obstacles' motion it was built for
+    double thickness = 0.0;       // m, largest of its vertices
+    double travel = 0.0;          // m, bound of how much any distance has shrunk since the list was made
+    double smallest_reach = 0.0;  // smallest ListedPacks::reach
+    double quiet_until = 0.0;     // smallest ListedPacks::wake
+    double inside_until = -1.0;   // m, travel up to which all vertices are surely in their boxes
+    bool has_active = false;      // some lane is active
+    int version = no_version;     // of the obstacles' motion it was built for
 };
 
 /// Tells all poses that the obstacles have had so far from any others.
@@ -93,7 +95,7 @@ public:
     const ListsMemory& memory() const { return memory_; }
 
     /// Makes every list good for all states between two, and moves the lists' time to `move.from`. A move so long that its lists
-    /// would not fit into memory is covered in part: returns the share of it, from its start, that the lists are good for.
+    /// would not fit into memory is covered in part: returns the fraction of it, from its start, that the lists are good for.
     double cover(const ClothMove& move, const Obstacles& obstacles);
 
     /// Tells the lists that cloth and obstacles are here now: shortens the bounds by what they moved.
@@ -104,10 +106,10 @@ public:
     std::span<const ClothCluster> clusters() const { return clusters_.clusters; }
     std::span<ClusterList> lists() { return memory_.lists; }
     /// m, how far each vertex goes in the move that was covered last, and the farthest of a cluster.
-    std::span<const double> ways() const { return way_; }
-    double cluster_way(std::size_t cluster) const { return cluster_way_[cluster]; }
-    /// Sets the least bounds of a list whose packs' bounds have changed.
-    static void set_least(ClusterList& list);
+    std::span<const double> displacements() const { return displacement_; }
+    double cluster_displacement(std::size_t cluster) const { return cluster_displacement_[cluster]; }
+    /// Sets the smallest bounds of a list whose packs' bounds have changed.
+    static void set_smallest_bounds(ClusterList& list);
 
 private:
     std::span<const int> vertices_of(std::size_t cluster) const {
@@ -120,24 +122,24 @@ private:
     bool stays_above(const PackHull& hull, std::span<const int> vertices, double thickness) const;
     bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes);
     void empty_dirty(const ClothMove& move);
-    void keep_held(std::size_t cluster, const Obstacles& obstacles);
-    void mark_held(const Obstacles& obstacles);
-    void hold(ClusterList& list, std::size_t feature, int place) const;
+    void collect_active(std::size_t cluster, const Obstacles& obstacles);
+    void activate_again(const Obstacles& obstacles);
+    void activate(ClusterList& list, std::size_t feature, int place) const;
     bool is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version);
-    void set_ways(const ClothMove& move);
+    void set_displacements(const ClothMove& move);
 
     std::vector<Triangle> triangles_;
     std::vector<double> thickness_;
     ClothClusters clusters_;
     std::vector<int> vertex_start_, vertices_;  // all vertices of each cluster, one after the other
     ListsMemory memory_;
-    std::vector<double> way_, cluster_way_;  // m
-    std::vector<double> moved_;              // m^2, since the last advance
-    std::vector<Box> vertex_boxes_;          // valid while a cluster is built
-    std::span<const int> near_patches_;      // likewise, ascending
+    std::vector<double> displacement_, cluster_displacement_;  // m
+    std::vector<double> moved_;                                // m^2, since the last advance
+    std::vector<Box> vertex_boxes_;                            // valid while a cluster is built
+    std::span<const int> near_patches_;                        // likewise, ascending
     std::vector<std::size_t> dirty_;
     std::vector<Box> asked_;
-    std::vector<std::pair<std::size_t, ContactPair>> held_;  // of the lists being replaced, with their clusters
+    std::vector<std::pair<std::size_t, ContactPair>> active_pairs_;  // of the lists being replaced, with their clusters
     IdLists found_;
     std::vector<Vec3> shortened_;  // the end of the part of a long move that is covered
     long listed_ = 0;              // packs, while lists are built

@@ -17,11 +17,11 @@ void exchange(Archive& archive, Value& pair) {
 
 template <class Archive, OfType<ListedPack> Value>
 void exchange(Archive& archive, Value& pack) {
-    std::uint32_t number_and_held = pack.number | static_cast<std::uint32_t>(pack.held) << 24;
-    archive(pack.feature, number_and_held);
+    std::uint32_t number_and_active = pack.number | static_cast<std::uint32_t>(pack.active) << 24;
+    archive(pack.feature, number_and_active);
     if constexpr (Archive::reads) {
-        pack.number = number_and_held & 0xffffffU;
-        pack.held = number_and_held >> 24;
+        pack.number = number_and_active & 0xffffffU;
+        pack.active = number_and_active >> 24;
     }
 }
 
@@ -77,8 +77,8 @@ bool has_good_packs(const ClusterList& list, const Obstacles& obstacles) {
     return true;
 }
 
-bool holds_a_contact(const ClusterList& list) {
-    return std::any_of(list.packs.at.begin(), list.packs.at.end(), [](const ListedPack& pack) { return pack.held != 0; });
+bool has_active_contact(const ClusterList& list) {
+    return std::any_of(list.packs.at.begin(), list.packs.at.end(), [](const ListedPack& pack) { return pack.active != 0; });
 }
 
 void check(const ListsMemory& memory, const ClothClusters& clusters, const Obstacles& obstacles, const StateReader& state) {
@@ -147,8 +147,8 @@ CandidateLists restored_lists(std::span<const Triangle> triangles, std::span<con
     memory.room_version = room_is_known ? good_version : no_version;
     check(memory, clusters, obstacles, state);
     for (ClusterList& list : memory.lists) {
-        CandidateLists::set_least(list);
-        list.holds = holds_a_contact(list);
+        CandidateLists::set_smallest_bounds(list);
+        list.has_active = has_active_contact(list);
     }
     return {triangles, vertex_thickness, std::move(clusters), std::move(memory)};
 }

@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "geometry/triangle_distance.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr double negligible_rise = 1e-3;  // of the thickness
-constexpr double least_share = 1e-12;     // nothing is left of a row's force
 
 std::array<Vec3, 3> corners(const Obstacle& obstacle, int triangle, double fraction) {
     const Triangle& t = obstacle.surface().triangles[triangle];
@@ -102,8 +100,9 @@ PairContact face_vertex_contact(const ContactPair& pair, std::span<const Vec3> c
 
 double row_share(const PairContact& contact, double thickness) {
     // At a distance d the ends are (crossing/2)^2/(2 d) farther off than the middle.
-    const double rise = contact.crossing * contact.crossing / (8.0 * thickness), x = rise / (negligible_rise * thickness);
-    if (x < least_share) return 0.0;
+    const double rise = contact.crossing * contact.crossing / (8.0 * thickness),
+                 x = rise / (tolerances::negligible_rise * thickness);
+    if (x < tolerances::least_stiffness) return 0.0;
     return x < 1.0 ? x * (2.0 - x) : 1.0;
 }
 
@@ -171,8 +170,8 @@ MovingFour moving_pair(const ContactPair& pair, const ClothMove& move, const Obs
         four.to[first_cloth + k] = move.to[pair.cloth[k]];
     }
     const auto set_obstacle = [&](int slot, int vertex) {
-        four.from[slot] = obstacle.at(vertex, move.part.from);
-        four.to[slot] = obstacle.at(vertex, move.part.to);
+        four.from[slot] = obstacle.at(vertex, move.fraction.from);
+        four.to[slot] = obstacle.at(vertex, move.fraction.to);
     };
     if (pair.kind == PairKind::vertex_face) {
         for (int k = 0; k < 3; ++k) set_obstacle(1 + k, obstacle.surface().triangles[pair.feature][k]);

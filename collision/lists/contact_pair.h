@@ -49,7 +49,8 @@ Vec3 pair_apart(const ContactPair& pair, std::span<const Vec3> cloth, const Obst
 /// The share of its stiffness that a row takes, 0 ... 1, all but for edges that are so nearly parallel that the closest points
 /// lie anywhere along them: where a push upon these acts would jump from one end to the other, and both ends are contacts of
 /// their own, hardly farther off. Grows smoothly from 0 to 1 at the angle that takes the ends, seen from the middle, 1e-3 of the
-/// thickness farther (a mollifier in the sense of Li et al. 2020, Incremental Potential Contact).
+/// thickness farther (a mollifier in the sense of Li et al. 2020, Incremental Potential Contact). Without it Newton did not end
+/// on a strip over a cylinder of 64 facets whose cross threads are parallel to the edges: 330 iterations a step, with it 8.
 double row_share(const PairContact& contact, double thickness);
 
 /// Everything about the closest points. A contact belongs to exactly one pair: closest points inside a face or inside two edges
@@ -61,10 +62,10 @@ PairContact pair_contact(const ContactPair& pair, std::span<const Vec3> cloth, c
 constexpr int pair_fetches = 3;
 void fetch_pair(const ContactPair& pair, const Obstacle& obstacle, int depth);
 
-/// The pair as four points moving while the cloth goes from one state to another and obstacles over a part of the step.
+/// The pair as four points moving while the cloth goes from one state to another and obstacles over a fraction of the step.
 struct ClothMove {
     std::span<const Vec3> from, to;
-    StepFraction part;
+    StepFraction fraction;
 };
 MovingFour moving_pair(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle);
 

@@ -6,11 +6,10 @@
 #include <limits>
 #include <string_view>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr float rounded_up = 1.000001F;  // more than a number loses on its way to single precision
-constexpr double most_sharpness = 1e4;   // needles for which single precision says nothing
 
 const PackKernels& chosen_kernels() {
     const char* wish = std::getenv("PERCALE_INSTRUCTIONS");
@@ -23,8 +22,8 @@ const PackKernels& chosen_kernels() {
 bool set_shape(const ContactPair& pair, std::span<const Vec3> cloth, const PlacedPack& placed, double size, PackQuery& query) {
     if (pair.kind == PairKind::edge_edge) {
         query.length = static_cast<float>((cloth[pair.cloth[1]] - cloth[pair.cloth[0]]).norm());
-        query.least_edge = placed.least_edge;
-        return std::min(query.length, query.least_edge) > query.size / static_cast<float>(most_sharpness);
+        query.shortest_edge = placed.shortest_edge;
+        return std::min(query.length, query.shortest_edge) > query.size / static_cast<float>(tolerances::most_sharpness);
     }
     double sharpness = static_cast<double>(placed.sharpness);
     if (pair.kind == PairKind::face_vertex) {
@@ -32,7 +31,7 @@ bool set_shape(const ContactPair& pair, std::span<const Vec3> cloth, const Place
     }
     sharpness = std::max(1.0, sharpness * size);
     query.sharpness = static_cast<float>(sharpness);
-    return sharpness < most_sharpness;
+    return sharpness < tolerances::most_sharpness;
 }
 
 }  // namespace
@@ -51,11 +50,12 @@ PackAnswer measure(const ContactPair& pair, std::span<const Vec3> cloth, const P
         for (int axis = 0; axis < 3; ++axis) query.at[3 * k + axis] = static_cast<float>(x[axis]);
         size = std::max(size, x.cwiseAbs().maxCoeff());
     }
-    query.size = rounded_up * static_cast<float>(size);
-    query.near = rounded_up * static_cast<float>(limits.near);
-    query.thickness = rounded_up * static_cast<float>(limits.thickness);
+    query.size = tolerances::rounded_up * static_cast<float>(size);
+    query.near = tolerances::rounded_up * static_cast<float>(limits.near);
+    query.thickness = tolerances::rounded_up * static_cast<float>(limits.thickness);
     query.all = placed.all;
-    PackAnswer answer{.least = -1e30F, .least_row = -1e30F, .near = query.all, .row = query.all};
+    PackAnswer answer{
+        .distance_bound = tolerances::no_bound, .travel_to_contact = tolerances::no_bound, .near = query.all, .row = query.all};
     if (!set_shape(pair, cloth, placed, size, query)) return answer;
     const PackKernels::Function kernel = pair.kind == PairKind::vertex_face ? kernels.vertex_face
                                          : pair.kind == PairKind::edge_edge ? kernels.edge_edge

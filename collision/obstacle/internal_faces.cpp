@@ -7,6 +7,7 @@
 
 #include "certificate/inside_test.h"
 #include "certificate/triangle_overlap.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -24,22 +25,24 @@ struct Solid {
 /// How a triangle lies to all that are not its neighbours.
 enum class Meeting : unsigned char { none, touched, crossed };
 
-bool holds(const Triangle& t, int vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
+bool has_corner(const Triangle& t, int vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
 
-bool share_a_vertex(const Triangle& a, const Triangle& b) { return holds(b, a[0]) || holds(b, a[1]) || holds(b, a[2]); }
+bool share_a_vertex(const Triangle& a, const Triangle& b) {
+    return has_corner(b, a[0]) || has_corner(b, a[1]) || has_corner(b, a[2]);
+}
 
 /// Whether all corners of `other` that are not corners of `first`, too, lie clearly on one side of its plane: neighbours that do
 /// share no more than their common corners. Far above rounding, so that it needs no exact test.
 bool clearly_on_one_side(const Solid& solid, int first, int other) {
     const Corners& t = solid.corners[first];
     const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-    double least = 0.0;
+    double previous = 0.0;
     for (int k = 0; k < 3; ++k) {
-        if (holds(solid.triangles[first], solid.triangles[other][k])) continue;
+        if (has_corner(solid.triangles[first], solid.triangles[other][k])) continue;
         const Vec3 from = solid.corners[other][k] - t[0];
-        const double height = normal.dot(from), little = 1e-9 * normal.norm() * (from.norm() + t[0].norm());
-        if (std::abs(height) <= little || height * least < 0.0) return false;
-        least = height;
+        const double height = normal.dot(from), little = tolerances::clear_side * normal.norm() * (from.norm() + t[0].norm());
+        if (std::abs(height) <= little || height * previous < 0.0) return false;
+        previous = height;
     }
     return true;
 }
@@ -54,7 +57,8 @@ Meeting meeting_of(const Solid& solid, int i, int j) {
 
 /// Nothing where so many triangles lie side by side (a fan of n around one vertex has n^2/2 pairs) that it would take long.
 std::optional<std::vector<Meeting>> find_meetings(const Solid& solid) {
-    const long most_tests = 2000000 + 200 * static_cast<long>(solid.triangles.size());
+    const long most_tests = tolerances::most_internal_tests +
+                            tolerances::most_internal_tests_per_triangle * static_cast<long>(solid.triangles.size());
     std::vector<Meeting> meeting(solid.triangles.size(), Meeting::none);
     long tests = 0;
     const auto visit = [&](int i, int j) {
@@ -96,7 +100,7 @@ std::vector<std::array<int, 3>> find_neighbours(std::span<const Triangle> triang
 bool is_internal(const Solid& solid, int triangle) {
     const Corners& t = solid.corners[triangle];
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
-    const double little = 1e-9 * (solid.tree.bounds().high - solid.tree.bounds().low).norm();
+    const double little = tolerances::beyond_face * (solid.tree.bounds().high - solid.tree.bounds().low).norm();
     const Vec3 beyond = middle + little * (t[1] - t[0]).cross(t[2] - t[0]).normalized();
     const int winding = certificate::winding_number(beyond, solid.corners, solid.tree);
     return winding != 0 && winding != -1;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
@@ -52,18 +54,18 @@ void Obstacle::move(const Pose& start, const Pose& end) {
     end_pose_ = end;
     moves_ = start != end;
     away_ = start != built_;
-    longest_way_ = 0.0;
+    largest_displacement_ = 0.0;
     for (std::size_t i = 0; i < local_.size(); ++i) {
         start_[i] = transform(start, local_[i]);
         end_[i] = moves_ ? transform(end, local_[i]) : start_[i];
-        longest_way_ = std::max(longest_way_, (end_[i] - start_[i]).norm());
+        largest_displacement_ = std::max(largest_displacement_, (end_[i] - start_[i]).norm());
     }
     set_pack_boxes();
 }
 
 Box Obstacle::to_tree(const Box& box) const {
     Box grown = box;
-    grown.grow(longest_way_);
+    grown.grow(largest_displacement_);
     if (!away_) return grown;
     Box turned;
     for (int corner = 0; corner < 8; ++corner) {
@@ -71,8 +73,8 @@ Box Obstacle::to_tree(const Box& box) const {
                      (corner & 4 ? grown.high : grown.low).z());
         turned.add(transform(built_, inverse_transform(start_pose_, x)));
     }
-    // Two rotations round off; a billionth of the coordinates' size is far above that.
-    turned.grow(1e-9 * (turned.low.cwiseAbs().maxCoeff() + turned.high.cwiseAbs().maxCoeff()));
+    // Two rotations round off.
+    turned.grow(tolerances::turned_box * (turned.low.cwiseAbs().maxCoeff() + turned.high.cwiseAbs().maxCoeff()));
     return turned;
 }
 

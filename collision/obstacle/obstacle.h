@@ -19,8 +19,8 @@ public:
     const ObstacleSurface& surface() const { return surface_; }
     double friction() const { return friction_; }
     bool moves() const { return moves_; }
-    /// m, longest way of a vertex in the coming step.
-    double longest_way() const { return longest_way_; }
+    /// m, largest displacement of a vertex in the coming step.
+    double largest_displacement() const { return largest_displacement_; }
     /// At the two ends of the coming step.
     const Pose& start_pose() const { return start_pose_; }
     const Pose& end_pose() const { return end_pose_; }
@@ -67,7 +67,7 @@ private:
     IdLists raw_;
     Pose built_, start_pose_, end_pose_;
     double friction_ = 0.0;
-    double longest_way_ = 0.0;
+    double largest_displacement_ = 0.0;
     int version_ = 0;
     bool moves_ = false;
     bool away_ = false;  // not where the tree was built

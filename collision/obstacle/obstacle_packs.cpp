@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "geometry/morton_order.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
 
-constexpr std::size_t triangles_per_patch = 16;
-constexpr float rounded_up = 1.000001F;  // more than a number loses on its way to single precision
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double boundless = std::numeric_limits<double>::infinity();
 
 class PackMaker {
 public:
@@ -68,7 +67,7 @@ Vec3 normal_at(const Vec3& a, const Vec3& b, const Vec3& opposite) {
     const Vec3 normal = (b - a).cross(opposite - a);
     const double longest = std::max({(b - a).squaredNorm(), (opposite - a).squaredNorm(), (opposite - b).squaredNorm()});
     const double area = normal.norm();
-    return area > 1e-4 * longest ? Vec3(normal / area) : Vec3(Vec3::Zero());
+    return area > tolerances::needle_area * longest ? Vec3(normal / area) : Vec3(Vec3::Zero());
 }
 
 /// The normals of the two triangles at an edge, on one side of the surface; both zero if there are others than two.
@@ -89,15 +88,14 @@ struct Cone {
 
 /// Rays of the cone { d : d . e <= 0 for all edges e at the vertex }: products of two edges that keep the others below.
 std::vector<Vec3> extreme_rays(std::span<const Vec3> edges) {
-    constexpr double unsure = 1e-6;
     const auto are_below = [&](const Vec3& ray) {
-        return std::all_of(edges.begin(), edges.end(), [&](const Vec3& e) { return e.dot(ray) <= unsure; });
+        return std::all_of(edges.begin(), edges.end(), [&](const Vec3& e) { return e.dot(ray) <= tolerances::ray_below; });
     };
     std::vector<Vec3> rays;
     for (std::size_t i = 0; i < edges.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
             const Vec3 product = edges[i].cross(edges[k]);
-            if (product.norm() < 1e-3) continue;
+            if (product.norm() < tolerances::parallel_edges) continue;
             const Vec3 ray = product.normalized();
             if (are_below(ray)) rays.push_back(ray);
             if (are_below(-ray)) rays.push_back(-ray);
@@ -107,19 +105,17 @@ std::vector<Vec3> extreme_rays(std::span<const Vec3> edges) {
 }
 
 Cone cone_at(const ObstacleSurface& surface, int vertex, const VertexPaths& paths) {
-    constexpr std::size_t most_edges = 16;
-    constexpr double widest = 0.2;  // cosine: wider cones are not worth a test
     const std::span<const int> ring = surface.neighbours(vertex);
-    if (ring.size() > most_edges) return {};
+    if (ring.size() > tolerances::most_cone_edges) return {};
     std::vector<Vec3> edges;
     for (const int other : ring) edges.push_back((paths.start[other] - paths.start[vertex]).normalized());
     const std::vector<Vec3> rays = extreme_rays(edges);
     Vec3 sum = Vec3::Zero();
     for (const Vec3& ray : rays) sum += ray;
-    if (sum.norm() < 0.5) return {};
+    if (sum.norm() < tolerances::least_ray_sum) return {};
     Cone cone{.axis = sum.normalized(), .cosine = 1.0};
     for (const Vec3& ray : rays) cone.cosine = std::min(cone.cosine, cone.axis.dot(ray));
-    return cone.cosine > widest ? cone : Cone{};
+    return cone.cosine > tolerances::widest_cone ? cone : Cone{};
 }
 
 void place_points(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, int lane,
@@ -129,12 +125,12 @@ void place_points(const FeaturePack& pack, const ObstacleSurface& surface, const
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         x[k] = paths.at(vertices[k], placed.fraction) - placed.centre;
         set_row(placed.lanes, 3 * static_cast<int>(k), lane, x[k]);
-        placed.radius = std::max(placed.radius, rounded_up * static_cast<float>(x[k].cwiseAbs().maxCoeff()));
+        placed.radius = std::max(placed.radius, tolerances::rounded_up * static_cast<float>(x[k].cwiseAbs().maxCoeff()));
     }
     if (pack.kind == PairKind::vertex_face)
         placed.sharpness = std::max(placed.sharpness, static_cast<float>(longest_over_area(x[0], x[1], x[2])));
     if (pack.kind == PairKind::edge_edge)
-        placed.least_edge = std::min(placed.least_edge, static_cast<float>((x[1] - x[0]).norm()));
+        placed.shortest_edge = std::min(placed.shortest_edge, static_cast<float>((x[1] - x[0]).norm()));
 }
 
 void place_directions(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, int lane,
@@ -175,7 +171,7 @@ float not_above(double x) {
 
 /// The hull of a pack with a plane of this normal.
 PackHull make_hull(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, const Vec3& normal) {
-    PackHull hull{.normal = normal, .offset = -infinity};
+    PackHull hull{.normal = normal, .offset = -boundless};
     Box box;
     for (int lane = 0; lane < pack.count; ++lane) {
         const std::span<const int> vertices = vertices_of(surface, pack.kind, pack.feature[lane]);
@@ -196,7 +192,7 @@ PackHull make_hull(const FeaturePack& pack, const ObstacleSurface& surface, cons
 double longest_over_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 u = b - a, v = c - a, w = c - b;
     const double area = u.cross(v).norm(), longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
-    return area > 1e-12 * longest ? std::sqrt(longest) / area : infinity;
+    return area > tolerances::flat_triangle_area * longest ? std::sqrt(longest) / area : boundless;
 }
 
 ObstaclePacks make_packs(const ObstacleSurface& surface) {
@@ -207,8 +203,8 @@ ObstaclePacks make_packs(const ObstacleSurface& surface) {
     packs.place_of[1].assign(surface.edges.size(), -1);
     packs.place_of[2].assign(surface.vertices.size(), -1);
     PackMaker maker(surface, packs);
-    for (std::size_t from = 0; from < order.size(); from += triangles_per_patch) {
-        maker.add_patch(std::span(order).subspan(from, std::min(triangles_per_patch, order.size() - from)));
+    for (std::size_t from = 0; from < order.size(); from += tolerances::triangles_per_patch) {
+        maker.add_patch(std::span(order).subspan(from, std::min(tolerances::triangles_per_patch, order.size() - from)));
     }
     packs.box.resize(packs.first.size() / 3);
     packs.first.push_back(static_cast<int>(packs.packs.size()));
@@ -242,7 +238,7 @@ const PlacedPack& place(ObstaclePacks& packs, int number, const ObstacleSurface&
     }
     placed = {.fraction = fraction,
               .centre = 0.5 * (box.low + box.high),
-              .least_edge = std::numeric_limits<float>::infinity(),
+              .shortest_edge = std::numeric_limits<float>::infinity(),
               .all = static_cast<unsigned char>((1U << pack.count) - 1U),
               .lanes = {}};
     for (int lane = 0; lane < pack_lanes; ++lane) {

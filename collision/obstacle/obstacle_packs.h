@@ -27,7 +27,7 @@ struct alignas(64) PlacedPack {
     Vec3 centre = Vec3::Zero();  // m, world: the lanes' coordinates are about it
     float radius = 0.0F;         // m, no coordinate is larger
     float sharpness = 0.0F;      // 1/m, largest longest_over_area; of triangles alone
-    float least_edge = 0.0F;     // m; of edges alone
+    float shortest_edge = 0.0F;  // m; of edges alone
     unsigned char all = 0;       // which lanes there are
     PackLanes lanes;
 
@@ -50,9 +50,9 @@ struct alignas(64) PackHull {
 
 /// How far points are above the plane at least, m: a bound of the distance of their hull from all that is below.
 inline double height_above(const PackHull& hull, std::span<const int> points, std::span<const Vec3> positions) {
-    double least = hull.normal.dot(positions[points[0]]);
-    for (const int point : points.subspan(1)) least = std::min(least, hull.normal.dot(positions[point]));
-    return least - hull.offset;
+    double lowest = hull.normal.dot(positions[points[0]]);
+    for (const int point : points.subspan(1)) lowest = std::min(lowest, hull.normal.dot(positions[point]));
+    return lowest - hull.offset;
 }
 
 /// Patches of sixteen neighbouring triangles with the edges and vertices they own that cloth can touch.

@@ -7,6 +7,7 @@
 
 #include "obstacle/internal_faces.h"
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -18,19 +19,19 @@ struct ByPlace {
 /// For each vertex the first one at the same place.
 std::vector<int> merge_vertices(std::span<const Vec3> vertices, int& merged) {
     std::map<Vec3, int, ByPlace> first_at;
-    std::vector<int> kept(vertices.size());
+    std::vector<int> first_there(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const auto [entry, added] = first_at.try_emplace(vertices[i], static_cast<int>(i));
-        kept[i] = entry->second;
+        first_there[i] = entry->second;
         if (!added) ++merged;
     }
-    return kept;
+    return first_there;
 }
 
 bool has_area(std::span<const Vec3> x, const Triangle& t) {
     const Vec3 u = x[t[1]] - x[t[0]], v = x[t[2]] - x[t[0]], w = x[t[2]] - x[t[1]];
     const double longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
-    return u.cross(v).norm() > 1e-14 * longest;
+    return u.cross(v).norm() > tolerances::degenerate_area * longest;
 }
 
 Triangle sorted(Triangle t) {
@@ -170,7 +171,6 @@ struct Fold {
 };
 
 Fold fold(const ObstacleSurface& surface, int edge) {
-    constexpr double flat = 1e-9;
     const SurfaceEdge& e = surface.edges[edge];
     const Triangle& t = surface.triangles[e.owner];
     const auto& x = surface.vertices;
@@ -178,38 +178,38 @@ Fold fold(const ObstacleSurface& surface, int edge) {
     const std::span<const int> opposite = surface.opposites(edge);  // the owner's first
     const Vec3 &a = x[e.vertex[0]], &b = x[e.vertex[1]];
     const Vec3 first = into_triangle(a, b, x[opposite[0]]), second = into_triangle(a, b, x[opposite[1]]);
-    return {.flat = (first + second).norm() <= flat, .height = second.dot(normal)};
+    return {.flat = (first + second).norm() <= tolerances::flat_fold, .height = second.dot(normal)};
 }
 
-/// For each vertex the first vertex of its part of the surface.
-std::vector<int> connected_parts(const ObstacleSurface& surface) {
-    std::vector<int> part(surface.vertices.size(), -1), waiting;
-    for (std::size_t seed = 0; seed < part.size(); ++seed) {
-        if (part[seed] < 0) waiting.push_back(static_cast<int>(seed));
+/// For each vertex the first vertex of its connected component of the surface.
+std::vector<int> connected_components(const ObstacleSurface& surface) {
+    std::vector<int> component(surface.vertices.size(), -1), waiting;
+    for (std::size_t seed = 0; seed < component.size(); ++seed) {
+        if (component[seed] < 0) waiting.push_back(static_cast<int>(seed));
         while (!waiting.empty()) {
             const int vertex = waiting.back();
             waiting.pop_back();
-            if (part[vertex] >= 0) continue;
-            part[vertex] = static_cast<int>(seed);
+            if (component[vertex] >= 0) continue;
+            component[vertex] = static_cast<int>(seed);
             const std::span<const int> ring = surface.neighbours(vertex);
             waiting.insert(waiting.end(), ring.begin(), ring.end());
         }
     }
-    return part;
+    return component;
 }
 
-/// Whether the normals of a closed surface point away from what it encloses, in each of its parts: not on parts turned inside out
-/// nor around a cavity, where cloth may be behind a normal (inside is where the winding number is not 0).
+/// Whether the normals of a closed surface point away from what it encloses, in each of its components: not on those turned
+/// inside out nor around a cavity, where cloth may be behind a normal (inside is where the winding number is not 0).
 bool faces_outwards(const ObstacleSurface& surface) {
-    const std::vector<int> part = connected_parts(surface);
-    std::vector<double> volume(surface.vertices.size(), 0.0);  // six times, at the first vertex of each part
+    const std::vector<int> component = connected_components(surface);
+    std::vector<double> volume(surface.vertices.size(), 0.0);  // six times, at the first vertex of each component
     for (const Triangle& t : surface.triangles) {
-        const int first = part[t[0]];
+        const int first = component[t[0]];
         const auto from_first = [&](int v) -> Vec3 { return surface.vertices[v] - surface.vertices[first]; };
         volume[first] += from_first(t[0]).dot(from_first(t[1]).cross(from_first(t[2])));
     }
-    for (std::size_t vertex = 0; vertex < part.size(); ++vertex) {
-        if (part[vertex] == static_cast<int>(vertex) && !(volume[vertex] > 0.0)) return false;
+    for (std::size_t vertex = 0; vertex < component.size(); ++vertex) {
+        if (component[vertex] == static_cast<int>(vertex) && !(volume[vertex] > 0.0)) return false;
     }
     return true;
 }

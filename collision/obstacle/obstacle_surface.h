@@ -8,6 +8,7 @@
 
 #include "percale/cleaning.h"
 #include "percale/mesh.h"
+#include "tolerances.h"
 
 namespace percale {
 
@@ -50,7 +51,7 @@ template <class Position>
 bool edge_faces(const ObstacleSurface& surface, int edge, const Vec3& foot, const Vec3& direction, const Position& at) {
     for (const int other : surface.opposites(edge)) {
         const Vec3 away = at(other) - foot;
-        if (away.dot(direction) > 1e-9 * away.norm()) return false;
+        if (away.dot(direction) > tolerances::rising_sine * away.norm()) return false;
     }
     return true;
 }
@@ -61,7 +62,7 @@ bool vertex_faces(const ObstacleSurface& surface, int vertex, const Vec3& direct
     const Vec3 foot = at(vertex);
     for (const int other : surface.neighbours(vertex)) {
         const Vec3 away = at(other) - foot;
-        if (away.dot(direction) > 1e-9 * away.norm()) return false;
+        if (away.dot(direction) > tolerances::rising_sine * away.norm()) return false;
     }
     return true;
 }

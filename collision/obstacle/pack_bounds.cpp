@@ -1,6 +1,7 @@
 // Compiled once for every instruction set, with its compiler flags (PERCALE_PACK_SET says which). Everything but the table has
 // internal linkage and nothing of the standard library is called, so that no code of a wider set can reach a narrower machine.
 #include "obstacle/pack_bounds.h"
+#include "tolerances.h"
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -14,8 +15,7 @@ namespace {
 using Lanes = float __attribute__((vector_size(32)));
 using Mask = int __attribute__((vector_size(32)));
 
-constexpr float rounding = 2e-6F;  // share of PackQuery::size: some thirty roundings of single precision
-constexpr float tiny = 1e-37F;
+using namespace tolerances;
 
 PERCALE_INLINE Lanes all(float value) { return Lanes{} + value; }
 PERCALE_INLINE Lanes load(const float* from) {
@@ -48,7 +48,7 @@ PERCALE_INLINE unsigned char bits(Mask mask) {
 #endif
 }
 
-PERCALE_INLINE float least_of(Lanes a) {
+PERCALE_INLINE float smallest_of(Lanes a) {
     a = smaller(a, __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3));
     a = smaller(a, __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5));
     a = smaller(a, __builtin_shufflevector(a, a, 1, 0, 3, 2, 5, 4, 7, 6));
@@ -85,11 +85,10 @@ struct Apart {
 };
 
 PERCALE_INLINE Apart from_segment(const Point& p, const Point& a, const Point& b) {
-    constexpr float unsure = 1e-2F;
-    const Point along = b - a, way = p - a;
-    const Lanes share = dot(way, along) / larger(dot(along, along), all(tiny));
-    const Point vector = way - clamp01(share) * along;
-    return {vector, dot(vector, vector), (share > -unsure) & (share < 1.0F + unsure)};
+    const Point along = b - a, offset = p - a;
+    const Lanes parameter = dot(offset, along) / larger(dot(along, along), all(least_denominator));
+    const Point vector = offset - clamp01(parameter) * along;
+    return {vector, dot(vector, vector), (parameter > -unsure_parameter) & (parameter < 1.0F + unsure_parameter)};
 }
 
 PERCALE_INLINE Apart nearer(const Apart& a, const Apart& b) {
@@ -101,8 +100,8 @@ PERCALE_INLINE Apart nearer(const Apart& a, const Apart& b) {
 /// elsewhere that of the nearest edge.
 PERCALE_INLINE Apart from_triangle(const Point& p, const Point& a, const Point& b, const Point& c, float sharpness) {
     const Point normal = cross(b - a, c - a);
-    const Lanes area = larger(dot(normal, normal), all(tiny));
-    const Lanes outside = all(-0.01F - 2.0F * rounding * sharpness * sharpness) * area;
+    const Lanes area = larger(dot(normal, normal), all(least_denominator));
+    const Lanes outside = all(-unsure_area - 2.0F * pack_rounding * sharpness * sharpness) * area;
     const Point pa = p - a, pb = p - b, pc = p - c;
     const Mask inside = (dot(normal, cross(pa, pb)) >= outside) & (dot(normal, cross(pb, pc)) >= outside) &
                         (dot(normal, cross(pc, pa)) >= outside);
@@ -113,8 +112,8 @@ PERCALE_INLINE Apart from_triangle(const Point& p, const Point& a, const Point& 
 }
 
 PERCALE_INLINE void answer(Lanes bound, Lanes row_bound, Mask may_be_row, const PackQuery& query, PackAnswer& result) {
-    result.least = least_of(bound);
-    result.least_row = least_of(larger(bound - query.thickness, row_bound));
+    result.distance_bound = smallest_of(bound);
+    result.travel_to_contact = smallest_of(larger(bound - query.thickness, row_bound));
     result.near = static_cast<unsigned char>(bits(bound < query.near) & query.all);
     result.row = static_cast<unsigned char>(bits(may_be_row) & result.near);
 }
@@ -122,48 +121,49 @@ PERCALE_INLINE void answer(Lanes bound, Lanes row_bound, Mask may_be_row, const 
 void vertex_face(const PackLanes& lanes, const PackQuery& query, PackAnswer& result) {
     const Apart apart = from_triangle(query_point(query, 0), lanes_point(lanes, 0), lanes_point(lanes, 3), lanes_point(lanes, 6),
                                       query.sharpness);
-    const Lanes bound = root(apart.square) - rounding * query.size * query.sharpness;
-    answer(bound, all(-1e30F), Mask{} == 0, query, result);
+    const Lanes bound = root(apart.square) - pack_rounding * query.size * query.sharpness;
+    answer(bound, all(no_bound), Mask{} == 0, query, result);
 }
 
 /// A contact's direction is square to both edges and lies between the normals n and m of the obstacle edge's triangles (or
 /// between their opposites). If the cloth edge u has n.u and m.u of one sign, no direction between them is square to it, until
 /// its ends have moved by half the smaller of the two.
-PERCALE_INLINE Lanes way_to_row(const PackLanes& lanes, const Point& u, float length) {
+PERCALE_INLINE Lanes travel_to_row(const PackLanes& lanes, const Point& u, float length) {
     const Lanes n = dot(u, lanes_point(lanes, 6)), m = dot(u, lanes_point(lanes, 9));
-    const Lanes way = 0.5F * (smaller(size_of(n), size_of(m)) - 1e-4F * length);
-    const Mask one_sign = (n * m > 0.0F) & (way > 0.0F);
-    return one_sign ? way : all(-1e30F);
+    const Lanes travel = 0.5F * (smaller(size_of(n), size_of(m)) - unsure_rise * length);
+    const Mask one_sign = (n * m > 0.0F) & (travel > 0.0F);
+    return one_sign ? travel : all(no_bound);
 }
 
 void edge_edge(const PackLanes& lanes, const PackQuery& query, PackAnswer& result) {
     const Point p = query_point(query, 0), q = query_point(query, 3), a = lanes_point(lanes, 0), b = lanes_point(lanes, 3);
     const Point u = q - p, v = b - a, r = p - a, normal = cross(u, v);
-    const Lanes uu = larger(dot(u, u), all(tiny)), vv = larger(dot(v, v), all(tiny)), uv = dot(u, v), ur = dot(u, r),
-                vr = dot(v, r);
+    const Lanes uu = larger(dot(u, u), all(least_denominator)), vv = larger(dot(v, v), all(least_denominator)), uv = dot(u, v),
+                ur = dot(u, r), vr = dot(v, r);
     const Lanes area = dot(normal, normal), sine_squared = area / (uu * vv);
     // As closest_on_edges, without its special cases.
-    const Lanes s_line = dot(normal, cross(v, r)) / larger(area, all(tiny)), s_first = clamp01(s_line);
+    const Lanes s_line = dot(normal, cross(v, r)) / larger(area, all(least_denominator)), s_first = clamp01(s_line);
     const Lanes t_line = (uv * s_first + vr) / vv, t = clamp01(t_line), s = clamp01((uv * t - ur) / uu);
     const Point apart = r + s * u - t * v;
     // Where the edges are nearly parallel the places of the closest points have few digits, the distance has half of them.
-    const Lanes slack = rounding * query.size / root(larger(sine_squared, all(rounding)));
+    const Lanes slack = pack_rounding * query.size / root(larger(sine_squared, all(pack_rounding)));
     const Lanes bound = root(dot(apart, apart)) - slack;
-    const float s_unsure = 1e-4F + 4e-4F * query.size / query.length, t_unsure = 1e-4F + 4e-4F * query.size / query.least_edge;
+    const float s_unsure = unsure_crossing + unsure_crossing_per_size * query.size / query.length;
+    const float t_unsure = unsure_crossing + unsure_crossing_per_size * query.size / query.shortest_edge;
     const Mask inside = (s_line > -s_unsure) & (s_line < 1.0F + s_unsure) & (t_line > -t_unsure) & (t_line < 1.0F + t_unsure);
-    const Lanes way = way_to_row(lanes, u, query.length);
-    answer(bound, way, (inside | (sine_squared < 1e-3F)) & (way <= 0.0F), query, result);
+    const Lanes travel = travel_to_row(lanes, u, query.length);
+    answer(bound, travel, (inside | (sine_squared < unsure_parallel)) & (travel <= 0.0F), query, result);
 }
 
 void face_vertex(const PackLanes& lanes, const PackQuery& query, PackAnswer& result) {
     const Point p = lanes_point(lanes, 0);
     const Apart apart = from_triangle(p, query_point(query, 0), query_point(query, 3), query_point(query, 6), query.sharpness);
     const Lanes distance = root(apart.square);
-    const float slack = rounding * query.size * query.sharpness;
+    const float slack = pack_rounding * query.size * query.sharpness;
     // Directions run from the obstacle to the cloth.
     const Lanes along = -dot(apart.vector, lanes_point(lanes, 3)), cosine = load(lanes.at[6]);
-    const Mask in_cone = along >= (cosine - 1e-3F) * distance - 2.0F * slack;
-    answer(distance - slack, all(-1e30F), apart.inner & in_cone, query, result);
+    const Mask in_cone = along >= (cosine - unsure_cone) * distance - 2.0F * slack;
+    answer(distance - slack, all(no_bound), apart.inner & in_cone, query, result);
 }
 
 using Doubles = double __attribute__((vector_size(32)));
@@ -187,11 +187,11 @@ double largest_difference(const double* a, const double* b, long count) {
     return result;
 }
 
-float least(const float* values, long count) {
-    Lanes least_lanes = all(__builtin_inff());
+float smallest(const float* values, long count) {
+    Lanes smallest_lanes = all(__builtin_inff());
     long i = 0;
-    for (; i + pack_lanes <= count; i += pack_lanes) least_lanes = smaller(load(values + i), least_lanes);
-    float result = least_of(least_lanes);
+    for (; i + pack_lanes <= count; i += pack_lanes) smallest_lanes = smaller(load(values + i), smallest_lanes);
+    float result = smallest_of(smallest_lanes);
     for (; i < count; ++i) result = values[i] < result ? values[i] : result;
     return result;
 }
@@ -213,7 +213,7 @@ constexpr PackKernels kernels{.vertex_face = vertex_face,
                               .edge_edge = edge_edge,
                               .face_vertex = face_vertex,
                               .largest_difference = largest_difference,
-                              .least = least,
+                              .smallest = smallest,
                               .find_up_to = find_up_to};
 
 }  // namespace

@@ -13,22 +13,22 @@ struct alignas(32) PackLanes {
 
 /// A cloth feature seen from the same point.
 struct PackQuery {
-    float at[9];        // 1, 2 or 3 points, m
-    float size;         // m, no coordinate of pack or query is larger; all roundings are parts of it
-    float sharpness;    // size over the least height of the triangles; of triangles alone
-    float least_edge;   // m, of the pack; of edges alone
-    float length;       // m, of the cloth edge; of edges alone
-    float near;         // m
-    float thickness;    // m
-    unsigned char all;  // which lanes there are
+    float at[9];          // 1, 2 or 3 points, m
+    float size;           // m, no coordinate of pack or query is larger; all roundings are fractions of it
+    float sharpness;      // size over the least height of the triangles; of triangles alone
+    float shortest_edge;  // m, of the pack; of edges alone
+    float length;         // m, of the cloth edge; of edges alone
+    float near;           // m
+    float thickness;      // m
+    unsigned char all;    // which lanes there are
 };
 
 /// Lower bounds: nothing in the pack is nearer.
 struct PackAnswer {
-    float least;         // m, of the distances
-    float least_row;     // m, how far a vertex must move before anything of the pack can be a contact
-    unsigned char near;  // lanes whose bound is below PackQuery::near
-    unsigned char row;   // those of them that can be a contact as things are
+    float distance_bound;     // m
+    float travel_to_contact;  // m, how far a vertex must move before anything of the pack can be a contact
+    unsigned char near;       // lanes whose bound is below PackQuery::near
+    unsigned char row;        // those of them that can be a contact as things are
 };
 
 /// One function for each kind of pair, and what goes over long arrays. All instruction sets give the same bits.
@@ -37,8 +37,8 @@ struct PackKernels {
     Function vertex_face, edge_edge, face_vertex;
     /// Largest |a - b| of `count` numbers.
     double (*largest_difference)(const double* a, const double* b, long count);
-    /// Least of `count` numbers; infinity if there are none.
-    float (*least)(const float* values, long count);
+    /// Smallest of `count` numbers; infinity if there are none.
+    float (*smallest)(const float* values, long count);
     /// Writes to `found`, which has room for `count`, where values are <= limit, in ascending order; returns how many.
     long (*find_up_to)(const float* values, long count, float limit, int* found);
 };

@@ -11,8 +11,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Whether a distance stays above its floor while it shrinks by `way`.
-bool stays_clear(double distance, double thickness, double way) { return distance - floor_below(distance, thickness) > way; }
+/// Whether a distance stays above its floor while it shrinks by `shrink`.
+bool stays_clear(double distance, double thickness, double shrink) {
+    return distance - floor_below(distance, thickness) > shrink;
+}
 
 }  // namespace
 
@@ -48,11 +50,11 @@ double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRo
     lists_.cover(positions, positions);
     double smallest = infinity;
     for (SelfList& list : lists_.lists()) {
-        if (list.least_reach - list.travel >= list.thickness) continue;
-        list.least_reach = infinity;
+        if (list.smallest_reach - list.travel >= list.thickness) continue;
+        list.smallest_reach = infinity;
         for (SelfPair& pair : lists_.pairs(list)) {
             if (pair.reach - list.travel < pair.thickness) smallest = std::min(smallest, measure(list, pair, positions, rows));
-            list.least_reach = std::min(list.least_reach, pair.reach);
+            list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         }
     }
     return smallest;
@@ -63,7 +65,7 @@ double SelfContactDetection::measure(const SelfList& list, SelfPair& pair, std::
                                      ContactRows& rows) const {
     const SelfPairContact contact = self_contact(pair, positions, lists_.surface());
     pair.reach = contact.distance + list.travel;
-    const double zone = contact.share * pair.thickness;
+    const double zone = contact.relative_zone * pair.thickness;
     // As with obstacles, a contact stays one until the next refresh.
     if (pair.zone == 0.0 && contact.distance < zone) pair.zone = zone;
     if (contact.distance >= pair.zone) return infinity;
@@ -94,13 +96,13 @@ double SelfContactDetection::largest_safe_fraction(std::span<const Vec3> from, s
 
 /// Lowers `safe` where a pair of the list needs it.
 double SelfContactDetection::cut(const SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe) {
-    const double way = lists_.shrink(list);
-    if (stays_clear(list.least_reach - list.travel, list.thickness, way * safe)) return safe;
+    const double shrink = lists_.shrink(list);
+    if (stays_clear(list.smallest_reach - list.travel, list.thickness, shrink * safe)) return safe;
     for (SelfPair& pair : lists_.pairs(list)) {
-        if (stays_clear(pair.reach - list.travel, pair.thickness, way * safe)) continue;
+        if (stays_clear(pair.reach - list.travel, pair.thickness, shrink * safe)) continue;
         const double distance = self_distance(pair, from);
         pair.reach = distance + list.travel;
-        if (stays_clear(distance, pair.thickness, way * safe)) continue;
+        if (stays_clear(distance, pair.thickness, shrink * safe)) continue;
         safe = safe_time(moving_pair(pair, from, to), pair.shape, floor_below(distance, pair.thickness), safe);
     }
     return safe;

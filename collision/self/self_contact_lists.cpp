@@ -5,13 +5,10 @@
 #include <limits>
 #include <tuple>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr double skin_share = 0.5;     // of the thickness: how far a vertex may be from where the lists expect it
-constexpr double share_of_rest = 0.5;  // of the distance at rest: where contact within a cloth begins at the latest
-constexpr double least_share = 1e-4;   // of a move: below it lists are made however many pairs they hold
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool comes_before(const SelfPair& a, const SelfPair& b) { return std::tie(a.shape, a.feature) < std::tie(b.shape, b.feature); }
 
@@ -23,7 +20,11 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
       cloth_(cloth.cloth.begin(), cloth.cloth.end()),
       rest_(cloth.rest.begin(), cloth.rest.end()),
       surface_(make_cloth_surface(triangles, vertex_thickness.size())),
-      memory_{.start = rest_, .way = std::vector<Vec3>(rest_.size(), Vec3::Zero()), .seen = rest_, .lists = {}, .pairs = {}} {
+      memory_{.start = rest_,
+              .displacement = std::vector<Vec3>(rest_.size(), Vec3::Zero()),
+              .seen = rest_,
+              .lists = {},
+              .pairs = {}} {
     for (int v = 0; v < static_cast<int>(cloth_.size()); ++v) {
         if (cloth_[v] >= 0) vertices_.push_back(v);
     }
@@ -62,19 +63,19 @@ double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3>
         for (SelfList& list : memory_.lists) list.travel += shrink(list);
     }
     std::copy(from.begin(), from.end(), memory_.seen.begin());
-    if (memory_.made && holds(from) && holds(to)) return 1.0;
+    if (memory_.made && covers(from) && covers(to)) return 1.0;
     memory_.made = true;
-    double share = 1.0;
+    double fraction = 1.0;
     old_pairs_ = memory_.pairs;
     std::span<const Vec3> end = to;
-    while (!rebuild(from, end, share < least_share)) {
-        share *= 0.5;
+    while (!rebuild(from, end, fraction < tolerances::least_covered)) {
+        fraction *= 0.5;
         shortened_.resize(from.size());
-        for (std::size_t i = 0; i < from.size(); ++i) shortened_[i] = from[i] + share * (to[i] - from[i]);
+        for (std::size_t i = 0; i < from.size(); ++i) shortened_[i] = from[i] + fraction * (to[i] - from[i]);
         end = shortened_;
     }
     take_over_zones();
-    return share;
+    return fraction;
 }
 
 Vec3 SelfContactLists::mean_motion(std::span<const Vec3> from, std::span<const Vec3> to) const {
@@ -83,18 +84,18 @@ Vec3 SelfContactLists::mean_motion(std::span<const Vec3> from, std::span<const V
     return mean / static_cast<double>(vertices_.size());
 }
 
-/// Whether a state is start + s way + t + e; s and t by least squares.
-bool SelfContactLists::holds(std::span<const Vec3> positions) const {
+/// Whether a state is start + s displacement + t + e; s and t by least squares.
+bool SelfContactLists::covers(std::span<const Vec3> positions) const {
     const Vec3 mean = mean_motion(memory_.start, positions);
     double along = 0.0, length = 0.0;
     for (const int v : vertices_) {
-        along += memory_.way[v].dot(positions[v] - memory_.start[v] - mean);
-        length += memory_.way[v].squaredNorm();
+        along += memory_.displacement[v].dot(positions[v] - memory_.start[v] - mean);
+        length += memory_.displacement[v].squaredNorm();
     }
     const double s = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
     return std::all_of(vertices_.begin(), vertices_.end(), [&](int v) {
-        const double skin = skin_share * thickness_[v];
-        return (positions[v] - memory_.start[v] - mean - s * memory_.way[v]).squaredNorm() <= skin * skin;
+        const double skin = tolerances::self_skin * thickness_[v];
+        return (positions[v] - memory_.start[v] - mean - s * memory_.displacement[v]).squaredNorm() <= skin * skin;
     });
 }
 
@@ -119,7 +120,7 @@ void SelfContactLists::set_boxes() {
     for (const int v : vertices_) {
         vertex_boxes_[v] = Box{};
         vertex_boxes_[v].add(memory_.start[v]);
-        vertex_boxes_[v].add(memory_.start[v] + memory_.way[v]);
+        vertex_boxes_[v].add(memory_.start[v] + memory_.displacement[v]);
     }
     const auto box_of = [&](const auto& vertices) {
         Box box;
@@ -130,17 +131,19 @@ void SelfContactLists::set_boxes() {
         for (const int e : clusters_[c].edges) edge_boxes_[e] = box_of(surface_.edges[e].vertex);
         for (const int t : clusters_[c].triangles) triangle_boxes_[t] = box_of(surface_.triangles[t]);
         cluster_boxes_[c] = box_of(clusters_[c].all_vertices);
-        cluster_boxes_[c].grow((0.5 + skin_share) * clusters_[c].thickness);
+        cluster_boxes_[c].grow((0.5 + tolerances::self_skin) * clusters_[c].thickness);
     }
 }
 
 /// Makes all lists anew; false (and lists of no use) if that takes too many pairs, unless `whatever_it_takes`.
 bool SelfContactLists::rebuild(std::span<const Vec3> from, std::span<const Vec3> to, bool whatever_it_takes) {
-    const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 4000000L + 300L * static_cast<long>(rest_.size());
+    const long most = whatever_it_takes ? std::numeric_limits<long>::max()
+                                        : tolerances::most_self_pairs +
+                                              tolerances::most_self_pairs_per_vertex * static_cast<long>(rest_.size());
     const Vec3 mean = mean_motion(from, to);
     for (const int v : vertices_) {
         memory_.start[v] = from[v];
-        memory_.way[v] = to[v] - from[v] - mean;
+        memory_.displacement[v] = to[v] - from[v] - mean;
     }
     set_motion(from, to);
     set_boxes();
@@ -160,8 +163,8 @@ bool SelfContactLists::rebuild(std::span<const Vec3> from, std::span<const Vec3>
 
 void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
     const Cluster &a = clusters_[list.first], &b = clusters_[list.second];
-    const double room = shrink(list) + skin_share * (a.thickness + b.thickness);
-    const double limit = (0.5 + skin_share) * (a.thickness + b.thickness);
+    const double room = shrink(list) + tolerances::self_skin * (a.thickness + b.thickness);
+    const double limit = (0.5 + tolerances::self_skin) * (a.thickness + b.thickness);
     const bool one = list.first == list.second;
     find_near(a, cluster_boxes_[list.second], near_first_);
     find_near(b, cluster_boxes_[list.first], near_second_);
@@ -169,9 +172,9 @@ void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
     if (!one) pair_vertices(near_second_, near_first_, {room, limit}, from);
     pair_edges(one, {room, limit}, from);
     list.end = memory_.pairs.size();
-    list.least_reach = infinity;
+    list.smallest_reach = std::numeric_limits<double>::infinity();
     for (const SelfPair& pair : pairs(list)) {
-        list.least_reach = std::min(list.least_reach, pair.reach);
+        list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         list.thickness = std::max(list.thickness, pair.thickness);
     }
 }
@@ -179,7 +182,7 @@ void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
 /// Features of a cluster that come near the box of another, which is grown by that one's half of the limit.
 void SelfContactLists::find_near(const Cluster& cluster, const Box& other, Near& near) const {
     Box reach = other;
-    reach.grow((0.5 + skin_share) * cluster.thickness);
+    reach.grow((0.5 + tolerances::self_skin) * cluster.thickness);
     near.vertices.clear();
     near.edges.clear();
     near.triangles.clear();
@@ -228,7 +231,7 @@ void SelfContactLists::consider(SelfPair pair, double room, std::span<const Vec3
     pair.reach = self_distance(pair, from);
     if (pair.reach >= pair.thickness + room) return;
     if (cloth_[pair.vertex[0]] == cloth_[pair.vertex[3]]) {
-        pair.thickness = std::min(pair.thickness, share_of_rest * self_distance(pair, rest_));
+        pair.thickness = std::min(pair.thickness, tolerances::contact_of_rest * self_distance(pair, rest_));
     }
     if (pair.reach < pair.thickness + room) memory_.pairs.push_back(pair);
 }

@@ -16,33 +16,33 @@ struct SelfList {
     int first = 0, second = 0;       // clusters, first <= second
     std::size_t begin = 0, end = 0;  // of its pairs
     double travel = 0.0;             // m, bound of how much any distance of it has shrunk since the lists were made
-    double least_reach = 0.0;        // least SelfPair::reach
+    double smallest_reach = 0.0;     // smallest SelfPair::reach
     double thickness = 0.0;          // m, largest of its pairs
 };
 
 /// What lists remember from call to call. Later answers depend on nothing else but the cloth.
 struct SelfListsMemory {
-    std::vector<Vec3> start, way;  // m, what the lists hold for
-    std::vector<Vec3> seen;        // m, positions of the last cover
+    std::vector<Vec3> start, displacement;  // m, what the lists hold for
+    std::vector<Vec3> seen;                 // m, positions of the last cover
     std::vector<SelfList> lists;
     std::vector<SelfPair> pairs;
     bool made = false;
 };
 
-/// Candidate pairs of cloth against cloth. They hold for the states start + s way + t + e, with s from 0 to 1 and t the same for
-/// all vertices and e at most half of the thickness: how cloth moves as a whole is of no matter, nor is going on from a
+/// Candidate pairs of cloth against cloth. They hold for the states start + s displacement + t + e, with s from 0 to 1 and t the
+/// same for all vertices and e at most half of the thickness: how cloth moves as a whole is of no matter, nor is going on from a
 /// prediction. What leaves that range makes all lists anew.
 class SelfContactLists {
 public:
     SelfContactLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, const SelfContact& cloth);
 
-    /// Makes the lists good for all states on the straight way between two, and shortens the bounds to `from`. A move so long
-    /// that too many pairs would have to be looked at is covered in part: returns that share of it, from its start.
+    /// Makes the lists good for all states on the straight line between two, and shortens the bounds to `from`. A move so long
+    /// that too many pairs would have to be looked at is covered in part: returns that fraction of it, from its start.
     double cover(std::span<const Vec3> from, std::span<const Vec3> to);
 
     /// Sets what `shrink` says.
     void set_motion(std::span<const Vec3> from, std::span<const Vec3> to);
-    /// m, bound of how much distances of the list can shrink on the straight way last given to set_motion.
+    /// m, bound of how much distances of the list can shrink on the straight line last given to set_motion.
     double shrink(const SelfList& list) const;
 
     const SelfListsMemory& memory() const { return memory_; }
@@ -69,7 +69,7 @@ private:
     };
 
     void add_clusters(std::span<const int> triangles, std::span<const Vec3> rest);
-    bool holds(std::span<const Vec3> positions) const;
+    bool covers(std::span<const Vec3> positions) const;
     bool rebuild(std::span<const Vec3> from, std::span<const Vec3> to, bool whatever_it_takes);
     void set_boxes();
     Vec3 mean_motion(std::span<const Vec3> from, std::span<const Vec3> to) const;

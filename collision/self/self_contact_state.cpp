@@ -6,7 +6,7 @@ namespace percale {
 
 template <class Archive, OfType<SelfList> Value>
 void exchange(Archive& archive, Value& list) {
-    archive(list.first, list.second, list.begin, list.end, list.travel, list.least_reach, list.thickness);
+    archive(list.first, list.second, list.begin, list.end, list.travel, list.smallest_reach, list.thickness);
 }
 
 template <class Archive, OfType<SelfPair> Value>
@@ -42,7 +42,7 @@ bool is_good(const SelfPair& pair, const ClothSurface& surface) {
 
 void check(const SelfListsMemory& memory, const SelfContactLists& lists, const StateReader& state) {
     const std::size_t vertices = lists.memory().seen.size();
-    for (const auto* positions : {&memory.start, &memory.way, &memory.seen}) {
+    for (const auto* positions : {&memory.start, &memory.displacement, &memory.seen}) {
         state.demand(positions->size() == vertices, "a wrong number of vertices");
     }
     std::size_t next = 0;
@@ -60,12 +60,12 @@ void check(const SelfListsMemory& memory, const SelfContactLists& lists, const S
 
 void save(const SelfContactLists& lists, StateWriter& state) {
     const SelfListsMemory& memory = lists.memory();
-    state(memory.start, memory.way, memory.seen, memory.lists, memory.pairs, memory.made);
+    state(memory.start, memory.displacement, memory.seen, memory.lists, memory.pairs, memory.made);
 }
 
 void restore(SelfContactLists& lists, StateReader& state) {
     SelfListsMemory memory;
-    state(memory.start, memory.way, memory.seen, memory.lists, memory.pairs, memory.made);
+    state(memory.start, memory.displacement, memory.seen, memory.lists, memory.pairs, memory.made);
     check(memory, lists, state);
     lists.set_memory(std::move(memory));
 }

@@ -4,13 +4,10 @@
 #include <cmath>
 
 #include "geometry/triangle_distance.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr double rounding = 1e-9;
-constexpr double flat_slope = 0.05;        // sine below which faces count as flat against a contact
-constexpr double least_angle_sine = 0.03;  // edges at smaller angles are left to their ends
 
 PointTriangle vertex_on_face(const SelfPair& pair, std::span<const Vec3> x) {
     return closest_on_triangle(x[pair.vertex[0]], x[pair.vertex[1]], x[pair.vertex[2]], x[pair.vertex[3]]);
@@ -28,8 +25,8 @@ void set_direction(const Vec3& apart, SelfPairContact& contact) {
 /// Whether cloth at `foot` goes away from what lies in the direction `towards`, on to a neighbouring vertex; up to rounding, so
 /// that above an edge of flat cloth at least one triangle stands for the contact.
 bool falls(const Vec3& neighbour, const Vec3& foot, const Vec3& towards) {
-    const Vec3 way = neighbour - foot;
-    return way.dot(towards) <= rounding * way.norm();
+    const Vec3 along = neighbour - foot;
+    return along.dot(towards) <= tolerances::rising_sine * along.norm();
 }
 
 bool edge_stands(const ClothSurface& surface, int triangle, int edge_index, const Vec3& foot, const Vec3& towards,
@@ -59,20 +56,20 @@ SelfPairContact vertex_face(const SelfPair& pair, std::span<const Vec3> x, const
         // Of two vertices the one with the lower number is the vertex, the other the corner of a face.
         stands = pair.vertex[0] < corner && vertex_stands(surface, triangle, corner, contact.direction, x);
     }
-    contact.share = stands ? 1.0 : 0.0;
+    contact.relative_zone = stands ? 1.0 : 0.0;
     return contact;
 }
 
 /// How an edge crosses another that lies in the direction `towards`: 1 as a ridge or boundary, 1/2 in flat cloth, 0 in a valley.
-double edge_share(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& towards, std::span<const Vec3> x) {
-    double share = 1.0;
+double edge_zone(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& towards, std::span<const Vec3> x) {
+    double zone = 1.0;
     for (const int vertex : edge.opposite) {
         if (vertex < 0 || edge.opposite[1] < 0) continue;
-        const Vec3 way = x[vertex] - foot;
-        const double rise = way.dot(towards), level = flat_slope * way.norm();
-        if (rise > -level) share = std::min(share, rise > level ? 0.0 : 0.5);
+        const Vec3 along = x[vertex] - foot;
+        const double rise = along.dot(towards), level = tolerances::flat_sine * along.norm();
+        if (rise > -level) zone = std::min(zone, rise > level ? 0.0 : tolerances::flat_crossing);
     }
-    return share;
+    return zone;
 }
 
 SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const ClothSurface& surface) {
@@ -83,11 +80,12 @@ SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const C
     const Vec3 first = a + s * (b - a), second = c + t * (d - c);
     set_direction(first - second, contact);
     if (contact.distance >= pair.thickness) return contact;
-    const double limit = least_angle_sine * least_angle_sine * (b - a).squaredNorm() * (d - c).squaredNorm();
+    const double limit =
+        tolerances::least_crossing_sine * tolerances::least_crossing_sine * (b - a).squaredNorm() * (d - c).squaredNorm();
     const bool cross = (b - a).cross(d - c).squaredNorm() > limit;
     if (!cross || s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0) return contact;
-    contact.share = std::min(edge_share(surface.edges[pair.feature[0]], first, -contact.direction, x),
-                             edge_share(surface.edges[pair.feature[1]], second, contact.direction, x));
+    contact.relative_zone = std::min(edge_zone(surface.edges[pair.feature[0]], first, -contact.direction, x),
+                                     edge_zone(surface.edges[pair.feature[1]], second, contact.direction, x));
     return contact;
 }
 

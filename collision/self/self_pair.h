@@ -23,11 +23,11 @@ struct SelfPairContact {
     double distance = 0.0;           // m
     std::array<double, 4> weight{};  // of the pair's vertices: > 0 on the first side, < 0 on the second, sum 0
     Vec3 direction = Vec3::Zero();   // unit, second side towards first
-    /// Share of the thickness from which on the pair stands for the contact: 1 where it is a local minimum of the distance
+    /// Fraction of the thickness below which the pair stands for the contact: 1 where it is a local minimum of the distance
     /// (closest points inside the face, or on its edges and corners where the faces around fall away; inside two edges that cross
     /// as ridges), 1/2 for edges that cross in flat cloth, where vertices and faces meet first, else 0. Of closest points that
     /// several pairs share one pair has them. Not filled in for edges farther apart than the pair's thickness.
-    double share = 0.0;
+    double relative_zone = 0.0;
 };
 
 /// m.

@@ -3,20 +3,13 @@
 #include <algorithm>
 
 #include "geometry/signed_depth_convex.h"
+#include "tolerances.h"
 #include "untangle/untangle_spread.h"
 
 namespace percale {
 namespace {
 
-constexpr double most_stretch = 0.5;
-constexpr int most_patches = 256;
-constexpr int most_rounds = 60;       // of one way
-constexpr double reach_growth = 1.5;  // where a way was not long enough
-constexpr int refinements = 4;        // halvings of the last such growth
-constexpr int most_failures = 64;     // in a row, of obstacles that cloth cannot be pushed out of at once
-constexpr long most_searches = 4000;  // of conflicts: what takes more is given up
-
-/// A state on the way to one that is clear.
+/// A state that is becoming clear.
 struct Tangle {
     const TangledCloth& cloth;
     std::span<const SolidObstacle> obstacles;
@@ -38,10 +31,10 @@ struct Patch {
     double margin = 0.0;  // m, what is to be left between cloth and obstacle
 };
 
-/// One side to leave by: along `way`, or by the nearest place of the surface.
-struct Way {
+/// One side to leave by: along `direction`, or by the nearest place of the surface.
+struct Route {
     bool nearest = false;
-    Vec3 way = Vec3::Zero();
+    Vec3 direction = Vec3::Zero();
     double reach = 0.0;  // m, the first to try
 };
 
@@ -50,7 +43,7 @@ struct Attempt {
     std::vector<bool> moved;
     double largest_move = 0.0, stretch = 0.0;
 
-    bool tears() const { return stretch > most_stretch; }
+    bool tears() const { return stretch > tolerances::most_stretch; }
     bool better_than(const Attempt& other) const {
         if (tears() != other.tears()) return other.tears();
         return tears() ? stretch < other.stretch : largest_move < other.largest_move;
@@ -95,9 +88,9 @@ Patch first_patch(const Tangle& tangle, std::vector<int> conflict) {
 /// A direction and its opposite, unless they are there already.
 void add_both(const Vec3& direction, std::vector<Vec3>& directions) {
     if (!(direction.norm() > 0.0)) return;
-    for (const Vec3& way : {Vec3(direction.normalized()), Vec3(-direction.normalized())}) {
-        const auto same = [&](const Vec3& other) { return other.dot(way) > 0.999; };
-        if (std::none_of(directions.begin(), directions.end(), same)) directions.push_back(way);
+    for (const Vec3& side : {Vec3(direction.normalized()), Vec3(-direction.normalized())}) {
+        const auto same = [&](const Vec3& other) { return other.dot(side) > tolerances::same_direction; };
+        if (std::none_of(directions.begin(), directions.end(), same)) directions.push_back(side);
     }
 }
 
@@ -144,30 +137,31 @@ std::optional<double> reach_along(const Tangle& tangle, const Patch& patch, cons
 }
 
 /// The shortest first.
-std::vector<Way> possible_ways(const Tangle& tangle, const Patch& patch) {
-    std::vector<Way> ways;
+std::vector<Route> possible_routes(const Tangle& tangle, const Patch& patch) {
+    std::vector<Route> routes;
     for (const Vec3& direction : possible_directions(tangle, patch)) {
-        if (const auto reach = reach_along(tangle, patch, direction)) ways.push_back({false, direction, *reach});
+        if (const auto reach = reach_along(tangle, patch, direction)) routes.push_back({false, direction, *reach});
     }
-    std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.reach < b.reach; });
-    if (tangle.obstacles[patch.obstacle].watertight()) ways.insert(ways.begin(), {true, Vec3::Zero(), patch.margin});
-    return ways;
+    std::stable_sort(routes.begin(), routes.end(), [](const Route& a, const Route& b) { return a.reach < b.reach; });
+    if (tangle.obstacles[patch.obstacle].watertight()) routes.insert(routes.begin(), {true, Vec3::Zero(), patch.margin});
+    return routes;
 }
 
 /// What leaves, and how.
 struct Plan {
     int obstacle;
-    const Way& way;
+    const Route& route;
     const std::vector<bool>& core;
 };
 
 Attempt attempt(const Tangle& tangle, const Plan& plan, double reach) {
-    const auto& [obstacle, way, core] = plan;
+    const auto& [obstacle, route, core] = plan;
     const std::vector<Vec3>& x = tangle.positions;
     std::vector<Vec3> moves(x.size(), Vec3::Zero());
     for (std::size_t v = 0; v < x.size(); ++v) {
         if (!core[v]) continue;
-        moves[v] = way.nearest ? Vec3(tangle.obstacles[obstacle].pushed_out(x[v], reach) - x[v]) : Vec3(reach * way.way);
+        moves[v] =
+            route.nearest ? Vec3(tangle.obstacles[obstacle].pushed_out(x[v], reach) - x[v]) : Vec3(reach * route.direction);
     }
     spread_moves(tangle.cloth, x, core, tangle.limit, moves);
     Attempt result{.positions = x, .moved = std::vector<bool>(x.size())};
@@ -203,7 +197,7 @@ struct Reaches {
 
 /// The move of `good`, which is enough, brought nearer to one that is too short.
 Attempt shortened(const Tangle& tangle, const Plan& plan, Reaches reaches, Attempt good) {
-    for (int k = 0; k < refinements && reaches.too_short < reaches.enough; ++k) {
+    for (int k = 0; k < tolerances::reach_refinements && reaches.too_short < reaches.enough; ++k) {
         const double middle = 0.5 * (reaches.too_short + reaches.enough);
         Attempt shorter = attempt(tangle, plan, middle);
         std::vector<bool> core = plan.core;
@@ -214,19 +208,21 @@ Attempt shortened(const Tangle& tangle, const Plan& plan, Reaches reaches, Attem
     return good;
 }
 
-/// Follows one way until the patch and what moves with it is clear; nothing where that takes a move of `most` or more.
-std::optional<Attempt> follow(const Tangle& tangle, const Patch& patch, const Way& way, double most) {
+/// Follows one route until the patch and what moves with it is clear; nothing where that takes a move of `most` or more.
+std::optional<Attempt> follow(const Tangle& tangle, const Patch& patch, const Route& route, double most) {
     std::vector<bool> core(tangle.positions.size());
     for (const int v : patch.vertices) core[v] = true;
-    double reach = way.reach, too_short = way.reach;
-    const double farthest = way.nearest ? 8.0 * patch.margin : most;
-    for (int round = 0; round < most_rounds && reach < farthest && tangle.searches < most_searches; ++round) {
-        Attempt found = attempt(tangle, {patch.obstacle, way, core}, reach);
+    double reach = route.reach, too_short = route.reach;
+    const double farthest = route.nearest ? tolerances::farthest_push * patch.margin : most;
+    for (int round = 0;
+         round < tolerances::most_route_rounds && reach < farthest && tangle.searches < tolerances::most_conflict_searches;
+         ++round) {
+        Attempt found = attempt(tangle, {patch.obstacle, route, core}, reach);
         if (found.largest_move >= most) return std::nullopt;
         const Growth growth = grow_core(tangle, found, core);
-        if (!growth.conflict) return shortened(tangle, {patch.obstacle, way, core}, {too_short, reach}, std::move(found));
+        if (!growth.conflict) return shortened(tangle, {patch.obstacle, route, core}, {too_short, reach}, std::move(found));
         too_short = reach;
-        if (!growth.grown) reach *= reach_growth;
+        if (!growth.grown) reach *= tolerances::reach_growth;
     }
     return std::nullopt;
 }
@@ -242,9 +238,9 @@ double extent(const Tangle& tangle) {
 std::optional<Attempt> best_attempt(const Tangle& tangle, const Patch& patch) {
     const double everything = extent(tangle);
     std::optional<Attempt> best;
-    for (const Way& way : possible_ways(tangle, patch)) {
+    for (const Route& route : possible_routes(tangle, patch)) {
         const double most = best && !best->tears() ? best->largest_move : everything;
-        std::optional<Attempt> found = follow(tangle, patch, way, most);
+        std::optional<Attempt> found = follow(tangle, patch, route, most);
         if (found && (!best || found->better_than(*best))) best = std::move(found);
     }
     return best;
@@ -261,7 +257,7 @@ void accept(Attempt found, int obstacle, Tangle& tangle, std::vector<int>& cause
     tangle.positions = std::move(found.positions);
 }
 
-enum class Shallow { nothing_to_do, pushed_out, no_way };
+enum class Shallow { nothing_to_do, pushed_out, no_route };
 
 /// All patches of a closed obstacle at once to the nearest places of its surface, if that tears nothing: garments overlap bodies
 /// a little in hundreds of places.
@@ -276,7 +272,7 @@ Shallow push_out_shallow(int obstacle, const std::vector<int>& conflict, Tangle&
     const Patch first = first_patch(tangle, conflict);
     if (first.obstacle == obstacle && first.vertices.size() == all.vertices.size()) return Shallow::nothing_to_do;
     std::optional<Attempt> found = follow(tangle, all, {.nearest = true, .reach = all.margin}, extent(tangle));
-    if (!found || found->tears()) return Shallow::no_way;
+    if (!found || found->tears()) return Shallow::no_route;
     accept(std::move(*found), obstacle, tangle, cause);
     return Shallow::pushed_out;
 }
@@ -293,13 +289,13 @@ std::optional<Untangled> untangle(const TangledCloth& cloth, std::span<const Sol
     std::vector<int> cause(positions.size(), -1);
     std::vector<int> conflict = conflicts_of(tangle);
     int failed = 0;
-    for (int k = 0; k < static_cast<int>(obstacles.size()) && failed < most_failures; ++k) {
+    for (int k = 0; k < static_cast<int>(obstacles.size()) && failed < tolerances::most_push_failures; ++k) {
         const Shallow end = push_out_shallow(k, conflict, tangle, cause);
         if (end == Shallow::nothing_to_do) continue;
-        failed = end == Shallow::no_way ? failed + 1 : 0;
+        failed = end == Shallow::no_route ? failed + 1 : 0;
         if (end == Shallow::pushed_out) conflict = conflicts_of(tangle);
     }
-    for (int round = 0; round < most_patches; ++round) {
+    for (int round = 0; round < tolerances::most_patches; ++round) {
         const Patch patch = first_patch(tangle, std::move(conflict));
         if (patch.vertices.empty()) return Untangled{.positions = std::move(tangle.positions), .obstacle = std::move(cause)};
         if (holds_fixed(tangle, patch)) return std::nullopt;

@@ -5,22 +5,19 @@
 
 #include "certificate/triangle_gap.h"
 #include "certificate/triangle_overlap.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
 
-using certificate::Box;
 using certificate::BoxTree;
 using certificate::Corners;
 using certificate::Overlap;
 
-/// Part of the thickness that moved cloth keeps from obstacles.
-constexpr double least_gap = 0.25;
-
 /// Disjoint sets of vertices, each known by its lowest member.
-class Parts {
+class DisjointSets {
 public:
-    explicit Parts(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+    explicit DisjointSets(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
     int of(int vertex) {
         while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
@@ -46,7 +43,7 @@ struct PlacedCloth {
 
     /// Whether a triangle with a gap is nearer than it to one that it does not meet; a bound tells it of most.
     bool is_too_near(int i, const Corners& other) const {
-        const double surely_far = gap[i] * (1.0 + 1e-9);
+        const double surely_far = gap[i] * (1.0 + tolerances::bound_slack);
         if (certificate::triangle_separation(triangles[i], slab[i], other, surely_far) > surely_far) return false;
         return certificate::triangle_distance(triangles[i], other) < gap[i];
     }
@@ -56,25 +53,25 @@ PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std:
     std::vector<Corners> triangles;
     std::vector<double> gaps;
     std::vector<certificate::Slab> slabs;
-    std::vector<Box> boxes;
+    std::vector<certificate::Box> boxes;
     for (const Triangle& t : cloth.triangles) {
         triangles.push_back(corners(x, t));
         const bool any = !moved.empty() && (moved[t[0]] || moved[t[1]] || moved[t[2]]);
-        gaps.push_back(any ? least_gap * cloth.thickness[t[0]] : 0.0);
+        gaps.push_back(any ? tolerances::untangled_gap * cloth.thickness[t[0]] : 0.0);
         slabs.push_back(any ? certificate::slab_of(triangles.back()) : certificate::Slab{});
-        Box box = certificate::box_of(triangles.back());
+        certificate::Box box = certificate::box_of(triangles.back());
         box.low.array() -= gaps.back();
         box.high.array() += gaps.back();
         boxes.push_back(box);
     }
-    return {std::move(triangles), std::move(gaps), std::move(slabs), BoxTree(std::span<const Box>(boxes))};
+    return {std::move(triangles), std::move(gaps), std::move(slabs), BoxTree(std::span<const certificate::Box>(boxes))};
 }
 
 /// The cloth triangles that lie about an obstacle's box: all that can meet it, come too near or have a corner inside.
 std::vector<int> triangles_around(const PlacedCloth& placed, const SolidObstacle& obstacle) {
-    const Box bounds = obstacle.tree().bounds();
+    const certificate::Box bounds = obstacle.tree().bounds();
     std::vector<int> around;
-    placed.tree.walk([&](const Box& box) { return certificate::overlap(box, bounds); },
+    placed.tree.walk([&](const certificate::Box& box) { return certificate::overlap(box, bounds); },
                      [&](int item) { around.push_back(item); });
     return around;
 }
@@ -104,16 +101,16 @@ std::vector<bool> find_inside(const TangledCloth& cloth, const SolidObstacle& ob
                               std::span<const int> around, const std::vector<bool>& meets) {
     std::vector<bool> inside(x.size()), asked(x.size());
     if (!obstacle.watertight()) return inside;
-    Parts parts(cloth.vertex_count());
+    DisjointSets groups(cloth.vertex_count());
     for (const int i : around) {
         const Triangle& t = cloth.triangles[i];
         if (meets[i]) continue;
-        parts.join(t[0], t[1]);
-        parts.join(t[1], t[2]);
+        groups.join(t[0], t[1]);
+        groups.join(t[1], t[2]);
     }
     for (const int i : around) {
         for (const int v : cloth.triangles[i]) {
-            const int first = parts.of(v);
+            const int first = groups.of(v);
             if (!asked[first]) inside[first] = obstacle.inside(x[first]);
             asked[first] = true;
             inside[v] = inside[first];
@@ -124,21 +121,21 @@ std::vector<bool> find_inside(const TangledCloth& cloth, const SolidObstacle& ob
 
 bool is_cut(const Vec3& a, const Vec3& b, const SolidObstacle& obstacle) {
     const Corners edge{a, b, b};
-    const Box box = certificate::box_of(edge);
+    const certificate::Box box = certificate::box_of(edge);
     bool cut = false;
     obstacle.tree().walk(
-        [&](const Box& other) { return !cut && certificate::overlap(box, other); },
+        [&](const certificate::Box& other) { return !cut && certificate::overlap(box, other); },
         [&](int item) { cut = cut || certificate::classify(edge, obstacle.triangles()[item]) != Overlap::disjoint; });
     return cut;
 }
 
-/// The part of most vertices in every connected piece of cloth; at its index the number of the part.
-std::vector<int> largest_parts(Parts& parts, Parts& pieces, int count) {
+/// The side of most vertices in every connected piece of cloth; at its index the number of the side.
+std::vector<int> largest_sides(DisjointSets& sides, DisjointSets& pieces, int count) {
     std::vector<int> size(count, 0), largest(count, -1);
-    for (int v = 0; v < count; ++v) ++size[parts.of(v)];
+    for (int v = 0; v < count; ++v) ++size[sides.of(v)];
     for (int v = 0; v < count; ++v) {
         int& best = largest[pieces.of(v)];
-        if (best < 0 || size[parts.of(v)] > size[best]) best = parts.of(v);
+        if (best < 0 || size[sides.of(v)] > size[best]) best = sides.of(v);
     }
     return largest;
 }
@@ -147,18 +144,18 @@ void mark_behind(const TangledCloth& cloth, const SolidObstacle& obstacle, int n
                  std::vector<int>& behind) {
     const Meetings meetings = find_meetings(place(cloth, x, {}), obstacle);
     if (std::find(meetings.meets.begin(), meetings.meets.end(), true) == meetings.meets.end()) return;
-    Parts parts(cloth.vertex_count()), pieces(cloth.vertex_count());
+    DisjointSets sides(cloth.vertex_count()), pieces(cloth.vertex_count());
     for (std::size_t i = 0; i < cloth.triangles.size(); ++i) {
         const Triangle& t = cloth.triangles[i];
         for (int k = 0; k < 3; ++k) {
             const int a = t[k], b = t[(k + 1) % 3];
             pieces.join(a, b);
-            if (!meetings.meets[i] || !is_cut(x[a], x[b], obstacle)) parts.join(a, b);
+            if (!meetings.meets[i] || !is_cut(x[a], x[b], obstacle)) sides.join(a, b);
         }
     }
-    const std::vector<int> largest = largest_parts(parts, pieces, cloth.vertex_count());
+    const std::vector<int> largest = largest_sides(sides, pieces, cloth.vertex_count());
     for (int v = 0; v < cloth.vertex_count(); ++v) {
-        if (largest[pieces.of(v)] != parts.of(v)) behind[v] = number;
+        if (largest[pieces.of(v)] != sides.of(v)) behind[v] = number;
     }
 }
 

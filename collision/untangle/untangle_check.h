@@ -27,7 +27,7 @@ TangledCloth make_tangled_cloth(std::span<const Triangle> triangles, std::span<c
 std::vector<int> find_conflicts(const TangledCloth& cloth, std::span<const SolidObstacle> obstacles,
                                 std::span<const Vec3> positions, const std::vector<bool>& moved);
 
-/// Vertices behind an open obstacle: where it cuts a piece of cloth in parts, all but the part of most vertices. -1 or the
+/// Vertices behind an open obstacle: where it cuts a piece of cloth, all but the side of most vertices. -1 or the
 /// obstacle.
 std::vector<int> find_behind(const TangledCloth& cloth, std::span<const SolidObstacle> obstacles,
                              std::span<const Vec3> positions);

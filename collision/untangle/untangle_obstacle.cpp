@@ -8,22 +8,22 @@
 #include "certificate/inside_test.h"
 #include "certificate/triangle_gap.h"
 #include "geometry/triangle_distance.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
 
-using certificate::Box;
 using certificate::Corners;
 
-/// Whether the ray from `point` along `way` meets the box (slab test).
-bool meets(const Box& box, const Vec3& point, const Vec3& way) {
+/// Whether the ray from `point` along `direction` meets the box (slab test).
+bool meets(const certificate::Box& box, const Vec3& point, const Vec3& direction) {
     double first = 0.0, last = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
-        if (way[axis] == 0.0) {
+        if (direction[axis] == 0.0) {
             if (point[axis] < box.low[axis] || point[axis] > box.high[axis]) return false;
             continue;
         }
-        const double a = (box.low[axis] - point[axis]) / way[axis], b = (box.high[axis] - point[axis]) / way[axis];
+        const double a = (box.low[axis] - point[axis]) / direction[axis], b = (box.high[axis] - point[axis]) / direction[axis];
         first = std::max(first, std::min(a, b));
         last = std::min(last, std::max(a, b));
     }
@@ -31,13 +31,13 @@ bool meets(const Box& box, const Vec3& point, const Vec3& way) {
 }
 
 /// Where the ray meets the triangle (Moeller and Trumbore 1997), its rim included; nothing where it misses or runs along it.
-std::optional<double> meeting(const Corners& t, const Vec3& point, const Vec3& way) {
-    constexpr double rim = 1e-9;
-    const Vec3 u = t[1] - t[0], v = t[2] - t[0], p = way.cross(v);
+std::optional<double> meeting(const Corners& t, const Vec3& point, const Vec3& direction) {
+    constexpr double rim = tolerances::ray_rim;
+    const Vec3 u = t[1] - t[0], v = t[2] - t[0], p = direction.cross(v);
     const double determinant = u.dot(p);
     if (determinant == 0.0) return std::nullopt;
     const Vec3 from = point - t[0], q = from.cross(u);
-    const double a = from.dot(p) / determinant, b = way.dot(q) / determinant, distance = v.dot(q) / determinant;
+    const double a = from.dot(p) / determinant, b = direction.dot(q) / determinant, distance = v.dot(q) / determinant;
     if (a < -rim || b < -rim || a + b > 1.0 + rim || !(distance > 0.0)) return std::nullopt;
     return distance;
 }
@@ -57,23 +57,25 @@ bool SolidObstacle::inside(const Vec3& point) const {
            certificate::side_of(point, triangles_, tree_) == certificate::Side::inside;
 }
 
-std::optional<double> SolidObstacle::exit(const Vec3& point, const Vec3& way) const {
+std::optional<double> SolidObstacle::exit(const Vec3& point, const Vec3& direction) const {
     std::vector<double> places;
-    tree_.walk([&](const Box& box) { return meets(box, point, way); },
+    tree_.walk([&](const certificate::Box& box) { return meets(box, point, direction); },
                [&](int item) {
-                   if (const auto place = meeting(triangles_[item], point, way)) places.push_back(*place);
+                   if (const auto place = meeting(triangles_[item], point, direction)) places.push_back(*place);
                });
     std::sort(places.begin(), places.end());
-    const double little = 1e-9 * (tree_.bounds().high - tree_.bounds().low).norm();
-    const auto leaves = [&](double place) { return !inside(point + (place + little) * way); };
+    const double little = tolerances::beyond_exit * (tree_.bounds().high - tree_.bounds().low).norm();
+    const auto leaves = [&](double place) { return !inside(point + (place + little) * direction); };
     const auto first = std::find_if(places.begin(), places.end(), leaves);
     return first == places.end() ? std::nullopt : std::optional(*first);
 }
 
 Vec3 SolidObstacle::pushed_out(const Vec3& point, double clearance) const {
-    Box here;
+    certificate::Box here;
     here.add(point);
-    const auto box_distance = [&](const Box& box) { return certificate::distance(here, box) * (1.0 - 1e-9); };
+    const auto box_distance = [&](const certificate::Box& box) {
+        return certificate::distance(here, box) * (1.0 - tolerances::bound_slack);
+    };
     const auto item_distance = [&](int i) { return certificate::point_triangle_distance(point, triangles_[i]); };
     const auto [nearest, distance] = tree_.nearest(std::numeric_limits<double>::infinity(), box_distance, item_distance);
     const bool within = inside(point);
@@ -81,7 +83,8 @@ Vec3 SolidObstacle::pushed_out(const Vec3& point, double clearance) const {
     const Corners& t = triangles_[nearest];
     const Vec3 foot = closest_on_triangle(point, t[0], t[1], t[2]).point;
     const double size = (t[1] - t[0]).norm() + (t[2] - t[0]).norm();
-    const Vec3 out = distance > 1e-9 * size ? Vec3((within ? foot - point : point - foot).normalized()) : normal_of(t);
+    const Vec3 out =
+        distance > tolerances::on_triangle * size ? Vec3((within ? foot - point : point - foot).normalized()) : normal_of(t);
     return foot + clearance * out;
 }
 

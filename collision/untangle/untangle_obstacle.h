@@ -21,9 +21,9 @@ public:
     /// Never inside an open obstacle. Exact.
     bool inside(const Vec3& point) const;
 
-    /// How far a point is from leaving along the unit vector `way`, m: of a watertight obstacle the first place on its surface
-    /// beyond which is outside; of an open one, the first place on it. Nothing where there is no such place.
-    std::optional<double> exit(const Vec3& point, const Vec3& way) const;
+    /// How far a point is from leaving along the unit vector `direction`, m: of a watertight obstacle the first place on its
+    /// surface beyond which is outside; of an open one, the first place on it. Nothing where there is no such place.
+    std::optional<double> exit(const Vec3& point, const Vec3& direction) const;
 
     /// The point at distance `clearance` (m, > 0) from the surface, on the outer side of the place nearest to `point`; the point
     /// itself where it is outside and at least that far away. For watertight obstacles.

@@ -4,11 +4,10 @@
 #include <limits>
 #include <queue>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-/// How much less a vertex moves than its neighbour, by the length between them: stretches an edge by 12 % at most.
-constexpr double slope = 0.5;
 
 /// What is left of a move at a vertex; larger ones are passed on first, at equal size the lower vertex (Dijkstra 1959).
 struct Front {
@@ -17,14 +16,15 @@ struct Front {
     bool operator<(const Front& other) const { return size != other.size ? size < other.size : vertex > other.vertex; }
 };
 
-/// For each vertex the source whose value, less what the way takes, is largest there, and that value; source -1 below `least`.
+/// For each vertex the source whose value, less what the length to it takes, is largest there, and that value; source -1 below
+/// `smallest`.
 struct Reached {
     std::vector<double> size;
     std::vector<int> source;
 };
 
-Reached pass_on(const TangledCloth& cloth, std::span<const Vec3> x, std::vector<Front> start, double loss, double least) {
-    Reached reached{std::vector<double>(x.size(), least), std::vector<int>(x.size(), -1)};
+Reached pass_on(const TangledCloth& cloth, std::span<const Vec3> x, std::vector<Front> start, double loss, double smallest) {
+    Reached reached{std::vector<double>(x.size(), smallest), std::vector<int>(x.size(), -1)};
     std::priority_queue<Front> fronts;
     const auto offer = [&](const Front& front) {
         if (!(front.size > reached.size[front.vertex])) return;
@@ -63,7 +63,7 @@ void spread_moves(const TangledCloth& cloth, std::span<const Vec3> positions, co
     for (int v = 0; v < cloth.vertex_count(); ++v) {
         if (core[v]) start.push_back({moves[v].norm(), v, v});
     }
-    const Reached reached = pass_on(cloth, positions, std::move(start), slope, 0.0);
+    const Reached reached = pass_on(cloth, positions, std::move(start), tolerances::move_slope, 0.0);
     for (int v = 0; v < cloth.vertex_count(); ++v) {
         const int source = reached.source[v];
         if (!core[v]) moves[v] = Vec3::Zero();

@@ -11,7 +11,7 @@ constexpr double lower_share = 0.03;  // where that keeps too many vertices
 constexpr double most_kept = 0.4;     // of all
 constexpr int most_weights = 3;
 constexpr int most_candidates = most_weights + 2;
-constexpr double smallest_share = 0.03;  // weights below this share of the largest are dropped
+constexpr double smallest_weight = 0.03;  // weights below this share of the largest are dropped
 
 /// The strong neighbours of each vertex, and the strongest of all.
 struct Neighbours {
@@ -137,7 +137,7 @@ InterpolationRow interpolation_row(const SpringGraph& graph, int i, int fallback
     InterpolationRow row{.vertex = {-1, -1, -1}, .weight = {}, .count = 0};
     double sum = 0.0;
     for (const Candidate& c : candidates) {
-        if (row.count == most_weights || c.weight <= smallest_share * candidates[0].weight) break;
+        if (row.count == most_weights || c.weight <= smallest_weight * candidates[0].weight) break;
         row.vertex[row.count] = c.vertex;
         row.weight[row.count++] = c.weight;
         sum += c.weight;

@@ -13,7 +13,7 @@ struct MemoryShare {
 };
 constexpr MemoryShare implicit_memory = {1250.0, 375.0};  // with multigrid
 constexpr MemoryShare explicit_memory = {430.0, 98.0};
-constexpr double membrane_triangle = 700.0;
+constexpr double membrane_triangle_cost = 700.0;
 constexpr double more_stages = 168.0;  // a vertex, of Runge-Kutta
 constexpr double near_cloth_triangle = 270.0;
 constexpr double obstacle_triangle = 475.0;
@@ -29,7 +29,7 @@ constexpr double linear_cost = 1.5, newton_cost = 1.5, step_cost = 8.0;
 double predicted_memory(const StepPlan& plan, const SceneFacts& facts) {
     const MemoryShare share = plan.implicit ? implicit_memory : explicit_memory;
     double bytes = share.vertex * facts.cloth_vertices + share.spring * facts.springs.total();
-    bytes += membrane_triangle * facts.springs.triangle;
+    bytes += membrane_triangle_cost * facts.springs.triangle;
     if (plan.scheme == Scheme::rk4) bytes += more_stages * facts.cloth_vertices;
     if (plan.contacts) bytes += near_cloth_triangle * facts.cloth_triangles;
     return bytes + obstacle_triangle * static_cast<double>(facts.obstacle_triangles);

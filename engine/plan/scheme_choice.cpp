@@ -20,7 +20,7 @@ constexpr double most_stiff = 3.0;            // w dt of the trapezoid
 constexpr int fine_sheet = 4000;              // vertices
 constexpr int most_parts = 1000;              // of a step, far more than are cheaper than an implicit one
 
-std::string number_text(double value) {
+std::string rough_number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", value);
     return text;
@@ -134,9 +134,9 @@ SchemeChoice choose_scheme(const StepScene& scene, const ClothState& state, cons
     const double explicit_cost = tries * facts_of(short_steps).force_evaluations / length;
     const double other_cost = implicit_cost(scene, facts, implicit, adaptive ? std::min(dt, usual_implicit) : dt);
     const bool cheaper = explicit_cost < other_cost && parts <= most_parts;
-    std::string reason = "a second of " + word(short_steps) + " in steps of " + number_text(length) + " s costs " +
-                         number_text(explicit_cost) + " evaluations of all springs, one of " + word(implicit) + " " +
-                         number_text(other_cost);
+    std::string reason = "a second of " + word(short_steps) + " in steps of " + rough_number(length) + " s costs " +
+                         rough_number(explicit_cost) + " evaluations of all springs, one of " + word(implicit) + " " +
+                         rough_number(other_cost);
     return {cheaper ? short_steps : implicit, cheaper ? static_cast<int>(parts) : 1, std::move(reason)};
 }
 
@@ -167,21 +167,21 @@ void warn_of_slivers(const StepScene& scene, std::vector<std::string>& warnings)
 std::vector<std::string> step_warnings(const StepScene& scene, const ClothState& state, const StepPlan& plan) {
     std::vector<std::string> warnings;
     const double dt = scene.settings.time_step / plan.parts;
-    const std::string step = "time_step " + number_text(dt) + " s";
+    const std::string step = "time_step " + rough_number(dt) + " s";
     if (!plan.implicit && !scene.settings.adaptive) {
         const double stable = stable_step(scene, state, plan.scheme);
         if (stable == 0.0)
             warnings.push_back(word(plan.scheme) + " makes every oscillation grow; use rk4 or an implicit scheme");
         else if (dt > stable) {
             warnings.push_back(step + " is longer than the longest stable one of " + word(plan.scheme) + ", about " +
-                               number_text(stable) + " s: the cloth will fly apart");
+                               rough_number(stable) + " s: the cloth will fly apart");
         }
     }
     const bool undamped = plan.scheme == Scheme::trapezoid || plan.scheme == Scheme::implicit_midpoint;
     if (undamped && !scene.settings.adaptive) {
         const double stiff = dt * std::sqrt(largest_square(scene, state));
         if (stiff > most_stiff) {
-            warnings.push_back(step + " is " + number_text(stiff) +
+            warnings.push_back(step + " is " + rough_number(stiff) +
                                " times the reciprocal of the highest frequency: what is so stiff rings under " +
                                word(plan.scheme) +
                                " and can gain energy; use backward_euler, or tr_bdf2 with time_step = \"auto\"");

@@ -89,7 +89,7 @@ void step_midpoint(const ExplicitStep& step, ExplicitSpace& space, ClothState& s
 }
 
 /// A stage of Runge and Kutta's: the weight of its slopes, and how far along them the next one is, s.
-struct Stage {
+struct ExplicitStage {
     double weight, ahead;
 };
 
@@ -107,7 +107,7 @@ enum class StagePlace { first, between, last };
 /// here would else cost as much as the springs. The first stage is the start itself. Slice by slice, everything read before
 /// anything is written, so that compilers need not fear that arrays overlap.
 template <StagePlace place>
-void advance(const StageAxis& axis, const Stage& stage, double dt, std::size_t padded) {
+void advance(const StageAxis& axis, const ExplicitStage& stage, double dt, std::size_t padded) {
     constexpr int lanes = Vectors::lanes;
     const double weight = stage.weight, ahead = stage.ahead;
     for (std::size_t i = 0; i < padded; i += lanes) {
@@ -136,7 +136,7 @@ void advance(const StageAxis& axis, const Stage& stage, double dt, std::size_t p
 }
 
 template <StagePlace place>
-void make_stage(const ExplicitStep& step, const Stage& stage, ExplicitSpace& space, ClothState& state) {
+void make_stage(const ExplicitStep& step, const ExplicitStage& stage, ExplicitSpace& space, ClothState& state) {
     evaluate(step, place == StagePlace::first ? state : space.stage, space);
     for (const auto axis : {&Vectors::x, &Vectors::y, &Vectors::z}) {
         advance<place>({.force = (space.forces.total.*axis).data(),

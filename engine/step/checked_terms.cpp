@@ -14,7 +14,7 @@ namespace {
 
 constexpr double share_of_length = 1e-5;  // of the shortest spring, by which vertices are moved
 
-Vec3 block_times(const SymmetricBlock& k, const Vec3& u) {
+Vec3 symmetric_product(const SymmetricBlock& k, const Vec3& u) {
     const auto& [xx, xy, xz, yy, yz, zz] = k;
     return {xx * u.x() + xy * u.y() + xz * u.z(), xy * u.x() + yy * u.y() + yz * u.z(), xz * u.x() + yz * u.y() + zz * u.z()};
 }
@@ -50,7 +50,8 @@ struct SpringCheck {
     }
 };
 
-double evaluate(const SpringCheck& check, const Vectors& positions, bool with_matrix, Vectors& forces, SpringTerms& terms) {
+double evaluate_network(const SpringCheck& check, const Vectors& positions, bool with_matrix, Vectors& forces,
+                        SpringTerms& terms) {
     return evaluate_springs(check.step.scene.compute, check.springs, check.motion(positions), with_matrix, forces, terms);
 }
 
@@ -92,7 +93,7 @@ CheckedTerm spring_term(const StepEnd& step, const std::string& name, DampingFor
         {check->adjacency(), step.start.positions, form, check->dt(), step.end.cloth.rest_length, &step.scene.model.springs},
         check->springs);
     check->springs.rate_damping = false;
-    CheckedTerm term = term_of(name, check, evaluate);
+    CheckedTerm term = term_of(name, check, evaluate_network);
     const SpringNetwork& network = step.scene.model.springs;
     for (int k = 0; k < network.size(); ++k) {
         const int place = check->adjacency().place[k];
@@ -178,7 +179,7 @@ CheckedTerm wind_term(const StepEnd& step, double reach) {
                 [=](const Vectors& direction, Vectors& product) {
                     for (std::size_t i = 0; i < check->terms.blocks.size(); ++i) {
                         const int vertex = static_cast<int>(i);
-                        product.add(vertex, block_times(check->terms.blocks[i], direction.at(vertex)));
+                        product.add(vertex, symmetric_product(check->terms.blocks[i], direction.at(vertex)));
                     }
                 },
             .exact = [=](int vertex) { return static_cast<bool>(check->exact[vertex]); },
@@ -234,7 +235,7 @@ struct ContactCheck {
         for (const CoupledBlock& block : terms.blocks) {
             Vec3 u = Vec3::Zero();
             for (std::size_t k = 0; k < 4 && block.vertex[k] >= 0; ++k) u += block.weight[k] * direction.at(block.vertex[k]);
-            const Vec3 f = block_times(block.k, u);
+            const Vec3 f = symmetric_product(block.k, u);
             for (std::size_t k = 0; k < 4 && block.vertex[k] >= 0; ++k) product.add(block.vertex[k], block.weight[k] * f);
         }
     }

@@ -11,7 +11,7 @@
 namespace percale::scenes {
 namespace {
 
-void check_file(const std::string& file) {
+void check_is_file(const std::string& file) {
     std::error_code status;
     if (!std::filesystem::exists(file, status)) throw SceneError(file + ": no such file");
     if (!std::filesystem::is_regular_file(file, status)) throw SceneError(file + ": not a file; name scene files and mesh files");
@@ -51,7 +51,7 @@ bool Diagnosis::has(const std::string& kind) const {
 }
 
 Diagnosis diagnose(const std::string& file, const DoctorSettings& settings) {
-    check_file(file);
+    check_is_file(file);
     Diagnosis diagnosis{.file = file,
                         .findings = extension_of(file) == ".toml" ? examine_scene_file(file, settings.overrides)
                                                                   : examine_mesh_file(file, settings.role)};

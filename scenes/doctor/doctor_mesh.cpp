@@ -25,7 +25,7 @@ std::string first_few(const std::vector<Element>& elements) {
 }
 
 /// "1 vertex ..." or "12 vertices ..." of "vertex|vertices ...".
-std::string counted(long count, const std::string& what) {
+std::string counted_kind(long count, const std::string& what) {
     const std::size_t bar = what.find('|'), end = what.find(' ', bar);
     return std::to_string(count) + " " + (count == 1 ? what.substr(0, bar) : what.substr(bar + 1, end - bar - 1)) +
            what.substr(end);
@@ -45,13 +45,13 @@ public:
             {.severity = severity, .kind = kind, .role = mesh_.role, .place = mesh_.place, .what = prefix + what, .fix = fix});
     }
 
-    /// Where there are such elements; the sentence is "12 WHAT: 3, 7, 8, 9, ..." (see counted).
+    /// Where there are such elements; the sentence is "12 WHAT: 3, 7, 8, 9, ..." (see counted_kind).
     template <class Element>
     void add_elements(Severity severity, const std::string& kind, const std::vector<Element>& elements, const std::string& what,
                       const std::string& fix) {
         if (elements.empty()) return;
         const auto count = static_cast<long>(elements.size());
-        add(severity, kind, counted(count, what) + ": " + first_few(elements), fix);
+        add(severity, kind, counted_kind(count, what) + ": " + first_few(elements), fix);
         found_.back().count = count;
         for (std::size_t i = 0; i < std::min(elements.size(), shown_elements); ++i) append(elements[i], found_.back().elements);
     }
@@ -182,7 +182,7 @@ void find_cloth_edges(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
 void find_cleaning(const ExaminedMesh& obstacle, Findings& found) {
     const CleaningReport report = cleaning_report(obstacle.mesh);
     const auto note = [&](const std::string& kind, long count, const std::string& what, const std::string& fix) {
-        if (count > 0) found.add(Severity::note, kind, counted(count, what), fix);
+        if (count > 0) found.add(Severity::note, kind, counted_kind(count, what), fix);
     };
     note("repeated_places", report.merged_vertices, "vertex|vertices at the place of others, merged with them",
          "nothing has to be done; merging them in the mesh makes it smaller");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/source_place.h"
+#include "meshes/primitives.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
 #include "percale/settings.h"
@@ -43,23 +44,6 @@ struct ClothSpec {
     SourcePlace pin_place;  // of `pin`; of the cloth where that is not said
     SourcePlace place;
 };
-
-struct SphereShape {
-    double radius = 0.0;
-};
-struct BoxShape {
-    Vec3 size = Vec3::Zero();
-};
-struct CylinderShape {
-    double radius = 0.0, height = 0.0;
-};
-struct CapsuleShape {
-    double radius = 0.0, height = 0.0;
-};
-struct PlaneShape {
-    double half_size = 10.0;
-};
-using Shape = std::variant<std::monostate, SphereShape, BoxShape, CylinderShape, CapsuleShape, PlaneShape>;
 
 /// One keyframe; what it does not say stays as the previous one (the first: as the pose) has it.
 struct Keyframe {

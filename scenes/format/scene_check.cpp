@@ -4,7 +4,6 @@
 
 #include "common/nearest_name.h"
 #include "common/text.h"
-#include "format/lacking.h"
 #include "format/scene_keys.h"
 
 namespace percale::scenes {
@@ -152,13 +151,7 @@ void check_named_tables(const TomlNode& node, const SceneKey& key, const Spot& s
     }
 }
 
-[[noreturn]] void fail_lacking_choice(const TomlNode& node, const SceneKey& key, const std::string& shown) {
-    const std::string range = key.choices.empty() ? ", " + range_text(key) : "";
-    fail_at(node.place, "this build lacks the choice '" + node.text + "' of " + shown + "; it takes " + kind_text(key) + range);
-}
-
 void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
-    if (node.kind == TomlKind::text && lacks_choice(key.path, node.text)) fail_lacking_choice(node, key, spot.shown);
     switch (key.kind) {
         case KeyKind::text:
             if (node.kind != TomlKind::text) fail_kind(node, key, spot.shown);
@@ -203,8 +196,6 @@ void check_entry(const TomlNode& node, const Spot& table, const std::vector<std:
     const std::string& name = node.key;
     const Spot entry = table.inside(name);
     const SceneKey* key = name.find('.') == std::string::npos ? find_scene_key(entry.path) : nullptr;
-    if (lacks_key(entry.path))
-        fail_at(node.key_place, "this build lacks the key '" + name + "' of " + table_text(table) + "; valid: " + joined(valid));
     if (key == nullptr) fail_at(node.key_place, "unknown key '" + name + "' in " + table_text(table) + suggestion(name, valid));
     check_value(node, *key, entry, faults);
 }

@@ -46,7 +46,7 @@ void check_format(const std::string& file, const std::string& format) {
     throw SceneError(file + ": is of no format that is read: " + joined(read));
 }
 
-void check_file(const std::string& file) {
+void check_mesh_file(const std::string& file) {
     std::error_code status;
     if (!std::filesystem::exists(file, status)) throw SceneError(file + ": no such file");
     if (!std::filesystem::is_regular_file(file, status)) throw SceneError(file + ": not a file");
@@ -170,7 +170,7 @@ std::string extension_of(const std::string& file) {
 
 TriangleMesh import_mesh(const std::string& file, double unit) {
     if (!std::isfinite(unit) || unit <= 0.0) throw SceneError(file + ": unit is " + std::to_string(unit) + ", must be above 0");
-    check_file(file);
+    check_mesh_file(file);
     const std::string format = format_of(file);
     check_format(file, format);
     if (format == ".stl") check_stl_header(file);

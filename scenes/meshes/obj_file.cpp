@@ -84,8 +84,8 @@ std::vector<Triangle> fan(const FaceList& faces, std::size_t vertex_count, const
     for (std::size_t face = 0; face < faces.ends.size(); ++face) {
         for (std::size_t k = start; k < faces.ends[face]; ++k)
             if (faces.corners[k] >= static_cast<long long>(vertex_count))
-                fail_at({name, faces.lines[face]}, "vertex index " + std::to_string(faces.corners[k] + 1) +
-                                                       " is out of range 1 ... " + std::to_string(vertex_count));
+                fail_at(TextPlace{name, faces.lines[face]}, "vertex index " + std::to_string(faces.corners[k] + 1) +
+                                                                " is out of range 1 ... " + std::to_string(vertex_count));
         const auto corner = [&](std::size_t k) { return static_cast<int>(faces.corners[k]); };
         for (std::size_t k = start + 2; k < faces.ends[face]; ++k) triangles.push_back({corner(start), corner(k - 1), corner(k)});
         start = faces.ends[face];

@@ -148,11 +148,12 @@ void check_needed(const PlyHeader& header, const std::string& name) {
     if (vertex == nullptr) throw SceneError(name + ": no vertices: the header has no element \"vertex\"");
     for (int axis = 0; axis < 3; ++axis)
         if (!vertex->has_role[axis])
-            fail_at({name, vertex->line}, std::string("element \"vertex\" has no property \"") + "xyz"[axis] + "\"");
-    if (vertex->count == 0) fail_at({name, vertex->line}, "no vertices: their count is 0");
+            fail_at(TextPlace{name, vertex->line}, std::string("element \"vertex\" has no property \"") + "xyz"[axis] + "\"");
+    if (vertex->count == 0) fail_at(TextPlace{name, vertex->line}, "no vertices: their count is 0");
     if (face == nullptr) throw SceneError(name + ": no triangles: the header has no element \"face\"");
-    if (!face->has_role[0]) fail_at({name, face->line}, "element \"face\" has no list \"vertex_indices\" or \"vertex_index\"");
-    if (face->count == 0) fail_at({name, face->line}, "no triangles: the count of faces is 0");
+    if (!face->has_role[0])
+        fail_at(TextPlace{name, face->line}, "element \"face\" has no list \"vertex_indices\" or \"vertex_index\"");
+    if (face->count == 0) fail_at(TextPlace{name, face->line}, "no triangles: the count of faces is 0");
 }
 
 /// The least that an element takes: in text a digit and a blank for each number, in binary an empty list its length alone.
@@ -170,9 +171,9 @@ void check_counts(const PlyHeader& header, const PlyText& text) {
         const std::size_t each = least_bytes(element, is_text);
         if (each == 0) continue;
         if (element.count > left / each)
-            fail_at({text.name, element.line}, "the header claims " + std::to_string(element.count) + " elements " +
-                                                   shown(element.name) + ", but the file can hold " +
-                                                   std::to_string(left / each) + " at most");
+            fail_at(TextPlace{text.name, element.line}, "the header claims " + std::to_string(element.count) + " elements " +
+                                                            shown(element.name) + ", but the file can hold " +
+                                                            std::to_string(left / each) + " at most");
         left -= element.count * each;
     }
 }

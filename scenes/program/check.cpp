@@ -131,7 +131,6 @@ private:
 };
 
 void check_options(const CheckOptions& options) {
-    check_common_options(options.common);
     scene_overrides(options.common);  // a --set that is none is told once, not for each scene
     if (!options.common.frames.empty() && options.common.frames != "none")
         throw SceneError("--frames " + options.common.frames + ": check writes no frames; percale run does");

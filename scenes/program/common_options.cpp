@@ -6,10 +6,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "common/nearest_name.h"
 #include "common/text.h"
 #include "format/expectations.h"
-#include "format/lacking.h"
 #include "frames/frame_formats.h"
 #include "percale/error.h"
 
@@ -45,21 +43,6 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
     command.add_flag("--replay-hash", options.replay_hash,
                      "A hash of the state for every step in steps.csv; check prints the last");
 }
-
-namespace {
-
-void check_frame_format(const std::string& format) {
-    const std::vector<std::string> here = scenes::frame_words();
-    if (format.empty() || std::find(here.begin(), here.end(), format) != here.end()) return;
-    if (scenes::lacks_choice("output.frames", format))
-        throw SceneError("--frames " + format + ": this build lacks the frame format '" + format + "'; it has " +
-                         alternatives(here));
-    throw SceneError("--frames " + format + ": no such frame format" + scenes::suggestion(format, here));
-}
-
-}  // namespace
-
-void check_common_options(const CommonOptions& options) { check_frame_format(options.frames); }
 
 std::vector<scenes::Expectation> expected_of(const scenes::Scene& scene, const CommonOptions& options) {
     return options.certify_steps ? scenes::with_every_step(scene.expectations) : scene.expectations;

@@ -30,9 +30,6 @@ void add_common_options(CLI::App& command, CommonOptions& options);
 /// What the scene expects, and with --certify-steps that every step is clear.
 std::vector<scenes::Expectation> expected_of(const scenes::Scene& scene, const CommonOptions& options);
 
-/// Throws SceneError for what this build lacks or what is out of range.
-void check_common_options(const CommonOptions& options);
-
 /// The options that stand for keys of the scene file, --set first. Throws SceneError for a --set that is not KEY=VALUE.
 std::vector<scenes::Override> scene_overrides(const CommonOptions& options);
 

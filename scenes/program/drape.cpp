@@ -61,7 +61,7 @@ void check_options(const DrapeOptions& options) {
     if (!(options.seconds > 0.0 && options.seconds <= 3600.0))
         throw SceneError("--seconds: is outside the allowed range 0 ... 3600 s (0 excluded)");
     if (std::filesystem::path(options.out).extension() != ".obj")
-        throw SceneError("-o " + options.out + ": this build writes .obj only");
+        throw SceneError("-o " + options.out + ": its name must end in .obj, which is what is written");
     const WholeFile probe(options.out);  // an output that cannot be written is found before the work, not after it
 }
 

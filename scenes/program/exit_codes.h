@@ -6,7 +6,7 @@ namespace percale::program {
 enum ExitCode {
     all_well = 0,
     not_as_expected = 1,  // an expectation failed, a step ended badly, a certificate is not clean
-    wrong_input = 2,      // also what this build lacks, and output that cannot be written
+    wrong_input = 2,      // also output that cannot be written
     internal_error = 3,
     stopped_by_signal = 130,
 };

@@ -124,7 +124,6 @@ void save(const RunOptions& options, const Scene& scene, const RunState& state, 
 }
 
 int run(RunOptions options) {
-    check_common_options(options.common);
     const double interval = checkpoint_interval(options);
     std::optional<Checkpoint> from;
     if (!options.resume.empty()) from = read_checkpoint(options.resume);

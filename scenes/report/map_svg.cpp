@@ -11,7 +11,8 @@ namespace {
 
 // Pixels.
 constexpr int columns = 3;
-constexpr double left = 70.0, top = 60.0, panel_width = 250.0, panel_height = 230.0, gap = 20.0, heading = 22.0;
+constexpr double map_left = 70.0, map_top = 60.0, panel_width = 250.0, panel_height = 230.0, panel_gap = 20.0,
+                 heading_height = 22.0;
 constexpr double legend_height = 70.0, axis_height = 45.0;
 
 /// One axis of all panels: its values, from where its cells begin to where they end.
@@ -119,15 +120,15 @@ std::string panel_svg(const MapPanel& panel, const ColourMap& map, const PanelPl
 
 std::string legend_svg(const ColourMap& map, double y) {
     std::string text;
-    double x = left;
+    double x = map_left;
     for (const auto& [colour, name] : map.legend) {
         text += "<rect" + svg_attribute("x", x) + svg_attribute("y", y) + " width=\"16\" height=\"16\"" +
                 svg_attribute("fill", colour) + "/>\n" + svg_text(x + 22.0, y + 13.0, "start", name);
         x += 44.0 + 7.5 * static_cast<double>(name.size());
     }
     if (map.limit_name.empty()) return text;
-    return text + svg_line(left, y + 30.0, left + 16.0, y + 30.0, "stroke=\"black\" stroke-width=\"2\"") +
-           svg_text(left + 22.0, y + 35.0, "start", map.limit_name);
+    return text + svg_line(map_left, y + 30.0, map_left + 16.0, y + 30.0, "stroke=\"black\" stroke-width=\"2\"") +
+           svg_text(map_left + 22.0, y + 35.0, "start", map.limit_name);
 }
 
 }  // namespace
@@ -135,18 +136,18 @@ std::string legend_svg(const ColourMap& map, double y) {
 std::string map_svg(const ColourMap& map) {
     const MapAxes axes = axes_of(map);
     const int count = static_cast<int>(map.panels.size()), rows = std::max(1, (count + columns - 1) / columns);
-    const double width = left + columns * (panel_width + gap), row_height = panel_height + heading + gap;
-    const double bottom = top + heading + rows * row_height;
+    const double width = map_left + columns * (panel_width + panel_gap), row_height = panel_height + heading_height + panel_gap;
+    const double bottom = map_top + heading_height + rows * row_height;
     std::string text = svg_opening(width, bottom + axis_height + legend_height, map.title);
     text += svg_text(0.5 * width, 28.0, "middle", map.title, " font-size=\"17\"");
     for (int k = 0; k < count; ++k) {
         const int row = k / columns, column = k % columns;
-        const PanelPlace place{axes, left + column * (panel_width + gap), top + heading + row * row_height};
+        const PanelPlace place{axes, map_left + column * (panel_width + panel_gap), map_top + heading_height + row * row_height};
         text += panel_svg(map.panels[static_cast<std::size_t>(k)], map, place);
         text += ticks_svg(place, column == 0, k + columns >= count);
     }
     text += svg_text(0.5 * width, bottom + 22.0, "middle", map.x_label);
-    const double middle = 0.5 * (top + bottom);
+    const double middle = 0.5 * (map_top + bottom);
     text += svg_text(20.0, middle, "middle", map.y_label, " transform=\"rotate(-90 20 " + svg_number(middle) + ")\"");
     return text + legend_svg(map, bottom + axis_height) + "</svg>\n";
 }

@@ -10,7 +10,7 @@ namespace percale::scenes {
 
 namespace {
 
-constexpr double width = 860.0, height = 540.0;  // pixels
+constexpr double plot_width = 860.0, plot_height = 540.0;  // pixels
 constexpr double left = 90.0, right = 640.0, top = 50.0, bottom = 470.0;
 constexpr double legend_left = 660.0, legend_line = 24.0;
 
@@ -153,7 +153,7 @@ LogAxis axis_around(const std::vector<double>& values, double from, double to) {
 
 std::string plot_svg(const Plot& plot) {
     const Axes axes = axes_of(plot);
-    std::string text = svg_opening(width, height, plot.title);
+    std::string text = svg_opening(plot_width, plot_height, plot.title);
     text += grid(axes) + frame_and_labels(plot) + floor_line(plot, axes);
     for (std::size_t k = 0; k < plot.series.size(); ++k) text += curve(plot.series[k], k, axes);
     for (std::size_t k = 0; k < plot.series.size(); ++k) text += legend_entry(plot.series[k], k);

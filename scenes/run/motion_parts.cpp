@@ -11,8 +11,8 @@ namespace {
 
 constexpr double largest_turn = std::numbers::pi / 12.0;  // rad, in one part
 constexpr double largest_way = 4.0;                       // thicknesses, in one part
-constexpr double most_parts = 1e5;                        // what moves still farther in a part may block the cloth
-constexpr double rounding = 1e-9;                         // of a part
+constexpr double most_motion_parts = 1e5;                 // what moves still farther in a part may block the cloth
+constexpr double part_rounding = 1e-9;                    // of a part
 
 /// Of the shortest turn from one to the other, rad.
 double angle_between(const Rotation& p, const Rotation& q) {
@@ -111,7 +111,7 @@ int motion_parts(const BuiltScene& built, double dt) {
         parts = std::max(parts, amount.angle / largest_turn);
         if (amount.path > 0.0) parts = std::max(parts, parts_of_way(built, i, amount.path, dt));
     }
-    return static_cast<int>(std::ceil(std::min(parts, most_parts) - rounding));
+    return static_cast<int>(std::ceil(std::min(parts, most_motion_parts) - part_rounding));
 }
 
 }  // namespace percale::scenes

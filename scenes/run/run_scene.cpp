@@ -180,13 +180,13 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, Timeline& timeline, dou
 }
 
 /// What happens beside the steps.
-struct Script {
+struct RunScript {
     Timeline timeline;
     Observer observer;
 };
 
 /// One step of the scene, in parts where an obstacle moves far; looks at the state after each. False if it failed.
-bool make_parts(BuiltScene& built, const RunHooks& hooks, Script& script, double dt, RunResult& result) {
+bool make_parts(BuiltScene& built, const RunHooks& hooks, RunScript& script, double dt, RunResult& result) {
     const int parts = motion_parts(built, dt);
     built.simulation.set_time_step(dt / parts);
     for (int part = 0; part < parts; ++part) {
@@ -336,7 +336,7 @@ private:
     const RunHooks& hooks_;
     RunResult& result_;
     StepLengths lengths_;
-    Script script_;
+    RunScript script_;
     CheckpointTimes checkpoints_;
 };
 

@@ -15,9 +15,6 @@
 namespace percale::scenes {
 namespace {
 
-constexpr int sphere_level = 4;
-constexpr int segments_around = 48;
-
 // Where a mesh is its own place, its file would be said twice.
 std::string without(const std::string& start, const std::string& what) {
     return what.starts_with(start) ? what.substr(start.size()) : what;
@@ -38,17 +35,6 @@ void at_place_of(const Spec& spec, Work work) {
     } catch (const SceneError& error) {
         fail_at(spec.place, named(spec.name, without(spec.place.file + ": ", error.what())));
     }
-}
-
-TriangleMesh shape_mesh(const Shape& shape) {
-    if (const auto* sphere = std::get_if<SphereShape>(&shape)) return make_sphere(sphere->radius, sphere_level);
-    if (const auto* box = std::get_if<BoxShape>(&shape)) return make_box(box->size);
-    if (const auto* cylinder = std::get_if<CylinderShape>(&shape))
-        return make_cylinder(cylinder->radius, cylinder->height, segments_around);
-    if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
-        return make_capsule(capsule->radius, capsule->height, segments_around);
-    if (const auto* plane = std::get_if<PlaneShape>(&shape)) return make_plane(plane->half_size);
-    throw SceneError("an obstacle needs a mesh or a shape");
 }
 
 std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {

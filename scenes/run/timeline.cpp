@@ -8,7 +8,7 @@
 namespace percale::scenes {
 namespace {
 
-constexpr double rounding = 1e-9;  // of a step: times are sums of steps
+constexpr double step_rounding = 1e-9;  // of a step: times are sums of steps
 
 void move_obstacles(BuiltScene& built, double end) {
     for (std::size_t i = 0; i < built.obstacles.size(); ++i) {
@@ -22,7 +22,8 @@ void move_obstacles(BuiltScene& built, double end) {
 Timeline::Timeline(const BuiltScene& built) : events_(script_events(built.scene, built.cloth_meshes)) {}
 
 void Timeline::apply(BuiltScene& built, double time, double dt) {
-    while (next_event_ < events_.size() && events_[next_event_].time <= time + rounding * dt) act(built, events_[next_event_++]);
+    while (next_event_ < events_.size() && events_[next_event_].time <= time + step_rounding * dt)
+        act(built, events_[next_event_++]);
     move_pins(built, time + dt);
     move_obstacles(built, time + dt);
 }

@@ -10,7 +10,7 @@
 namespace percale::scenes {
 namespace {
 
-constexpr double rounding = 1e-9;  // of the bounding box
+constexpr double box_rounding = 1e-9;  // of the bounding box
 
 std::vector<int> sorted_once(std::vector<int> vertices) {
     std::sort(vertices.begin(), vertices.end());
@@ -34,12 +34,12 @@ std::vector<int> selected(const VertexBox& box, const TriangleMesh& mesh) {
         highest = highest.cwiseMax(x);
     }
     const Vec3 extent = highest - lowest;
-    const double flat = rounding * extent.maxCoeff();
+    const double flat = box_rounding * extent.maxCoeff();
     const auto inside = [&](const Vec3& x) {
         for (int axis = 0; axis < 3; ++axis) {
             if (extent[axis] <= flat) continue;
             const double fraction = (x[axis] - lowest[axis]) / extent[axis];
-            if (fraction < box.lowest[axis] - rounding || fraction > box.highest[axis] + rounding) return false;
+            if (fraction < box.lowest[axis] - box_rounding || fraction > box.highest[axis] + box_rounding) return false;
         }
         return true;
     };

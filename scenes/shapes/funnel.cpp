@@ -12,20 +12,20 @@ namespace percale::scenes {
 
 namespace {
 
-void check(double value, const char* field, double lowest, double highest) {
+void check_size(double value, const char* field, double lowest, double highest) {
     if (value >= lowest && value <= highest) return;
     throw SceneError(std::string("funnel: ") + field + " is " + std::to_string(value) + ", allowed are " +
                      std::to_string(lowest) + " ... " + std::to_string(highest));
 }
 
 void check(const Funnel& funnel) {
-    check(funnel.tube, "tube", 1e-3, 100.0);
-    check(funnel.mouth, "mouth", funnel.tube, 100.0);
-    check(funnel.cone_height, "cone_height", 1e-3, 100.0);
-    check(funnel.tube_length, "tube_length", 1e-3, 100.0);
-    check(funnel.wall, "wall", 1e-4, 100.0);
-    check(funnel.edge_length, "edge_length", 1e-3, 100.0);
-    check(funnel.segments_around, "segments_around", 3, 1000);
+    check_size(funnel.tube, "tube", 1e-3, 100.0);
+    check_size(funnel.mouth, "mouth", funnel.tube, 100.0);
+    check_size(funnel.cone_height, "cone_height", 1e-3, 100.0);
+    check_size(funnel.tube_length, "tube_length", 1e-3, 100.0);
+    check_size(funnel.wall, "wall", 1e-4, 100.0);
+    check_size(funnel.edge_length, "edge_length", 1e-3, 100.0);
+    check_size(funnel.segments_around, "segments_around", 3, 1000);
 }
 
 /// A point of the wall's cross-section: distance from the axis and height, m.

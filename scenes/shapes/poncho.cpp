@@ -13,19 +13,19 @@ namespace {
 
 using Ring = std::vector<Vec3>;
 
-void check(double value, const char* field, double lowest, double highest) {
+void check_length(double value, const char* field, double lowest, double highest) {
     if (value >= lowest && value <= highest) return;
     throw SceneError(std::string("poncho: ") + field + " is " + std::to_string(value) + " m, allowed are " +
                      std::to_string(lowest) + " ... " + std::to_string(highest));
 }
 
 void check(const PonchoShape& shape) {
-    check(shape.edge_length, "edge_length", 0.005, 0.1);
-    check(shape.side, "side", 12.0 * shape.edge_length, 10.0);
-    check(shape.corner_radius, "corner_radius", 1e-3 * shape.side, 0.5 * shape.side);
+    check_length(shape.edge_length, "edge_length", 0.005, 0.1);
+    check_length(shape.side, "side", 12.0 * shape.edge_length, 10.0);
+    check_length(shape.corner_radius, "corner_radius", 1e-3 * shape.side, 0.5 * shape.side);
     const double widest = shape.side - 8.0 * shape.edge_length;
-    check(shape.hole_width, "hole_width", 3.0 * shape.edge_length, widest);
-    check(shape.hole_depth, "hole_depth", 3.0 * shape.edge_length, widest);
+    check_length(shape.hole_width, "hole_width", 3.0 * shape.edge_length, widest);
+    check_length(shape.hole_depth, "hole_depth", 3.0 * shape.edge_length, widest);
 }
 
 /// From the centre to the rounded square's outline in the direction (cosine, sine): the side, or where the corner's circle about

@@ -9,7 +9,7 @@ namespace percale::scenes {
 
 namespace {
 
-void check(double value, const char* field, double lowest, double highest) {
+void check_spike(double value, const char* field, double lowest, double highest) {
     if (value >= lowest && value <= highest) return;
     throw SceneError(std::string("spikes: ") + field + " is " + std::to_string(value) + ", allowed are " +
                      std::to_string(lowest) + " ... " + std::to_string(highest));
@@ -43,11 +43,11 @@ void add_spike(TriangleMesh& mesh, const std::array<int, 4>& foot, double height
 }  // namespace
 
 TriangleMesh make_spikes(const SpikeBed& bed) {
-    check(bed.width, "width", 1e-3, 100.0);
-    check(bed.count, "count", 1, 100);
-    check(bed.height, "height", 1e-4, 100.0);
-    check(bed.thickness, "thickness", 1e-4, 100.0);
-    check(bed.base, "base", 1e-4, 0.99 * bed.width / bed.count);
+    check_spike(bed.width, "width", 1e-3, 100.0);
+    check_spike(bed.count, "count", 1, 100);
+    check_spike(bed.height, "height", 1e-4, 100.0);
+    check_spike(bed.thickness, "thickness", 1e-4, 100.0);
+    check_spike(bed.base, "base", 1e-4, 0.99 * bed.width / bed.count);
     const std::vector<double> lines = lattice_lines(bed);
     const int n = static_cast<int>(lines.size());
     TriangleMesh mesh;

@@ -37,7 +37,7 @@ void scale(Fabric& fabric, double factor) {
 }
 
 /// The cloth that an event pins, moves or lets go; empty: none.
-std::string cloth_of(const EventSpec& event) {
+std::string scripted_cloth(const EventSpec& event) {
     return std::visit(
         [](const auto& what) -> std::string {
             if constexpr (requires { what.cloth; }) return what.cloth;
@@ -52,7 +52,7 @@ std::vector<HeldVertex> held_of(const BuiltScene& built) {
     for (std::size_t c = 0; c < built.cloths.size(); ++c) {
         const ClothSpec& cloth = built.scene.cloths[c];
         const bool scripted = std::any_of(built.scene.events.begin(), built.scene.events.end(),
-                                          [&](const EventSpec& event) { return cloth_of(event) == cloth.name; });
+                                          [&](const EventSpec& event) { return scripted_cloth(event) == cloth.name; });
         if (scripted) continue;
         for (const int vertex : select_vertices(cloth.pin, built.cloth_meshes[c], cloth.name))
             held.push_back({built.cloths[c], vertex, built.simulation.positions(built.cloths[c])[vertex]});

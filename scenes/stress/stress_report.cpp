@@ -39,18 +39,18 @@ std::string padded(const std::string& text, std::size_t width, bool right) {
     return right ? fill + text : text + fill;
 }
 
-std::string short_text(double value) {
+std::string brief(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", value);
     return text;
 }
 
 std::string cell_text(const StressCell& cell, bool of_scene) {
-    std::string text = scheme_word(cell.scheme) + ", " + short_text(cell.time_step) + " s, ";
-    if (of_scene) return text + "stiffness x " + short_text(cell.stiffness);
-    text += short_text(cell.stiffness) + " N/m, masses 1 : " + short_text(cell.mass_ratio) + ", damping " +
-            short_text(cell.damping_ratio) + ", " + word_of(cell.mesh);
-    if (cell.mesh == StressMesh::sliver) text += " " + short_text(cell.aspect) + " : 1";
+    std::string text = scheme_word(cell.scheme) + ", " + brief(cell.time_step) + " s, ";
+    if (of_scene) return text + "stiffness x " + brief(cell.stiffness);
+    text += brief(cell.stiffness) + " N/m, masses 1 : " + brief(cell.mass_ratio) + ", damping " + brief(cell.damping_ratio) +
+            ", " + word_of(cell.mesh);
+    if (cell.mesh == StressMesh::sliver) text += " " + brief(cell.aspect) + " : 1";
     text += std::string(", ") + word_of(cell.start);
     return cell.contact == StressContact::none ? text : text + ", contact by " + word_of(cell.contact);
 }
@@ -60,8 +60,8 @@ std::string row_text(const StressRow& row, bool of_scene) {
     std::string text = cell_text(row.cell, of_scene) + ": " + word_of(row.verdict);
     if (!figures.finite) text += ", not finite";
     if (!figures.pins_kept) text += ", a pin moved";
-    text += ", gain " + short_text(figures.gain) + " (bound " + short_text(figures.bound) + ")";
-    if (figures.step_excess > 0.0) text += ", of a step beyond its bound " + short_text(figures.step_excess);
+    text += ", gain " + brief(figures.gain) + " (bound " + brief(figures.bound) + ")";
+    if (figures.step_excess > 0.0) text += ", of a step beyond its bound " + brief(figures.step_excess);
     return text + ", status " + figures.status + " after " + std::to_string(figures.steps) + " steps";
 }
 
@@ -160,7 +160,7 @@ ColourMap stress_map(const StressRun& run) {
         for (const StressRow& row : run.rows) {
             if (row.cell.scheme != scheme || !is_on_map(row, run)) continue;
             panel.cells.push_back({row.cell.time_step, row.cell.stiffness, static_cast<int>(row.verdict),
-                                   "cell " + std::to_string(row.cell.number) + ", gain " + short_text(row.figures.gain)});
+                                   "cell " + std::to_string(row.cell.number) + ", gain " + brief(row.figures.gain)});
         }
         map.panels.push_back(std::move(panel));
     }

@@ -94,7 +94,7 @@ int missing(const World& world, std::span<const Vec3> x, double fraction, const 
 /// theirs.
 long lists_built(CandidateLists& lists, const World& world, std::span<const Vec3> from, std::span<const Vec3> to) {
     for (ClusterList& list : lists.lists()) list.boxes.emplace_back();
-    lists.cover({.from = from, .to = to, .part = {0.0, 1.0}}, world.obstacles);
+    lists.cover({.from = from, .to = to, .fraction = {0.0, 1.0}}, world.obstacles);
     long built = 0;
     for (std::size_t i = 0; i < lists.lists().size(); ++i) {
         std::vector<Box>& boxes = lists.lists()[i].boxes;
@@ -111,7 +111,7 @@ double excess(const World& world, CandidateLists& lists, std::span<const Vec3> x
     for (const ClusterList& list : lists.lists()) {
         for (const auto& [pair, reach] : listed_pairs(list, world.obstacles)) {
             const double distance = pair_distance(pair, x, *world.obstacles[pair.obstacle], fraction);
-            most = std::max({most, reach - list.travel - distance, list.least_reach - reach});
+            most = std::max({most, reach - list.travel - distance, list.smallest_reach - reach});
         }
     }
     return most;
@@ -125,13 +125,13 @@ std::vector<Vec3> stepped(std::vector<Vec3> x, double step, Random& random) {
 /// One step of a random walk, with four states on its way. Returns the largest excess.
 double walk_one_step(const World& world, CandidateLists& lists, std::vector<Vec3>& x, Random& random) {
     const std::vector<Vec3> predicted = stepped(x, 0.03, random);
-    lists.cover({.from = x, .to = predicted, .part = {0.0, 1.0}}, world.obstacles);
+    lists.cover({.from = x, .to = predicted, .fraction = {0.0, 1.0}}, world.obstacles);
     double worst = excess(world, lists, x, 0.0);
     for (int k = 0; k < 4; ++k) {
         x = stepped(x, 0.02, random);
         const double fraction = random.number(0.0, 1.0);
         if (k % 2 == 0) lists.advance(x, fraction, world.obstacles);
-        if (k % 2 == 1) lists.cover({.from = x, .to = x, .part = {fraction, fraction}}, world.obstacles);
+        if (k % 2 == 1) lists.cover({.from = x, .to = x, .fraction = {fraction, fraction}}, world.obstacles);
         worst = std::max(worst, excess(world, lists, x, fraction));
     }
     return worst;
@@ -150,7 +150,7 @@ TEST_CASE("every pair that comes closer than the thickness while the cloth is in
         CandidateLists lists = world.lists();
         const std::vector<Vec3> to = stepped(world.cloth.vertices, round % 2 == 0 ? 0.02 : 0.3, random);
         const double start = random.number(0.0, 0.5);
-        lists.cover({.from = world.cloth.vertices, .to = to, .part = {start, 1.0}}, world.obstacles);
+        lists.cover({.from = world.cloth.vertices, .to = to, .fraction = {start, 1.0}}, world.obstacles);
         const std::set<PairKey> listed = keys(lists, world);
         const std::vector<Box> boxes = allowed(lists, to.size());
         lacking += missing(world, world.cloth.vertices, start, listed, near);
@@ -206,8 +206,8 @@ TEST_CASE("bounds of a listed pack only rise, and a held one wakes as soon as it
     packs.raise(0, 0.01, 0.03, 0.005, 0.004);  // no contact before a way of 0.03 m, though 0.01 m near
     CHECK(packs.reach[0] == Approx(0.02));
     CHECK(packs.wake[0] == Approx(0.034));
-    packs.hold(0, 3, 0.005);
-    CHECK(packs.at[0].held == 8U);
+    packs.activate(0, 3, 0.005);
+    CHECK(packs.at[0].active == 8U);
     CHECK(packs.wake[0] == Approx(0.015));
     packs.raise(0, 0.03, 0.5, 0.005, 0.004);
     CHECK(packs.reach[0] == Approx(0.034));
@@ -243,7 +243,7 @@ TEST_CASE("a pair is listed once, and obstacles out of reach are not listed at a
     Random random(270);
     World world(1, random);
     CandidateLists lists = world.lists();
-    lists.cover({.from = world.cloth.vertices, .to = world.cloth.vertices, .part = {0.0, 0.0}}, world.obstacles);
+    lists.cover({.from = world.cloth.vertices, .to = world.cloth.vertices, .fraction = {0.0, 0.0}}, world.obstacles);
     std::size_t count = 0;
     for (const ClusterList& list : lists.lists()) count += listed_pairs(list, world.obstacles).size();
     CHECK(count > 0);
@@ -251,7 +251,7 @@ TEST_CASE("a pair is listed once, and obstacles out of reach are not listed at a
 
     std::vector<Vec3> away = world.cloth.vertices;
     for (Vec3& p : away) p.y() += 50.0;
-    lists.cover({.from = away, .to = away, .part = {0.0, 0.0}}, world.obstacles);
+    lists.cover({.from = away, .to = away, .fraction = {0.0, 0.0}}, world.obstacles);
     CHECK(keys(lists, world).empty());
 }
 
@@ -266,7 +266,7 @@ TEST_CASE("a move too long for its lists to fit is covered in part, and the cut 
     Obstacles obstacles;
     obstacles.push_back(std::make_unique<Obstacle>(make_sphere(0.4, 5), Pose{}, 0.0, make_brute_force_tree));
     CandidateLists lists(sheet.triangles, thick, from);
-    const double share = lists.cover({.from = from, .to = to, .part = {0.0, 1.0}}, obstacles);
+    const double share = lists.cover({.from = from, .to = to, .fraction = {0.0, 1.0}}, obstacles);
     CHECK(share < 1.0);
     CHECK(share > 0.0);
     std::size_t pairs = 0;

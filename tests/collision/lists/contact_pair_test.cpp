@@ -289,7 +289,7 @@ TEST_CASE("the four moving points of a pair start and end where cloth and obstac
     Random random(100);
     const Obstacle obstacle = moving_obstacle(2, random);
     const TriangleMesh from = crumpled_sheet(0.5, 3, 0.1, random), to = crumpled_sheet(0.5, 3, 0.1, random);
-    const ClothMove move{.from = from.vertices, .to = to.vertices, .part = {0.25, 0.75}};
+    const ClothMove move{.from = from.vertices, .to = to.vertices, .fraction = {0.25, 0.75}};
     const ObstacleSurface& surface = obstacle.surface();
     int wrong = 0;
     for (const ContactPair& pair : all_pairs(from, obstacle, false)) {

@@ -51,11 +51,12 @@ void compare(const ContactPair& feature, std::span<const Vec3> cloth, Obstacle& 
         outcome.near += near ? 1 : 0;
         outcome.rows += row ? 1 : 0;
         outcome.lost += (near && (answer.near >> lane & 1U) == 0) || (row && (answer.row >> lane & 1U) == 0) ? 1 : 0;
-        outcome.wrong_rows += row && static_cast<double>(answer.least_row) > 0.0 ? 1 : 0;
+        outcome.wrong_rows += row && static_cast<double>(answer.travel_to_contact) > 0.0 ? 1 : 0;
         outcome.skipped += near && (answer.row >> lane & 1U) == 0 ? 1 : 0;
     }
-    outcome.excess = std::max(outcome.excess, static_cast<double>(answer.least) - least);
-    if (answer.least > -1e20F) outcome.slack = std::max(outcome.slack, least - static_cast<double>(answer.least));
+    outcome.excess = std::max(outcome.excess, static_cast<double>(answer.distance_bound) - least);
+    if (answer.distance_bound > -1e20F)
+        outcome.slack = std::max(outcome.slack, least - static_cast<double>(answer.distance_bound));
 }
 
 Outcome compare_all(const TriangleMesh& mesh, PairKind kind, Random& random) {
@@ -108,7 +109,7 @@ TEST_CASE("nothing of a pack becomes a contact before the cloth has moved as far
             const ContactPair feature = pair_of(pack.kind);
             const double way = static_cast<double>(
                 measure(feature, cloth, obstacle.placed(static_cast<int>(i), 0.0), {.near = thickness, .thickness = thickness})
-                    .least_row);
+                    .travel_to_contact);
             if (!(way > 0.0)) continue;
             ++told;
             std::vector<Vec3> moved = cloth;

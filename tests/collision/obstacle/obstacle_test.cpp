@@ -139,7 +139,7 @@ TEST_CASE("within a step every vertex runs straight from its place at the start 
         CHECK(obstacle.displacement(v) == to - from);
         longest = std::max(longest, (to - from).norm());
     }
-    CHECK(obstacle.longest_way() == longest);
+    CHECK(obstacle.largest_displacement() == longest);
     for (int t = 0; t < 12; ++t) {
         Box inside = obstacle.packs().box[obstacle.packs().patch_of[t]];
         inside.grow(1e-12);
@@ -157,17 +157,17 @@ TEST_CASE("at rest nothing is displaced, and a pose that stays costs no new vers
     obstacle.move(pose, pose);
     CHECK(obstacle.version() == version);
     CHECK_FALSE(obstacle.moves());
-    CHECK(obstacle.longest_way() == 0.0);
+    CHECK(obstacle.largest_displacement() == 0.0);
     CHECK(obstacle.displacement(3) == Vec3(Vec3::Zero()));
     CHECK(obstacle.at(2, 0.7) == transform(pose, make_box({1, 1, 1}).vertices[2]));
 
     obstacle.move(pose, other);
     CHECK(obstacle.version() > version);
-    CHECK(obstacle.longest_way() > 0.0);
+    CHECK(obstacle.largest_displacement() > 0.0);
     const int moving = obstacle.version();
     obstacle.move(other, other);  // arrived: rests, at another place
     CHECK(obstacle.version() > moving);
-    CHECK(obstacle.longest_way() == 0.0);
+    CHECK(obstacle.largest_displacement() == 0.0);
     CHECK_FALSE(obstacle.moves());
     CHECK(obstacle.at(2, 0.5) == transform(other, make_box({1, 1, 1}).vertices[2]));
     const int arrived = obstacle.version();

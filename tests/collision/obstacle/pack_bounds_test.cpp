@@ -14,8 +14,8 @@ using namespace percale::test;
 namespace {
 
 bool same(const PackAnswer& a, const PackAnswer& b) {
-    return std::memcmp(&a.least, &b.least, sizeof(float)) == 0 && std::memcmp(&a.least_row, &b.least_row, sizeof(float)) == 0 &&
-           a.near == b.near && a.row == b.row;
+    return std::memcmp(&a.distance_bound, &b.distance_bound, sizeof(float)) == 0 &&
+           std::memcmp(&a.travel_to_contact, &b.travel_to_contact, sizeof(float)) == 0 && a.near == b.near && a.row == b.row;
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ TEST_CASE("all instruction sets give the same bits") {
         PackQuery query{.at = {},
                         .size = 1.0F,
                         .sharpness = 2.0F,
-                        .least_edge = 0.1F,
+                        .shortest_edge = 0.1F,
                         .length = 0.5F,
                         .near = 0.5F,
                         .thickness = 0.4F,
@@ -65,15 +65,15 @@ TEST_CASE("a point over a square triangle is as far from it as it is high, and l
     const PackQuery query{.at = {0.25F, 0.3F, 0.25F},
                           .size = 1.0F,
                           .sharpness = 1.5F,
-                          .least_edge = 1.0F,
+                          .shortest_edge = 1.0F,
                           .length = 1.0F,
                           .near = 0.45F,
                           .thickness = 0.45F,
                           .all = 0x3f};
     PackAnswer answer{};
     baseline_pack_kernels()->vertex_face(lanes, query, answer);
-    CHECK(answer.least == Approx(0.3).margin(1e-5));
-    CHECK(answer.least < 0.3F);
+    CHECK(answer.distance_bound == Approx(0.3).margin(1e-5));
+    CHECK(answer.distance_bound < 0.3F);
     CHECK(answer.near == 0b11);
     CHECK(answer.row == 0b11);
 }
@@ -96,5 +96,5 @@ TEST_CASE("the least bound and those up to a limit are found in arrays of any le
     found.resize(kernels->find_up_to(bounds.data(), static_cast<long>(count), limit, found.data()));
     CAPTURE(count, limit);
     CHECK(found == expected);
-    CHECK(kernels->least(bounds.data(), static_cast<long>(count)) == least);
+    CHECK(kernels->smallest(bounds.data(), static_cast<long>(count)) == least);
 }

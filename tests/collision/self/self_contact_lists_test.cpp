@@ -61,7 +61,7 @@ void check_bounds(SelfContactLists& lists, const std::vector<Vec3>& x) {
     for (const SelfList& list : lists.lists()) {
         for (const SelfPair& pair : lists.pairs(list)) {
             CHECK(pair.reach - list.travel <= self_distance(pair, x) * (1 + 1e-12));
-            CHECK(list.least_reach <= pair.reach);
+            CHECK(list.smallest_reach <= pair.reach);
         }
     }
 }

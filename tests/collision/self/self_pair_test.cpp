@@ -49,10 +49,10 @@ struct TwoSheets {
         return {.vertex = {vertex, t[0], t[1], t[2]}, .feature = {vertex, triangle}};
     }
     SelfPairContact contact(const SelfPair& pair) const { return self_contact(pair, mesh.vertices, surface); }
-    double total_share(const std::vector<SelfPair>& pairs, double nearer_than) const {
+    double total_zone(const std::vector<SelfPair>& pairs, double nearer_than) const {
         double sum = 0.0;
         for (const SelfPair& p : pairs) {
-            if (self_distance(p, mesh.vertices) < nearer_than) sum += contact(p).share;
+            if (self_distance(p, mesh.vertices) < nearer_than) sum += contact(p).relative_zone;
         }
         return sum;
     }
@@ -97,12 +97,12 @@ TEST_CASE("a vertex above a face, an edge or a corner of a sheet is in contact w
                                 Vec3(0.53, 0, 0.03), Vec3(-0.5, 0, -0.5), Vec3(-0.51, 0, -0.51));
     const TwoSheets sheets(make_grid(1, 1, 5, 5), moved(tip, place + Vec3(0, 0.002, 0)));
     const double near = 0.04;
-    double shares = sheets.total_share(sheets.vertex_face_pairs(), near);
+    double zones = sheets.total_zone(sheets.vertex_face_pairs(), near);
     for (const SelfPair& pair : sheets.edge_pairs()) {
         // Only the tip is near; edges through it end there.
-        if (self_distance(pair, sheets.mesh.vertices) < near) shares += sheets.contact(pair).share;
+        if (self_distance(pair, sheets.mesh.vertices) < near) zones += sheets.contact(pair).relative_zone;
     }
-    CHECK(shares == 1.0);
+    CHECK(zones == 1.0);
 }
 
 TEST_CASE("two ridges that cross are in contact through their edges") {
@@ -110,8 +110,8 @@ TEST_CASE("two ridges that cross are in contact through their edges") {
                             .triangles = {{0, 2, 1}, {0, 1, 3}}};
     TriangleMesh gutter{.vertices = {{0, 0.1, -1}, {0, 0.1, 1}, {1, 0.6, 0}, {-1, 0.6, 0}}, .triangles = {{0, 1, 2}, {0, 3, 1}}};
     const TwoSheets crossing(roof, gutter);
-    CHECK(crossing.total_share(crossing.edge_pairs(), 0.2) == 1.0);
-    CHECK(crossing.total_share(crossing.vertex_face_pairs(), 0.2) == 0.0);
+    CHECK(crossing.total_zone(crossing.edge_pairs(), 0.2) == 1.0);
+    CHECK(crossing.total_zone(crossing.vertex_face_pairs(), 0.2) == 0.0);
     // A valley has faces that are nearer than its edge.
     for (int v = 2; v < 4; ++v) gutter.vertices[v].y() = 0.02;
     const TwoSheets valley(roof, gutter);
@@ -120,7 +120,7 @@ TEST_CASE("two ridges that cross are in contact through their edges") {
         return p.vertex == std::array<int, 4>{0, 1, 4, 5};
     });
     REQUIRE(middle != pairs.end());
-    CHECK(valley.contact(*middle).share == 0.0);
+    CHECK(valley.contact(*middle).relative_zone == 0.0);
 }
 
 TEST_CASE("edges that cross in flat sheets wait for half of the thickness, parallel ones are left to their ends") {
@@ -131,15 +131,15 @@ TEST_CASE("edges that cross in flat sheets wait for half of the thickness, paral
         const SelfPairContact contact = crossed.contact(pair);
         const bool boundary =
             crossed.surface.edges[pair.feature[0]].triangle[1] < 0 && crossed.surface.edges[pair.feature[1]].triangle[1] < 0;
-        if (!boundary) CHECK(contact.share <= 0.5);
-        inner += contact.share == 0.5;
+        if (!boundary) CHECK(contact.relative_zone <= 0.5);
+        inner += contact.relative_zone == 0.5;
     }
     CHECK(inner > 20);
     const TwoSheets parallel(make_grid(1, 1, 4, 4), moved(make_grid(1, 1, 4, 4), {0, 0.01, 0}));
     for (const SelfPair& pair : parallel.edge_pairs()) {
         const auto &a = parallel.surface.edges[pair.feature[0]].vertex, &b = parallel.surface.edges[pair.feature[1]].vertex;
         const auto& x = parallel.mesh.vertices;
-        if ((x[a[1]] - x[a[0]]).cross(x[b[1]] - x[b[0]]).norm() < 1e-12) CHECK(parallel.contact(pair).share == 0.0);
+        if ((x[a[1]] - x[a[0]]).cross(x[b[1]] - x[b[0]]).norm() < 1e-12) CHECK(parallel.contact(pair).relative_zone == 0.0);
     }
 }
 

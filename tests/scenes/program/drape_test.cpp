@@ -93,7 +93,8 @@ TEST_CASE("what cannot be draped is refused before anything is written") {
     CHECK(refused(draped({"--body-unit", "inch"}), "mm, cm or m"));
     CHECK(refused(run_program({"drape", "sheet.obj", "absent.obj", "-o", "out.obj"}, folder.path()),
                   "percale: absent.obj: 'body': no such file\n"));
-    CHECK(refused(run_program({"drape", "sheet.obj", "block.obj", "-o", "out.ply"}, folder.path()), ".obj"));
+    CHECK(refused(run_program({"drape", "sheet.obj", "block.obj", "-o", "out.ply"}, folder.path()),
+                  "percale: -o out.ply: its name must end in .obj"));
     CHECK(refused(run_program({"drape", "sheet.obj", "block.obj", "-o", "absent/out.obj"}, folder.path()), "absent/out.obj"));
     CHECK(folder.file_count() == 2);
 }
