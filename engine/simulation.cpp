@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "model/schemes.h"
+#include "schemes/schemes.h"
 #include "percale/error.h"
 #include "percale/options.h"
 #include "step/measure.h"
-#include "step/planning.h"
-#include "step/saved_world.h"
+#include "plan/planning.h"
+#include "state/saved_world.h"
 #include "step/start_check.h"
 #include "step/step.h"
 #include "support/hash.h"

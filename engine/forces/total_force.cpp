@@ -1,8 +1,8 @@
 #include "total_force.h"
 
-#include "body_force.h"
-#include "hinge_force.h"
-#include "membrane_force.h"
+#include "gravity.h"
+#include "hinge_bending.h"
+#include "membrane_springs.h"
 
 namespace percale {
 

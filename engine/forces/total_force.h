@@ -1,11 +1,11 @@
 #pragma once
 
-#include "contact_force.h"
+#include "contact/penalty.h"
 #include "model/cloth_model.h"
 #include "percale/contact.h"
 #include "percale/report.h"
-#include "spring_force.h"
-#include "wind_force.h"
+#include "springs.h"
+#include "wind.h"
 
 namespace percale {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lumped_mass.h"
+#include "mesh/lumped_mass.h"
 #include "percale/options.h"
 
 namespace percale {

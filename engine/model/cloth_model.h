@@ -10,7 +10,7 @@
 #include "percale/mesh.h"
 #include "spring_network.h"
 #include "vectors.h"
-#include "vertex_order.h"
+#include "mesh/vertex_order.h"
 
 namespace percale {
 

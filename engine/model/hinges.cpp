@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "topology.h"
+#include "mesh/topology.h"
 
 namespace percale {
 namespace {

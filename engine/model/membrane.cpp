@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "percale/error.h"
-#include "topology.h"
+#include "mesh/topology.h"
 
 namespace percale {
 namespace {

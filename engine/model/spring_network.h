@@ -5,7 +5,7 @@
 
 #include "percale/fabric.h"
 #include "percale/mesh.h"
-#include "vertex_order.h"
+#include "mesh/vertex_order.h"
 
 namespace percale {
 

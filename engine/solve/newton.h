@@ -3,14 +3,14 @@
 #include <span>
 #include <vector>
 
-#include "contact_projection.h"
+#include "contact/projection.h"
 #include "forces/total_force.h"
-#include "linear_solver.h"
+#include "linear/linear_solver.h"
 #include "model/cloth_model.h"
-#include "model/step_plan.h"
+#include "plan/step_plan.h"
 #include "percale/contact.h"
 #include "percale/report.h"
-#include "stage_base.h"
+#include "schemes/stage_base.h"
 
 namespace percale {
 

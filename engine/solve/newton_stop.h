@@ -3,7 +3,7 @@
 #include <limits>
 #include <optional>
 
-#include "linear_solver.h"
+#include "linear/linear_solver.h"
 #include "model/cloth_model.h"
 
 namespace percale {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <memory>
 
-#include "forces/body_force.h"
-#include "forces/hinge_force.h"
-#include "forces/membrane_force.h"
-#include "forces/wind_force.h"
+#include "forces/gravity.h"
+#include "forces/hinge_bending.h"
+#include "forces/membrane_springs.h"
+#include "forces/wind.h"
 
 namespace percale {
 namespace {

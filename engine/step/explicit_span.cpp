@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/schemes.h"
+#include "schemes/schemes.h"
 #include "scripted_motion.h"
 #include "span_ledger.h"
 #include "step_control.h"

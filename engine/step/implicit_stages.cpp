@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "explicit_span.h"
-#include "model/schemes.h"
+#include "schemes/schemes.h"
 #include "scripted_motion.h"
 #include "span_ledger.h"
 #include "step_control.h"

@@ -1,6 +1,6 @@
 #include "ledger.h"
 
-#include "forces/contact_loss.h"
+#include "contact/contact_loss.h"
 #include "forces/spring_loss.h"
 #include "measure.h"
 #include "shape_loss.h"

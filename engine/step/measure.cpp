@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "forces/body_force.h"
+#include "forces/gravity.h"
 #include "ledger.h"
 #include "shape_loss.h"
 #include "support/hash.h"

@@ -1,7 +1,7 @@
 #include "scripted_motion.h"
 
-#include "model/schemes.h"
-#include "planning.h"
+#include "schemes/schemes.h"
+#include "plan/planning.h"
 
 namespace percale {
 namespace {

@@ -1,7 +1,7 @@
 #include "shape_loss.h"
 
-#include "forces/hinge_force.h"
-#include "forces/membrane_force.h"
+#include "forces/hinge_bending.h"
+#include "forces/membrane_springs.h"
 #include "forces/spring_loss.h"
 
 namespace percale {

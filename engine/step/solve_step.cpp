@@ -7,7 +7,7 @@
 #include "explicit_span.h"
 #include "implicit_stages.h"
 #include "ledger.h"
-#include "model/schemes.h"
+#include "schemes/schemes.h"
 
 namespace percale {
 namespace {

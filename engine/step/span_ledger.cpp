@@ -5,7 +5,7 @@
 
 #include "explicit_span.h"
 #include "forces/spring_loss.h"
-#include "model/schemes.h"
+#include "schemes/schemes.h"
 #include "scripted_motion.h"
 #include "shape_loss.h"
 

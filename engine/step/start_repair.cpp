@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "forces/spring_force.h"
-#include "planning.h"
+#include "forces/springs.h"
+#include "plan/planning.h"
 #include "step.h"
 
 namespace percale {

@@ -7,11 +7,11 @@
 
 #include "model/cloth_model.h"
 #include "model/seams.h"
-#include "model/step_plan.h"
+#include "plan/step_plan.h"
 #include "percale/contact.h"
 #include "percale/report.h"
 #include "rest_detection.h"
-#include "solve/explicit_update.h"
+#include "schemes/explicit_update.h"
 #include "solve/newton.h"
 #include "step_control.h"
 

@@ -14,7 +14,7 @@
 
 #include "engine/forces/total_force.h"
 #include "engine/model/cloth_model.h"
-#include "engine/solve/multigrid.h"
+#include "engine/linear/multigrid.h"
 #include "tests/bench/bench_report.h"
 #include "tests/support/bench_unit.h"
 

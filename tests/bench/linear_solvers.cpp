@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "engine/forces/total_force.h"
-#include "engine/solve/linear_solver.h"
+#include "engine/linear/linear_solver.h"
 #include "percale/simulation.h"
 #include "tests/bench/bench_report.h"
 #include "tests/support/bench_meshes.h"

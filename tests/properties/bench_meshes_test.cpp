@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "engine/model/topology.h"
+#include "engine/mesh/topology.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 

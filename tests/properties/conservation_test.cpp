@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "engine/model/schemes.h"
+#include "engine/schemes/schemes.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/model/schemes.h"
-#include "engine/step/scheme_choice.h"
+#include "engine/schemes/schemes.h"
+#include "engine/plan/scheme_choice.h"
 #include "engine/step/step.h"
 #include "percale/stability.h"
 #include "tests/support/catch.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/model/schemes.h"
+#include "engine/schemes/schemes.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/model/schemes.h"
+#include "engine/schemes/schemes.h"
 #include "engine/step/step.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"

@@ -1,5 +1,5 @@
 // Free meshes lie in another order in memory than in the user's mesh. Whatever a caller sees or says has the user's numbers.
-#include "engine/model/lumped_mass.h"
+#include "engine/mesh/lumped_mass.h"
 #include "tests/support/bench_meshes.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"

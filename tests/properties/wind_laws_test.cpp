@@ -1,4 +1,4 @@
-#include "engine/model/schemes.h"
+#include "engine/schemes/schemes.h"
 #include "tests/support/bench_meshes.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"

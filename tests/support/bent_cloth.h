@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/forces/hinge_force.h"
+#include "engine/forces/hinge_bending.h"
 #include "tests/support/cloth_scenes.h"
 
 namespace percale::test {

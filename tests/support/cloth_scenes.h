@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/model/cloth_model.h"
-#include "engine/model/step_plan.h"
-#include "engine/solve/explicit_update.h"
+#include "engine/plan/step_plan.h"
+#include "engine/schemes/explicit_update.h"
 #include "engine/solve/newton.h"
 #include "engine/step/world.h"
 #include "percale/percale.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/solve/block_matrix.h"
+#include "engine/linear/block_matrix.h"
 #include "tests/support/cloth_scenes.h"
 
 namespace percale::test {

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "engine/forces/membrane_force.h"
-#include "engine/solve/block_matrix.h"
+#include "engine/forces/membrane_springs.h"
+#include "engine/linear/block_matrix.h"
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/dense_system.h"
 

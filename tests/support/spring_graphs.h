@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/solve/coarsening.h"
+#include "engine/linear/coarsening.h"
 #include "tests/support/cloth_scenes.h"
 
 namespace percale::test {

@@ -1,8 +1,8 @@
 #include <cstring>
 #include <utility>
 
-#include "engine/forces/spring_force.h"
-#include "engine/solve/block_matrix.h"
+#include "engine/forces/springs.h"
+#include "engine/linear/block_matrix.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/forces/spring_force.h"
+#include "engine/forces/springs.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 

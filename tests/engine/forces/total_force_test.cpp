@@ -1,6 +1,6 @@
 #include "engine/forces/total_force.h"
 
-#include "engine/forces/body_force.h"
+#include "engine/forces/gravity.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 

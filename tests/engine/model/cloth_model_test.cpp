@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "engine/model/lumped_mass.h"
+#include "engine/mesh/lumped_mass.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 

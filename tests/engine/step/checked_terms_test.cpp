@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/step/planning.h"
+#include "engine/plan/planning.h"
 #include "engine/step/step.h"
 #include "tests/support/catch.h"
 #include "tests/support/membrane_cases.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/step/planning.h"
+#include "engine/plan/planning.h"
 #include "engine/step/scripted_motion.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"

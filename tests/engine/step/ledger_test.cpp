@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/model/schemes.h"
+#include "engine/schemes/schemes.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"

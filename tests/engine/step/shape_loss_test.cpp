@@ -1,6 +1,6 @@
 #include "engine/step/shape_loss.h"
 
-#include "engine/model/schemes.h"
+#include "engine/schemes/schemes.h"
 #include "tests/support/bent_cloth.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"

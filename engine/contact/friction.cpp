@@ -1,0 +1,96 @@
+#include "friction.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <tuple>
+
+#include "forces/symmetric_block.h"
+
+namespace percale {
+namespace {
+
+std::pair<int, int> key(const Grip& grip) { return {grip.vertex, grip.obstacle}; }
+
+/// Null if the vertex did not hold on to the obstacle.
+const Grip* grip_at_start(const FrictionStart& start, int vertex, int obstacle) {
+    const std::pair<int, int> wanted{vertex, obstacle};
+    const auto found = std::lower_bound(start.grips.begin(), start.grips.end(), wanted,
+                                        [](const Grip& grip, const std::pair<int, int>& value) { return key(grip) < value; });
+    return found != start.grips.end() && key(*found) == wanted ? &*found : nullptr;
+}
+
+/// The linear part of a pose.
+Eigen::Matrix3d matrix_of(const Pose& pose) {
+    const Pose turn{.translation = Vec3::Zero(), .rotation = pose.rotation, .scale = pose.scale};
+    Eigen::Matrix3d m;
+    for (int axis = 0; axis < 3; ++axis) m.col(axis) = transform(turn, Vec3::Unit(axis));
+    return m;
+}
+
+}  // namespace
+
+ObstacleFlow obstacle_flow(const Pose& start, const Pose& end, double fraction) {
+    if (start == end) return {};
+    // x(s) = (1 - s) (t0 + R0 y) + s (t1 + R1 y) for the point y of the obstacle.
+    const Vec3 shift = end.translation - start.translation;
+    const Eigen::Matrix3d from = matrix_of(start), change = matrix_of(end) - from;
+    const Eigen::Matrix3d turn = change * (from + fraction * change).inverse();
+    return {turn, shift - turn * (start.translation + fraction * shift)};
+}
+
+void Touches::clear(std::size_t vertices) {
+    for (const Touch& touch : all) first[touch.vertex] = -1;
+    all.clear();
+    first.resize(vertices, -1);
+}
+
+const Touch* Touches::find(int vertex, int obstacle) const {
+    if (vertex >= static_cast<int>(first.size())) return nullptr;
+    int at = first[vertex];
+    while (at >= 0 && all[at].obstacle != obstacle) at = all[at].next;
+    return at >= 0 ? &all[at] : nullptr;
+}
+
+Touch& Touches::get(int vertex, int obstacle) {
+    if (const Touch* found = find(vertex, obstacle)) return all[found - all.data()];
+    Touch touch;
+    touch.vertex = vertex;
+    touch.obstacle = obstacle;
+    touch.next = first[vertex];
+    first[vertex] = static_cast<int>(all.size());
+    return all.emplace_back(touch);
+}
+
+void set_slip(const FrictionStart& start, const Vec3& position, double fraction, Touch& touch) {
+    const Grip* grip = grip_at_start(start, touch.vertex, touch.obstacle);
+    touch.old = grip != nullptr;
+    const Vec3 held = start.positions->at(touch.vertex) - (grip ? grip->stretch : Vec3(Vec3::Zero()));
+    if (touch.obstacle < static_cast<int>(start.flows.size())) {
+        const ObstacleFlow& flow = start.flows[touch.obstacle];
+        touch.flow = flow.turn * held + flow.shift;
+    }
+    touch.slip = tangential(position - held - (fraction - start.fraction) * touch.flow, touch.press.normalized());
+}
+
+Vec3 friction_force(const Touch& touch) { return -touch.press.norm() / std::max(touch.slip.norm(), touch.reach) * touch.slip; }
+
+double grip_energy(const Touches& touches) {
+    double energy = 0.0;
+    for (const Touch& touch : touches.all) {
+        const double stretch = std::min(touch.slip.norm(), touch.reach);
+        energy += 0.5 * touch.press.norm() / touch.reach * stretch * stretch;
+    }
+    return energy;
+}
+
+void set_grips(const Touches& touches, std::vector<Grip>& grips) {
+    grips.clear();
+    for (const Touch& touch : touches.all) {
+        const double length = touch.slip.norm();
+        const double kept = length > touch.reach ? touch.reach / length : 1.0;
+        grips.push_back({touch.vertex, touch.obstacle, kept * touch.slip});
+    }
+    std::sort(grips.begin(), grips.end(), [](const Grip& a, const Grip& b) { return key(a) < key(b); });
+}
+
+}  // namespace percale

@@ -1,0 +1,168 @@
+#include "penalty.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace percale {
+namespace {
+
+constexpr double stick_rate = 0.2;  // thicknesses a second, below it friction between cloths is a damper
+constexpr double share_of_matrix =
+    0.5;  // of the step matrix that the contact stiffness takes: softer sinks, stiffer takes Newton longer
+
+/// What a_k of a row's vertices makes at the contact: the mean by weight against an obstacle; between cloths, where both sides
+/// give way, 1 / sum w_k^2/a_k.
+template <class Value>
+double at_contact(const ContactRows& rows, std::size_t row, Value value) {
+    const bool between_cloths = rows.obstacle[row] < 0;
+    double sum = 0.0;
+    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
+        const double weight = rows.weight[row][k], a = value(rows.vertex[row][k]);
+        sum += between_cloths ? weight * weight / a : weight * a;
+    }
+    return between_cloths ? 1.0 / sum : sum;
+}
+
+/// 1/dt^2 for the share of the masses: of this step where the obstacle comes or goes by a fifth of the thickness or more.
+double inverse_square_dt(const ContactRows& rows, std::size_t row, const ContactStep& step) {
+    const double way = std::abs(rows.direction[row].dot(rows.obstacle_displacement[row])) / (0.2 * rows.thickness[row]);
+    const double share = std::min(way, 1.0), longer = std::max(step.dt, step.stiffness_dt);
+    return share / (step.dt * step.dt) + (1.0 - share) / (longer * longer);
+}
+
+double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
+    const Vec3& n = rows.direction[row];
+    const double inertia = at_contact(rows, row, [&](int vertex) { return quadratic_form(step.diagonal->block(vertex), n); });
+    const double inert = std::min(inertia, at_contact(rows, row, [&](int vertex) { return (*step.mass)[vertex]; }));
+    double mass = 0.0, press = 0.0, squares = 0.0;
+    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
+        const int vertex = rows.vertex[row][k];
+        const double weight = rows.weight[row][k];
+        mass += std::abs(weight) * (*step.mass)[vertex];
+        squares += weight * weight;
+        if (step.load) press -= weight * n.dot(step.load->at(vertex));
+    }
+    const double static_load = std::max(mass * step.gravity.norm(), press / squares);
+    const double of_matrix = inert * inverse_square_dt(rows, row, step) + (inertia - inert) / (step.dt * step.dt);
+    return rows.share[row] * std::max(share_of_matrix * of_matrix, 4.0 * static_load / rows.thickness[row]);
+}
+
+/// Gives the vertices of a row their share of what presses them to the obstacle. Normals that point apart, of the two sides of a
+/// gap, press both.
+void add_press(const ContactRows& rows, std::size_t row, double normal_force, Touches& touches) {
+    const Vec3 press = rows.friction[row] * normal_force * rows.direction[row];
+    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
+        if (rows.weight[row][k] <= 0.0) continue;
+        Touch& touch = touches.get(rows.vertex[row][k], rows.obstacle[row]);
+        touch.press += (touch.press.dot(press) < 0.0 ? -1.0 : 1.0) * rows.weight[row][k] * press;
+        touch.reach = reach_share * rows.thickness[row];
+    }
+}
+
+/// Where the matrix lets a vertex slide. An active set: what was held and slipped slides, what turned back is held. At the first
+/// sight of a touch it slides if it did so before or if friction at its limit cannot stop it within the step.
+Vec3 heading(const Touch& touch, const ContactStep& step) {
+    const double length = touch.slip.norm();
+    if (length <= touch.reach) return Vec3::Zero();
+    const Vec3 along = touch.slip / length;
+    if (const Touch* before = step.previous ? step.previous->find(touch.vertex, touch.obstacle) : nullptr) {
+        return along.dot(before->heading) < 0.0 ? Vec3(Vec3::Zero()) : along;
+    }
+    const double stopping = step.dt * step.dt * touch.press.norm();
+    return touch.old || length * (*step.mass)[touch.vertex] > stopping ? along : Vec3(Vec3::Zero());
+}
+
+/// Force and matrix of a touch whose press is known.
+void add_friction(const ContactStep& step, const Vectors& positions, Touch& touch, Vectors& forces, ContactTerms& terms) {
+    set_slip(*step.friction, positions.at(touch.vertex), step.fraction, touch);
+    touch.heading = heading(touch, step);
+    const double limit = touch.press.norm();
+    ContactBlock block{.vertex = {touch.vertex, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
+    const double stiffness = limit / std::max(touch.slip.norm(), touch.reach);
+    add_tangent_block(block.k, step.dt * step.dt * stiffness, touch.press / limit, touch.heading);
+    terms.blocks.push_back(block);
+    const Vec3 force = friction_force(touch);
+    forces.add(touch.vertex, force);
+    terms.obstacle_power += force.dot(touch.flow) * step.obstacle_rate;
+}
+
+struct Rubbing {
+    Vec3 force;    // N
+    double power;  // W, that it takes
+};
+
+/// Friction force between two cloths pressed by `normal_force`, and its matrix added to `block`: against the velocity of one
+/// relative to the other, growing linearly below the stick speed.
+Rubbing friction_between_cloths(const ContactRows& rows, std::size_t row, double normal_force, const ContactStep& step,
+                                const Vectors& positions, ContactBlock& block) {
+    const Vec3& n = rows.direction[row];
+    const double limit = rows.friction[row] * normal_force, stick_speed = stick_rate * rows.thickness[row];  // m/s
+    Vec3 slip = Vec3::Zero();
+    for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
+        const int vertex = block.vertex[k];
+        slip += block.weight[k] / step.dt * (positions.at(vertex) - step.friction->positions->at(vertex));
+    }
+    slip = tangential(slip, n);
+    const double speed = slip.norm(), mass = at_contact(rows, row, [&](int vertex) { return (*step.mass)[vertex]; });
+    // Sliding: friction at its limit cannot stop the point within the step.
+    if (speed > stick_speed && speed * mass > step.dt * limit) {
+        add_tangent_block(block.k, step.dt * limit / speed, n, slip / speed);
+        return {-limit / speed * slip, limit * speed};
+    }
+    const double y = speed / stick_speed;
+    const double damping = !step.previous || y < 1.0 ? limit * (2.0 - std::min(y, 1.0)) / stick_speed : limit / speed;
+    add_tangent_block(block.k, step.dt * damping, n, Vec3::Zero());
+    return {-damping * slip, damping * speed * speed};
+}
+
+}  // namespace
+
+ContactPotential contact_potential(double distance, double thickness, double stiffness) {
+    if (distance >= thickness) return {};
+    const double half = 0.5 * thickness, depth = thickness - distance;
+    if (distance >= half) return {0.5 * stiffness * depth * depth, stiffness * depth, stiffness};
+    // Below h/2 the slope is k (h/2)^2 / d, which meets k (h - d) there with the same value and derivative.
+    const double scale = stiffness * half * half;
+    return {0.5 * scale + scale * std::log(half / distance), scale / distance, scale / (distance * distance)};
+}
+
+void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
+                 ContactTerms& terms) {
+    terms.blocks.resize(terms.others);
+    terms.touches.clear(positions.padded_size());
+    terms.energy = terms.largest_stiffness = terms.obstacle_power = terms.rubbing_power = 0.0;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const double stiffness = row_stiffness(rows, row, step);
+        const ContactPotential potential = contact_potential(rows.distance[row], rows.thickness[row], stiffness);
+        ContactBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}, .row = static_cast<int>(row)};
+        add_normal_block(block.k, step.dt * step.dt * potential.curvature, rows.direction[row]);
+        Vec3 force = potential.slope * rows.direction[row];
+        const bool rubs = step.friction && rows.friction[row] * potential.slope > 0.0, on_obstacle = rows.obstacle[row] >= 0;
+        if (rubs && !on_obstacle) {
+            const Rubbing rubbing = friction_between_cloths(rows, row, potential.slope, step, positions, block);
+            force += rubbing.force;
+            terms.rubbing_power += rubbing.power;
+        }
+        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) forces.add(block.vertex[k], block.weight[k] * force);
+        terms.blocks.push_back(block);
+        terms.energy += potential.energy;
+        terms.largest_stiffness = std::max(terms.largest_stiffness, stiffness);
+        terms.obstacle_power += force.dot(rows.obstacle_displacement[row]) * step.obstacle_rate;
+        if (rubs && on_obstacle) add_press(rows, row, potential.slope, terms.touches);
+    }
+    for (Touch& touch : terms.touches.all) add_friction(step, positions, touch, forces, terms);
+}
+
+void add_obstacle_advance(const ContactRows& rows, const ContactTerms& terms, double rate, const AlignedVector<double>& free,
+                          Vectors& right_side) {
+    for (const ContactBlock& block : terms.blocks) {
+        if (block.row < 0) continue;
+        const Vec3& n = rows.direction[block.row];
+        const Vec3 impulse = quadratic_form(block.k, n) * rate * n.dot(rows.obstacle_displacement[block.row]) * n;
+        for (int j = 0; j < 4 && block.vertex[j] >= 0; ++j) {
+            right_side.add(block.vertex[j], free[block.vertex[j]] * block.weight[j] * impulse);
+        }
+    }
+}
+
+}  // namespace percale

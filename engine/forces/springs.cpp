@@ -1,0 +1,97 @@
+#include "springs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace percale {
+namespace {
+
+/// Springs in bands are summed in longer chunks: each begins with the springs of the guard before it once more.
+constexpr int band_chunk_slices = 128;
+
+double length(const SpringNetwork& network, const Vectors& x, int k) {
+    const int i = network.first[k], j = network.second[k];
+    const double dx = x.x[i] - x.x[j], dy = x.y[i] - x.y[j], dz = x.z[i] - x.z[j];
+    return std::sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+/// Blocks before the first vertex are zero.
+void clear_guards(const BandPattern& bands, AlignedVector<float>& values) {
+    for (int array = 0; array < 4 * bands.count; ++array) {
+        std::fill_n(values.begin() + array * (bands.guard + bands.padded), bands.guard, 0.0f);
+    }
+}
+
+}  // namespace
+
+void set_step_springs(const Compute& compute, const SpringStart& start, StepSprings& springs) {
+    const Adjacency& adjacency = start.adjacency;
+    springs.adjacency = &adjacency;
+    springs.entries = adjacency.springs();
+    springs.rate_damping = adjacency.damped && start.form == DampingForm::velocity;
+    if (!adjacency.damped || start.form == DampingForm::velocity) return;
+    springs.stiffness.resize(adjacency.stiffness.size());
+    springs.rest_length.resize(adjacency.stiffness.size());
+    pack_points(compute, adjacency, start.positions, springs.points);
+    const StartPass pass{.springs = adjacency.springs(),
+                         .positions = start.positions.axes(),
+                         .points = springs.points.data(),
+                         .dt = start.dt,
+                         .stiffness = springs.stiffness.data(),
+                         .rest = springs.rest_length.data()};
+    for_chunks(compute, adjacency.slices(), [&](Slices range) { compute.kernels->start_springs(pass, range); });
+    springs.entries.stiffness = springs.stiffness.data();
+    springs.entries.rest_length = springs.rest_length.data();
+}
+
+double evaluate_springs(const Compute& compute, const StepSprings& springs, const SpringMotion& motion, bool with_matrix,
+                        Vectors& forces, SpringTerms& terms) {
+    const Adjacency& adjacency = *springs.adjacency;
+    pack_points(compute, adjacency, motion.positions, terms.points);
+    if (springs.rate_damping) pack_points(compute, adjacency, motion.velocities, terms.motion);
+    const int slices = motion.positions.slices();
+    if (with_matrix && terms.values.size() != adjacency.value_count()) terms.values.assign(adjacency.value_count(), 0.0f);
+    const BandPattern& bands = adjacency.bands;
+    if (with_matrix) clear_guards(bands, terms.values);
+    const int grain = bands.count > 0 ? band_chunk_slices : chunk_slices;
+    const std::size_t scratch = 3 * bands.count * (bands.guard + std::min(slices, grain) * slice_lanes);
+    terms.scratch.resize(scratch * (compute.pool ? compute.pool->threads() : 1));
+    const SpringPass pass{.springs = springs.entries,
+                          .positions = motion.positions.axes(),
+                          .velocities = motion.velocities.axes(),
+                          .points = terms.points.data(),
+                          .motion = springs.rate_damping ? terms.motion.data() : nullptr,
+                          .dt = motion.dt,
+                          .forces = forces.axes(),
+                          .values = with_matrix ? terms.values.data() : nullptr,
+                          .scratch = nullptr};
+    return sum_stretches(compute, slices, grain, [&](Slices range, int thread) {
+        SpringPass own = pass;
+        own.scratch = terms.scratch.data() + thread * scratch;
+        return compute.kernels->springs(own, range);
+    });
+}
+
+SpringBlock spring_block(const Adjacency& adjacency, const SpringTerms& terms, int spring) {
+    const auto [first, apart] = adjacency.value_place(spring);
+    const float* value = &terms.values[first];
+    return {value[0], Vec3(value[apart], value[2 * apart], value[3 * apart])};
+}
+
+double elastic_energy(const SpringNetwork& network, const Vectors& positions) {
+    return 0.5 * sum_terms(0, network.size(), [&](int k) {
+               const double stretch = length(network, positions, k) - network.rest_length[k];
+               return network.stiffness[k] * stretch * stretch;
+           });
+}
+
+double largest_strain(const SpringNetwork& network, const Vectors& positions) {
+    double largest = 0.0;
+    for (int k = 0; k < network.size(); ++k) {
+        if (network.kind[k] != SpringKind::structural) continue;
+        largest = std::max(largest, length(network, positions, k) / network.rest_length[k] - 1.0);
+    }
+    return largest;
+}
+
+}  // namespace percale

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "contact/penalty.h"
+#include "forces/springs.h"
+#include "model/adjacency.h"
+#include "model/vectors.h"
+
+namespace percale {
+
+/// Where entry (a, b) of a symmetric block stands in xx xy xz yy yz zz.
+constexpr int symmetric_entry[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+
+/// What all contacts of one vertex add to its diagonal block, each row taken whole at every vertex by weight (an upper bound that
+/// equals the row itself where the vertices move alike, or between cloths where the two sides move against each other).
+struct VertexContact {
+    int vertex;
+    std::array<double, 6> k;  // kg, xx xy xz yy yz zz
+};
+
+/// The step matrix A = M - dt Jv - dt^2 Jq, kg. Springs act on differences of vertices by blocks a I + w w^T, held in single
+/// precision: each is then a spring whose stiffness is right to 6e-8, and the matrix is exactly symmetric and positive definite.
+/// What couples the edges of a membrane's triangle comes in addition, corner by corner (SpringTerms::corners).
+/// Masses and contact rows are in double precision, contacts kept apart.
+struct BlockMatrix {
+    const Adjacency* pattern = nullptr;
+    const Compute* compute = nullptr;
+    const SpringTerms* springs = nullptr;    // viewed, not copied
+    AlignedVector<double> mass;              // kg; 1 for padding
+    AlignedVector<double> free;              // 1, or 0 for a vertex whose motion is prescribed and for padding
+    DiagonalBlocks diagonal;                 // mass and springs
+    AlignedVector<float> inverse;            // of the diagonal blocks with contact, six arrays; 0 at prescribed vertices
+    std::span<const ContactBlock> contacts;  // viewed, not copied
+    std::vector<VertexContact> contacts_by_vertex;
+    std::vector<int> contact_slot;  // of a vertex in contacts_by_vertex, or -1
+
+    std::size_t padded() const { return free.size(); }
+    int slices() const { return pattern->slices(); }
+};
+
+/// Sizes the matrix for a pattern, which is viewed; all vertices free.
+void set_pattern(const Compute& compute, const Adjacency& pattern, std::span<const double> mass, BlockMatrix& matrix);
+
+/// Diagonal blocks of mass and springs, and their inverses.
+void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, DiagonalBlocks& diagonal,
+                   AlignedVector<float>& inverse);
+
+/// Takes springs and contacts of a state.
+void fill_matrix(const SpringTerms& springs, std::span<const ContactBlock> contacts, BlockMatrix& matrix);
+
+/// y = A x on the free vertices, 0 at prescribed ones; returns x . y over the free ones. `points` is work space.
+double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y);
+
+/// r = b - A x on the free vertices, 0 at prescribed ones.
+void set_residual(const BlockMatrix& matrix, const Vectors& b, const Vectors& x, AlignedVector<double>& points, Vectors& r);
+
+/// z = D^-1 r for free vertices, 0 for the others (D: block diagonal).
+void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z);
+
+/// x = 0 at prescribed vertices.
+void filter(const BlockMatrix& matrix, Vectors& x);
+
+/// The inverse of a symmetric positive definite 3x3 block xx xy xz yy yz zz, by cofactors.
+std::array<double, 6> inverse_block(const std::array<double, 6>& m);
+
+}  // namespace percale

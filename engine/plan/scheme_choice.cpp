@@ -1,0 +1,195 @@
+#include "scheme_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plan_costs.h"
+#include "schemes/schemes.h"
+#include "percale/stability.h"
+#include "step/shape_loss.h"
+
+namespace percale {
+namespace {
+
+constexpr int power_iterations = 40;
+constexpr double safety = 0.8;                // of the estimated stable step
+constexpr double usual_implicit = 1.0 / 240;  // s, of adaptive TR-BDF2
+constexpr double most_stiff = 3.0;            // w dt of the trapezoid
+constexpr int fine_sheet = 4000;              // vertices
+constexpr int most_parts = 1000;              // of a step, far more than are cheaper than an implicit one
+
+std::string number_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", value);
+    return text;
+}
+
+/// y = -Jq x by central differences of all elastic forces, for |x| = 1.
+void multiply_shapes(const World& world, const Vectors& x, Vectors& y) {
+    const double way = 1e-5 * world.model.springs.rest_length.front();
+    ExplicitSpace space;
+    Vectors still, positions = world.state.positions;
+    still.resize(world.model.vertex_count());
+    add_scaled(positions, -way, x);
+    evaluate_elastic(world, positions, still, space);
+    y = space.forces.total;
+    add_scaled(positions, 2.0 * way, x);
+    evaluate_elastic(world, positions, still, space);
+    add_scaled(y, -1.0, space.forces.total);
+    for (auto* axis : {&y.x, &y.y, &y.z}) {
+        for (double& value : *axis) value *= 0.5 / way;
+    }
+}
+
+/// y = K x with the springs' blocks c d d^T, c stiffness or damping.
+void multiply_springs(const World& world, const std::vector<double>& constant, const Vectors& x, Vectors& y) {
+    const SpringNetwork& springs = world.model.springs;
+    y.resize(world.model.vertex_count());
+    for (int k = 0; k < springs.size(); ++k) {
+        const int i = springs.first[k], j = springs.second[k];
+        const Vec3 span = world.state.positions.at(i) - world.state.positions.at(j);
+        const double length = span.norm();
+        if (length == 0.0) continue;
+        const Vec3 pull = constant[k] * span.dot(x.at(i) - x.at(j)) / (length * length) * span;
+        y.add(i, pull);
+        y.add(j, -pull);
+    }
+}
+
+/// Largest eigenvalue of M^-1 K by power iteration, K x = multiply(x, y); prescribed vertices stay.
+template <class Multiply>
+double largest_eigenvalue(const World& world, Multiply multiply) {
+    const int count = world.model.vertex_count();
+    Vectors x, y;
+    x.resize(count);
+    // Neighbours of opposite sign in most places, and no symmetry: rich in what is stiffest.
+    for (int i = 0; i < count; ++i) x.set(i, Vec3(std::sin(2.9 * i + 1.0), std::sin(2.3 * i + 2.0), std::sin(2.6 * i + 3.0)));
+    double value = 0.0;
+    for (int iteration = 0; iteration < power_iterations; ++iteration) {
+        const double size = std::sqrt(sum_terms(0, count, [&](int i) { return square_at(x, i); }));
+        if (size == 0.0) return 0.0;
+        multiply(x, y);
+        for (int i = 0; i < count; ++i) y.set(i, world.script.free[i] / world.model.mass[i] * y.at(i));
+        value = std::sqrt(sum_terms(0, count, [&](int i) { return square_at(y, i); })) / size;
+        for (int i = 0; i < count; ++i) x.set(i, value > 0.0 ? Vec3(y.at(i) / (value * size)) : Vec3(Vec3::Zero()));
+    }
+    return value;
+}
+
+/// Largest square of an angular frequency, 1/s^2.
+double largest_square(const World& world) {
+    const ClothModel& model = world.model;
+    if (model.hinges.all.empty() && model.membrane.empty()) {
+        return largest_eigenvalue(world,
+                                  [&](const Vectors& x, Vectors& y) { multiply_springs(world, model.springs.stiffness, x, y); });
+    }
+    return largest_eigenvalue(world, [&](const Vectors& x, Vectors& y) { multiply_shapes(world, x, y); });
+}
+
+std::string word(Scheme scheme) { return std::string(facts_of(scheme).word); }
+
+/// Cost of a second by an implicit scheme, in evaluations of all springs.
+double implicit_cost(const World& world, const SceneFacts& facts, Scheme scheme, double dt) {
+    StepSettings settings = world.settings;
+    settings.scheme = scheme;
+    return predicted_evaluations(make_step_plan(settings, facts), settings) / dt;
+}
+
+bool has_contact(const World& world) {
+    return !world.script.obstacles.empty() || std::any_of(world.model.cloths.begin(), world.model.cloths.end(),
+                                                          [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
+}
+
+Scheme implicit_choice(const World& world) {
+    const bool projects = world.settings.contact_response == ContactResponse::projection && has_contact(world);
+    return world.settings.adaptive && !projects ? Scheme::tr_bdf2 : Scheme::backward_euler;
+}
+
+Scheme explicit_choice(const World& world) { return world.settings.adaptive ? Scheme::rk4 : Scheme::symplectic_euler; }
+
+}  // namespace
+
+double stable_step(const World& world, Scheme scheme) {
+    const double limit = facts_of(scheme).stable_up_to;
+    if (limit == 0.0 || std::isinf(limit)) return limit;
+    const double square = largest_square(world);
+    if (square == 0.0) return std::numeric_limits<double>::infinity();
+    const double damping = largest_eigenvalue(
+        world, [&](const Vectors& x, Vectors& y) { multiply_springs(world, world.model.springs.damping, x, y); });
+    return longest_stable_step(scheme, {square, damping});
+}
+
+SchemeChoice choose_scheme(const World& world, const SceneFacts& facts) {
+    const bool adaptive = world.settings.adaptive;
+    const Scheme implicit = implicit_choice(world), short_steps = explicit_choice(world);
+    if (has_contact(world)) return {implicit, 1, "explicit schemes take no contact"};
+    const double stable = safety * stable_step(world, short_steps), dt = world.settings.time_step;
+    const double parts = adaptive ? 1.0 : std::max(1.0, std::ceil(dt / stable));
+    const double tries = adaptive ? 3.0 : 1.0;  // a whole step and two halves
+    const double length = adaptive ? stable : dt / parts;
+    const double explicit_cost = tries * facts_of(short_steps).force_evaluations / length;
+    const double other_cost = implicit_cost(world, facts, implicit, adaptive ? std::min(dt, usual_implicit) : dt);
+    const bool cheaper = explicit_cost < other_cost && parts <= most_parts;
+    std::string reason = "a second of " + word(short_steps) + " in steps of " + number_text(length) + " s costs " +
+                         number_text(explicit_cost) + " evaluations of all springs, one of " + word(implicit) + " " +
+                         number_text(other_cost);
+    return {cheaper ? short_steps : implicit, cheaper ? static_cast<int>(parts) : 1, std::move(reason)};
+}
+
+bool can_be_chosen(const World& world, Scheme scheme, int parts) {
+    const Scheme wish = world.settings.scheme;
+    if (wish != Scheme::automatic) return scheme == wish && parts == 1;
+    if (scheme == explicit_choice(world) && !has_contact(world))
+        return parts >= 1 && parts <= (world.settings.adaptive ? 1 : most_parts);
+    return scheme == implicit_choice(world) && parts == 1;
+}
+
+namespace {
+
+void warn_of_slivers(const World& world, std::vector<std::string>& warnings) {
+    if (factorises(world.model, world.settings.linear_solver)) return;
+    for (const ClothRange& cloth : world.model.cloths) {
+        const double aspect = largest_aspect(world.model, cloth);
+        if (aspect > sliver_aspect)
+            warnings.push_back(
+                "cloth '" + cloth.name + "' has moduli and triangles " + std::to_string(std::llround(std::min(aspect, 1e15))) +
+                " times as long as high: what iterative solvers leave can be more than the error of the time step; "
+                "remesh it, or set linear_solver = \"direct\"");
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> step_warnings(const World& world, const StepPlan& plan) {
+    std::vector<std::string> warnings;
+    const double dt = world.settings.time_step / plan.parts;
+    const std::string step = "time_step " + number_text(dt) + " s";
+    if (!plan.implicit && !world.settings.adaptive) {
+        const double stable = stable_step(world, plan.scheme);
+        if (stable == 0.0)
+            warnings.push_back(word(plan.scheme) + " makes every oscillation grow; use rk4 or an implicit scheme");
+        else if (dt > stable) {
+            warnings.push_back(step + " is longer than the longest stable one of " + word(plan.scheme) + ", about " +
+                               number_text(stable) + " s: the cloth will fly apart");
+        }
+    }
+    const bool undamped = plan.scheme == Scheme::trapezoid || plan.scheme == Scheme::implicit_midpoint;
+    if (undamped && !world.settings.adaptive) {
+        const double stiff = dt * std::sqrt(largest_square(world));
+        if (stiff > most_stiff) {
+            warnings.push_back(step + " is " + number_text(stiff) +
+                               " times the reciprocal of the highest frequency: what is so stiff rings under " +
+                               word(plan.scheme) +
+                               " and can gain energy; use backward_euler, or tr_bdf2 with time_step = \"auto\"");
+        }
+    }
+    if (plan.implicit && world.settings.newton_iterations == 1 && world.model.vertex_count() > fine_sheet) {
+        warnings.push_back("newton_iterations = 1 with " + std::to_string(world.model.vertex_count()) +
+                           " vertices: one linear solve leaves fine cloth far from the end of its step; allow more");
+    }
+    if (plan.implicit) warn_of_slivers(world, warnings);
+    return warnings;
+}
+
+}  // namespace percale

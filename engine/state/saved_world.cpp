@@ -1,0 +1,450 @@
+#include "saved_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "percale/error.h"
+#include "percale/options.h"
+#include "percale/saved_report.h"
+#include "plan/planning.h"
+#include "plan/scheme_choice.h"
+#include "support/hash.h"
+
+namespace percale {
+
+constexpr SealKind state_seal{.name = "PERCALES", .version = 2, .words = "saved state"};
+
+/// What an obstacle's name is not needed for.
+struct SavedObstacle {
+    Pose start, end;
+    bool settled = true;
+};
+
+/// All of a world that is not its model and its settings, nor made anew in each step.
+struct SavedWorld {
+    double time = 0.0, time_error = 0.0, contact_energy = 0.0, contact_dt = 0.0;
+    bool changed = true, plan_outdated = true;
+    StepSettings settings;  // time step, gravity and wind of them
+    ClothState state;       // without points
+    AlignedVector<double> free;
+    Vectors pin_targets;
+    std::vector<SavedObstacle> obstacles;
+    std::vector<Seam> seams;
+    std::vector<double> seam_lengths;  // m, rest lengths of their springs, one seam after the other
+    std::vector<double> clamps;        // of the hinges
+    StepPlan plan;
+    RestState rest;
+    StageSpace stages;  // what schemes of several stages and adaptive steps keep
+    ContactProjection::Kept projection;
+    bool solver_is_set = false;
+    StepSolver::Choice solver;
+    std::vector<StartMove> start_moves;
+    std::vector<std::byte> detector;
+};
+
+template <class Archive, OfType<Vectors> Value>
+void exchange(Archive& archive, Value& vectors) {
+    archive(vectors.x, vectors.y, vectors.z);
+}
+
+template <class Archive, OfType<Grip> Value>
+void exchange(Archive& archive, Value& grip) {
+    archive(grip.vertex, grip.obstacle, grip.stretch);
+}
+
+template <class Archive, OfType<ClothState> Value>
+void exchange(Archive& archive, Value& state) {
+    archive(state.positions, state.velocities, state.grips);
+}
+
+template <class Archive, OfType<SavedObstacle> Value>
+void exchange(Archive& archive, Value& obstacle) {
+    archive(obstacle.start, obstacle.end, obstacle.settled);
+}
+
+template <class Archive, OfType<Seam> Value>
+void exchange(Archive& archive, Value& seam) {
+    archive(seam.first_spring, seam.length, seam.from, seam.over);
+}
+
+/// What plan_again takes over.
+template <class Archive, OfType<StepPlan> Value>
+void exchange(Archive& archive, Value& plan) {
+    archive.choice(plan.scheme, static_cast<int>(Scheme::automatic));
+    archive(plan.parts, plan.obstacles_move, plan.pins_move, plan.seams_close);
+}
+
+/// What a simulation asleep repeats.
+template <class Archive, OfType<StepReport> Value>
+void exchange(Archive& archive, Value& report) {
+    archive(report.dt, report.smallest_dt, report.largest_dt, report.slept, report.sleeping_cloths, report.contacts,
+            report.contact_hash, report.smallest_distance, report.contact_stiffness, report.largest_strain, report.largest_speed,
+            report.energy);
+}
+
+template <class Archive, OfType<ClothRest> Value>
+void exchange(Archive& archive, Value& rest) {
+    archive(rest.still_time, rest.asleep);
+}
+
+template <class Archive, OfType<RestState> Value>
+void exchange(Archive& archive, Value& rest) {
+    archive(rest.cloths, rest.anchor, rest.asleep, rest.figures);
+}
+
+template <class Archive, OfType<StageSpace> Value>
+void exchange(Archive& archive, Value& stages) {
+    archive(stages.earlier, stages.earlier_length, stages.acceleration, stages.unbalanced);
+    archive(stages.control.length, stages.control.left, stages.control.share_before, stages.control.just_rejected);
+}
+
+template <class Archive, OfType<KeyedForce> Value>
+void exchange(Archive& archive, Value& row) {
+    archive(row.key.vertex, row.key.obstacle, row.key.feature, row.force.normal, row.force.friction, row.force.stiffness);
+}
+
+template <class Archive, OfType<ContactProjection::Kept> Value>
+void exchange(Archive& archive, Value& projection) {
+    archive(projection.kept, projection.lasting, projection.share);
+}
+
+template <class Archive, OfType<StartMove> Value>
+void exchange(Archive& archive, Value& move) {
+    archive(move.cloth, move.obstacle, move.cloth_name, move.obstacle_name, move.vertices_moved, move.largest_move);
+}
+
+template <class Archive, OfType<SavedWorld> Value>
+void exchange(Archive& archive, Value& saved) {
+    archive(saved.time, saved.time_error, saved.contact_energy, saved.contact_dt, saved.changed, saved.plan_outdated);
+    archive(saved.settings.time_step, saved.settings.gravity, saved.settings.wind);
+    archive(saved.state, saved.free, saved.pin_targets, saved.obstacles, saved.seams, saved.seam_lengths, saved.clamps);
+    archive(saved.plan, saved.rest, saved.stages, saved.projection, saved.solver_is_set);
+    archive.choice(saved.solver.first, 4);
+    archive.choice(saved.solver.in_use, 4);
+    archive(saved.start_moves, saved.detector);
+}
+
+namespace {
+
+/// What a world is made of. It does not change from step to step.
+struct Identity {
+    std::uint64_t cloth = 0, obstacles = 0, settings = 0;
+};
+
+/// Hashes lists of numbers and of arrays of them, without a copy.
+class ListHash {
+public:
+    void add(int number) { hash_.add(number); }
+    void add(double number) { hash_.add(number); }
+    void add(const Vec3& x) { add_all(std::span<const double>(x.data(), 3)); }
+    template <class Value, std::size_t count>
+    void add(const std::array<Value, count>& values) {
+        add_all(std::span<const Value>(values));
+    }
+    template <class Values>
+    void add_all(const Values& values) {
+        add(static_cast<int>(values.size()));
+        for (const auto& value : values) add(value);
+    }
+    std::uint64_t value() const { return hash_.value(); }
+
+private:
+    Hash hash_;
+};
+
+void add_springs(const SpringNetwork& springs, ListHash& hash) {
+    for (const auto* ends : {&springs.first, &springs.second}) hash.add_all(*ends);
+    for (const auto* constants : {&springs.stiffness, &springs.damping}) hash.add_all(*constants);
+    for (int k = 0; k < springs.size(); ++k) {
+        hash.add(static_cast<int>(springs.kind[k]));
+        if (springs.kind[k] != SpringKind::seam) hash.add(springs.rest_length[k]);
+    }
+}
+
+std::uint64_t cloth_hash(const ClothModel& model) {
+    ListHash hash;
+    for (const ClothRange& cloth : model.cloths) {
+        for (const int number : {cloth.first, cloth.count, cloth.columns, static_cast<int>(cloth.fabric.self_contact)}) {
+            hash.add(number);
+        }
+        for (const double drag : {cloth.fabric.drag_normal, cloth.fabric.drag_tangential}) hash.add(drag);
+    }
+    for (const auto* numbers : {&model.mass, &model.thickness}) hash.add_all(*numbers);
+    hash.add_all(model.rest);
+    hash.add_all(model.triangles);
+    add_springs(model.springs, hash);
+    for (const MembraneTriangle& t : model.membrane) {
+        hash.add(t.vertex);
+        hash.add(t.rest_square);
+        hash.add_all(std::span<const double>(t.stiffness.data(), 9));
+    }
+    for (const Hinge& hinge : model.hinges.all) {
+        hash.add(hinge.vertex);
+        hash.add(hinge.weight);
+        for (const double number : {hinge.stiffness, hinge.rest_angle}) hash.add(number);
+    }
+    return hash.value();
+}
+
+std::uint64_t obstacles_hash(const World& world) {
+    StateWriter writer;
+    writer(world.detector != nullptr);
+    for (const ObstacleState& obstacle : world.script.obstacles) writer(obstacle.triangles, obstacle.start.scale);
+    return checksum(writer.take());
+}
+
+/// Of those settings that change what steps do, whatever the state.
+std::uint64_t settings_hash(const StepSettings& s) {
+    StateWriter writer;
+    writer(s.adaptive, s.tolerance, static_cast<int>(s.scheme), s.newton_tolerance, s.newton_iterations);
+    writer(static_cast<int>(s.linear_solver), static_cast<int>(s.contact_response), static_cast<int>(s.damping_form));
+    writer(static_cast<int>(s.measure), s.skip, s.air_density);
+    return checksum(writer.take());
+}
+
+Identity identity_of(const World& world) {
+    return {cloth_hash(world.model), obstacles_hash(world), settings_hash(world.settings)};
+}
+
+std::vector<double> seam_lengths_of(const World& world) {
+    std::vector<double> lengths;
+    for (const Seam& seam : world.script.seams) {
+        const auto first = world.model.springs.rest_length.begin() + seam.first_spring;
+        lengths.insert(lengths.end(), first, first + static_cast<long>(seam.length.size()));
+    }
+    return lengths;
+}
+
+SavedWorld state_of(const World& world) {
+    SavedWorld saved;
+    saved.time = world.time;
+    saved.time_error = world.time_error;
+    saved.contact_energy = world.contact_energy;
+    saved.contact_dt = world.contact_dt;
+    saved.changed = world.changed;
+    saved.plan_outdated = world.plan_outdated;
+    saved.settings = world.settings;
+    saved.state = world.state;
+    saved.free = world.script.free;
+    saved.pin_targets = world.script.pin_targets;
+    for (const ObstacleState& o : world.script.obstacles) saved.obstacles.push_back({o.start, o.end, o.settled});
+    saved.seams = world.script.seams;
+    saved.seam_lengths = seam_lengths_of(world);
+    for (const Hinge& hinge : world.model.hinges.all) saved.clamps.push_back(hinge.clamp);
+    saved.plan = world.plan;
+    saved.rest = world.rest;
+    saved.stages.earlier = world.stages.earlier;
+    saved.stages.earlier_length = world.stages.earlier_length;
+    saved.stages.acceleration = world.stages.acceleration;
+    saved.stages.unbalanced = world.stages.unbalanced;
+    saved.stages.control = world.stages.control;
+    saved.projection = world.newton.projection.kept();
+    saved.solver_is_set = world.newton.solver.is_for(world.model);
+    saved.solver = world.newton.solver.choice();
+    if (!world.detector) return saved;
+    StateWriter writer;
+    world.detector->save(writer);
+    saved.detector = writer.take();
+    return saved;
+}
+
+/// The checks of a state that was read: whatever bytes say, no step may then reach beyond what there is.
+class StateCheck {
+public:
+    StateCheck(const SavedWorld& saved, const World& world, const StateReader& reader)
+        : saved_(saved), world_(world), reader_(reader) {}
+
+    void run() const {
+        check_settings();
+        check_vectors();
+        check_script();
+        check_plan();
+        check_rest();
+        check_stages();
+    }
+
+private:
+    void check_settings() const {
+        StepSettings settings = world_.settings;
+        settings.time_step = saved_.settings.time_step;
+        settings.gravity = saved_.settings.gravity;
+        settings.wind = saved_.settings.wind;
+        check_options(settings, "saved state");
+        for (const double number : {saved_.time, saved_.time_error, saved_.contact_energy, saved_.contact_dt}) {
+            reader_.demand(std::isfinite(number), "a time or energy that is not finite");
+        }
+    }
+
+    bool fits(const Vectors& vectors) const {
+        const std::size_t padded = world_.state.positions.padded_size();
+        return vectors.x.size() == padded && vectors.y.size() == padded && vectors.z.size() == padded;
+    }
+    bool fits_or_empty(const Vectors& vectors) const {
+        return fits(vectors) || (vectors.x.empty() && vectors.y.empty() && vectors.z.empty());
+    }
+
+    void check_vectors() const {
+        for (const Vectors* vectors : {&saved_.state.positions, &saved_.state.velocities, &saved_.pin_targets}) {
+            reader_.demand(fits(*vectors), "a wrong number of vertices");
+            for (const auto* axis : {&vectors->x, &vectors->y, &vectors->z}) {
+                reader_.demand(std::all_of(axis->begin(), axis->end(), [](double value) { return std::isfinite(value); }),
+                               "a position or velocity that is not finite");
+            }
+        }
+        const auto there = [](int index, std::size_t count) { return index >= 0 && static_cast<std::size_t>(index) < count; };
+        const std::size_t obstacles = world_.script.obstacles.size();
+        for (const Grip& grip : saved_.state.grips) {
+            const bool known = there(grip.vertex, world_.model.mass.size()) && there(grip.obstacle, obstacles);
+            reader_.demand(known && grip.stretch.allFinite(), "a grip on nothing");
+        }
+        for (const StartMove& move : saved_.start_moves) {
+            reader_.demand(there(move.cloth, world_.model.cloths.size()) && there(move.obstacle, obstacles), "a move of nothing");
+        }
+    }
+
+    void check_script() const {
+        const AlignedVector<double>& free = saved_.free;
+        reader_.demand(free.size() == world_.script.free.size(), "a wrong number of vertices");
+        for (std::size_t i = 0; i < free.size(); ++i) {
+            const bool padding = i >= static_cast<std::size_t>(world_.model.vertex_count());
+            reader_.demand(free[i] == 0.0 || (free[i] == 1.0 && !padding), "a vertex neither pinned nor free");
+        }
+        const auto same_size = [](const SavedObstacle& a, const ObstacleState& b) {
+            return a.start.scale == b.start.scale && a.end.scale == b.start.scale;
+        };
+        reader_.demand(std::ranges::equal(saved_.obstacles, world_.script.obstacles, same_size), "obstacles of other sizes");
+        reader_.demand(saved_.clamps.size() == world_.model.hinges.all.size(), "a wrong number of hinges");
+        std::size_t sewn = 0;
+        bool same = saved_.seams.size() == world_.script.seams.size();
+        for (std::size_t k = 0; same && k < saved_.seams.size(); ++k) {
+            const Seam &seam = saved_.seams[k], &own = world_.script.seams[k];
+            same = seam.first_spring == own.first_spring && seam.length.size() == own.length.size();
+            sewn += seam.length.size();
+        }
+        reader_.demand(same && saved_.seam_lengths.size() == sewn, "other seams");
+    }
+
+    void check_plan() const {
+        const StepPlan& plan = saved_.plan;
+        reader_.demand(saved_.plan_outdated || can_be_chosen(world_, plan.scheme, plan.parts), "a scheme of another kind");
+        const auto& [first, in_use] = saved_.solver;
+        reader_.demand(first != LinearSolver::automatic && in_use != LinearSolver::automatic, "a linear solver that is none");
+        reader_.demand(saved_.projection.share >= 0.0 && saved_.projection.share <= 1.0, "a distance out of range");
+        for (const auto* forces : {&saved_.projection.kept, &saved_.projection.lasting}) {
+            const auto twice = std::ranges::adjacent_find(*forces, std::ranges::greater_equal{}, &KeyedForce::key);
+            reader_.demand(twice == forces->end(), "a contact force twice");
+        }
+    }
+
+    void check_rest() const {
+        const RestState& rest = saved_.rest;
+        reader_.demand(fits_or_empty(rest.anchor), "a wrong number of vertices");
+        reader_.demand(rest.cloths.empty() || (rest.cloths.size() == world_.model.cloths.size() && fits(rest.anchor)),
+                       "a wrong number of cloths");
+    }
+
+    void check_stages() const {
+        const StageSpace& stages = saved_.stages;
+        const bool known = stages.earlier_length > 0.0;
+        reader_.demand(known || stages.earlier_length == 0.0, "a negative time step");
+        for (const Vectors* vectors : {&stages.earlier.positions, &stages.earlier.velocities, &stages.acceleration}) {
+            reader_.demand(known ? fits(*vectors) : fits_or_empty(*vectors), "a wrong number of vertices");
+        }
+        reader_.demand(fits_or_empty(stages.unbalanced), "a wrong number of vertices");
+        const StepControl& control = stages.control;
+        reader_.demand(control.length == 0.0 || control.length >= shortest_step, "a time step too short");
+        reader_.demand(control.left >= 0.0 && control.share_before >= 0.0, "an error below 0");
+    }
+
+    const SavedWorld& saved_;
+    const World& world_;
+    const StateReader& reader_;
+};
+
+void put_script(SavedWorld& saved, World& world) {
+    world.script.free = std::move(saved.free);
+    world.script.pin_targets = std::move(saved.pin_targets);
+    for (std::size_t k = 0; k < saved.obstacles.size(); ++k) {
+        ObstacleState& obstacle = world.script.obstacles[k];
+        obstacle.start = saved.obstacles[k].start;
+        obstacle.end = saved.obstacles[k].end;
+        obstacle.settled = saved.obstacles[k].settled;
+    }
+    world.script.seams = std::move(saved.seams);
+}
+
+/// What steps change in the model: rest lengths of seams, hinges beside pins.
+void put_model(const SavedWorld& saved, World& world) {
+    ClothModel& model = world.model;
+    auto length = saved.seam_lengths.begin();
+    for (const Seam& seam : world.script.seams) {
+        for (int k = 0; k < static_cast<int>(seam.length.size()); ++k) {
+            model.springs.rest_length[seam.first_spring + k] = *length++;
+            set_rest_length(model.springs, seam.first_spring + k, model.adjacency);
+        }
+    }
+    for (std::size_t k = 0; k < saved.clamps.size(); ++k) model.hinges.all[k].clamp = saved.clamps[k];
+    set_pair_bending(model.hinges, model.springs);
+    copy_bending(model.springs, model.adjacency);
+}
+
+void put_solver(const SavedWorld& saved, World& world) {
+    world.newton = NewtonSpace{};
+    world.newton.projection.go_on_from(saved.projection);
+    if (saved.solver_is_set) world.newton.solver.set_model(world.compute, world.model, world.settings.linear_solver);
+    world.newton.solver.go_on_from(saved.solver);
+}
+
+void put_state(SavedWorld& saved, World& world) {
+    world.time = saved.time;
+    world.time_error = saved.time_error;
+    world.contact_energy = saved.contact_energy;
+    world.contact_dt = saved.contact_dt;
+    world.changed = saved.changed;
+    world.plan_outdated = saved.plan_outdated;
+    world.settings.time_step = saved.settings.time_step;
+    world.settings.gravity = saved.settings.gravity;
+    world.settings.wind = saved.settings.wind;
+    saved.state.points = std::move(world.state.points);
+    world.state = std::move(saved.state);
+    update_points(world.state);
+    world.rest = std::move(saved.rest);
+    world.stages = std::move(saved.stages);
+}
+
+}  // namespace
+
+std::vector<std::byte> saved_world(const World& world, const std::vector<StartMove>& start_moves) {
+    const Identity identity = identity_of(world);
+    SavedWorld saved = state_of(world);
+    saved.start_moves = start_moves;
+    StateWriter writer;
+    writer(identity.cloth, identity.obstacles, identity.settings, saved);
+    return sealed(state_seal, writer.take());
+}
+
+std::vector<StartMove> restore_world(std::span<const std::byte> bytes, World& world) {
+    StateReader reader(unsealed(state_seal, bytes));
+    const Identity own = identity_of(world);
+    Identity identity;
+    reader(identity.cloth, identity.obstacles, identity.settings);
+    if (identity.cloth != own.cloth) throw SceneError("saved state: it is of other cloth or seams than this simulation has");
+    if (identity.obstacles != own.obstacles) throw SceneError("saved state: it is of other obstacles than this simulation has");
+    if (identity.settings != own.settings) throw SceneError("saved state: it was made with other step settings than these");
+    SavedWorld saved;
+    reader(saved);
+    reader.demand(reader.at_end(), "there is more than belongs to it");
+    StateCheck(saved, world, reader).run();
+    if (world.detector) {
+        StateReader detector(saved.detector);
+        world.detector->restore(detector);
+    }
+    put_script(saved, world);
+    put_model(saved, world);
+    put_state(saved, world);
+    put_solver(saved, world);
+    world.plan = saved.plan_outdated ? StepPlan{} : plan_again(world, saved.plan);
+    return std::move(saved.start_moves);
+}
+
+}  // namespace percale

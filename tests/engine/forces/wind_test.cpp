@@ -1,0 +1,137 @@
+#include "engine/forces/wind.h"
+
+#include <Eigen/Dense>
+
+#include "tests/support/bench_meshes.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+constexpr double dt = 1.0 / 60.0, density = 1.2;
+
+struct Blown {
+    WindTerms terms;
+    Vectors forces;
+};
+
+Blown blow(const ClothModel& model, const std::vector<Vec3>& positions, const Vectors& velocities, const Vec3& air) {
+    Blown result;
+    StepWind wind;
+    set_step_wind(model, air, density, to_vectors(positions), wind);
+    result.forces.resize(model.vertex_count());
+    add_wind(model, wind, velocities, dt, result.forces, result.terms);
+    return result;
+}
+
+Vec3 sum(const Vectors& vectors, int count) {
+    Vec3 total = Vec3::Zero();
+    for (int i = 0; i < count; ++i) total += vectors.at(i);
+    return total;
+}
+
+Vectors random_velocities(Random& random, int count) { return to_vectors(random_points(random, count, 3.0)); }
+
+Eigen::Matrix3d matrix_of(const SymmetricBlock& k) {
+    Eigen::Matrix3d m;
+    m << k[0], k[1], k[2], k[1], k[3], k[4], k[2], k[4], k[5];
+    return m;
+}
+
+std::vector<TriangleMesh> some_meshes() { return {make_grid(1.0, 0.6, 6, 5), irregular_sheet(1.0, 300)}; }
+
+Fabric fabric_for(const TriangleMesh& mesh) {
+    Fabric fabric = mesh.is_grid() ? sheet_fabric() : free_fabric();
+    fabric.drag_normal = 1.7;
+    fabric.drag_tangential = 0.2;
+    return fabric;
+}
+
+}  // namespace
+
+TEST_CASE("A sheet at rest takes the drag of its area, across and along, each vertex in proportion to its mass") {
+    for (const TriangleMesh& mesh : some_meshes()) {
+        const ClothModel model = cloth_model(mesh, fabric_for(mesh));
+        double area = 0.0;
+        for (const double m : model.mass) area += m / 0.2;
+        Vectors still;
+        still.resize(model.vertex_count());
+        const Blown across = blow(model, model.rest, still, {0.0, -4.0, 0.0});
+        CHECK((sum(across.forces, model.vertex_count()) - Vec3(0, -0.5 * density * area * 1.7 * 16.0, 0)).norm() < 1e-10);
+        const Blown along = blow(model, model.rest, still, {3.0, 0.0, 4.0});
+        CHECK((sum(along.forces, model.vertex_count()) - 0.5 * density * area * 0.2 * 5.0 * Vec3(3.0, 0.0, 4.0)).norm() < 1e-10);
+        for (int i = 0; i < model.vertex_count(); ++i) {
+            CHECK(across.forces.at(i).y() / model.mass[i] == Approx(across.forces.at(0).y() / model.mass[0]).epsilon(1e-9));
+        }
+    }
+}
+
+TEST_CASE("Only the velocity relative to the air counts, and drag never speeds it up") {
+    Random random(4);
+    for (const TriangleMesh& mesh : some_meshes()) {
+        const ClothModel model = cloth_model(mesh, fabric_for(mesh));
+        const std::vector<Vec3> places = random_points(random, model.vertex_count(), 0.5);
+        const Vectors velocities = random_velocities(random, model.vertex_count());
+        const Vec3 air(1.0, -2.0, 0.5);
+        Vectors relative = velocities;
+        for (int i = 0; i < model.vertex_count(); ++i) relative.add(i, -air);
+        const Blown moving = blow(model, places, velocities, air), still = blow(model, places, relative, Vec3::Zero());
+        double work = 0.0, power = 0.0;
+        for (int i = 0; i < model.vertex_count(); ++i) {
+            CHECK((moving.forces.at(i) - still.forces.at(i)).norm() <= 1e-12 * moving.forces.at(i).norm());
+            CHECK(still.forces.at(i).dot(relative.at(i)) <= 0.0);
+            work += moving.forces.at(i).dot(velocities.at(i));
+            power += still.forces.at(i).dot(relative.at(i));
+        }
+        CHECK(moving.terms.power == Approx(work).epsilon(1e-12));
+        CHECK(still.terms.power == Approx(power).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("Drag is minus the derivative of its potential by velocity, and its blocks are minus its own") {
+    Random random(8);
+    for (const TriangleMesh& mesh : some_meshes()) {
+        const ClothModel model = cloth_model(mesh, fabric_for(mesh));
+        const std::vector<Vec3> places = random_points(random, model.vertex_count(), 0.5);
+        const Vectors velocities = random_velocities(random, model.vertex_count());
+        const Vec3 air(5.0, 0.0, -1.0);
+        const Blown here = blow(model, places, velocities, air);
+        const double h = 1e-5;
+        for (int i = 0; i < model.vertex_count(); i += 7) {
+            const Eigen::Matrix3d block = matrix_of(here.terms.blocks[i]);
+            for (int axis = 0; axis < 3; ++axis) {
+                Vectors ahead = velocities, behind = velocities;
+                ahead.add(i, h * Vec3::Unit(axis));
+                behind.add(i, -h * Vec3::Unit(axis));
+                const Blown up = blow(model, places, ahead, air), down = blow(model, places, behind, air);
+                const double slope = (up.terms.potential - down.terms.potential) / (2.0 * h);
+                CHECK(slope == Approx(-dt * here.forces.at(i)[axis]).epsilon(1e-5).margin(1e-9));
+                const Vec3 change = (up.forces.at(i) - down.forces.at(i)) / (2.0 * h);
+                CHECK((change + block.col(axis) / dt).norm() <= 1e-5 * block.norm() / dt);
+            }
+            CHECK(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues().minCoeff() >= -1e-12 * block.norm());
+        }
+    }
+}
+
+TEST_CASE("Blocks of the wind stand before those of contact and belong to no row") {
+    const TriangleMesh mesh = make_grid(1.0, 0.6, 6, 5);
+    const ClothModel model = cloth_model(mesh, fabric_for(mesh));
+    Random random(2);
+    const Blown blown = blow(model, model.rest, random_velocities(random, model.vertex_count()), {1.0, 2.0, 3.0});
+    ContactTerms contact;
+    contact.blocks.resize(50);
+    set_wind_blocks(blown.terms, contact);
+    REQUIRE(contact.blocks.size() == 30);
+    Vectors forces;
+    add_contact({}, {}, to_vectors(model.rest), forces, contact);
+    REQUIRE(contact.blocks.size() == 30);
+    for (int i = 0; i < 30; ++i) {
+        CHECK(contact.blocks[i].vertex == std::array<int, 4>{i, -1, -1, -1});
+        CHECK(contact.blocks[i].k == blown.terms.blocks[i]);
+        CHECK(contact.blocks[i].row == -1);
+    }
+}
+
+}  // namespace percale::test

@@ -1,0 +1,274 @@
+#include "engine/linear/multigrid_solve.h"
+
+#include <limits>
+
+#include "engine/linear/direct_solver.h"
+#include "tests/support/catch.h"
+#include "tests/support/dense_system.h"
+#include "tests/support/sheet_system.h"
+
+namespace percale::test {
+namespace {
+
+struct Solved {
+    SolveReport report;
+    Vectors x;
+};
+
+Solved solve(const SheetSystem& system, const Vectors& b, const Vectors& start, const SolveTarget& target) {
+    Multigrid multigrid(compute, system.model.adjacency, system.model.rest);
+    multigrid.fill(system.matrix, Multigrid::Coarser::filled);
+    MultigridSpace space;
+    Solved solved{{}, start};
+    solved.report = solve_multigrid(system.matrix, multigrid, b, target, space, solved.x);
+    return solved;
+}
+
+/// Random where vertices are prescribed, 0 elsewhere.
+Vectors prescribed(SheetSystem& system) {
+    Vectors x = system.zeros();
+    for (int i = 0; i < system.count(); ++i) {
+        const Vec3 value = system.random.point(1.0);
+        if (system.matrix.free[i] == 0.0) x.set(i, value);
+    }
+    return x;
+}
+
+void touch_and_pin(SheetSystem& system) {
+    system.pin_share(0.05);
+    system.touch_share(0.3, 0.1, 1e3);
+}
+
+Vectors direct_solution(const SheetSystem& system, const Vectors& b, const Vectors& start) {
+    Vectors x = start;
+    DirectSolver direct;
+    REQUIRE(direct.solve(system.matrix, b, x));
+    return x;
+}
+
+/// The answer is that of the direct solver, found within the iterations allowed.
+void check_solution(SheetSystem& system, int most_iterations) {
+    const Vectors start = prescribed(system);
+    const Solved solved = solve(system, system.right, start, {.relative_residual = 1e-9, .most_iterations = most_iterations});
+    CAPTURE(system.count(), solved.report.iterations);
+    CHECK(solved.report.converged);
+    CHECK(system.residual(system.right, solved.x) <= 1e-9 * system.residual(system.right, start));
+    const Vectors exact = direct_solution(system, system.right, start);
+    CHECK(system.energy_norm(difference(solved.x, exact)) <= 1e-5 * system.energy_norm(difference(exact, start)));
+}
+
+/// Prescribed entries have the bits they had.
+void check_kept(const SheetSystem& system, const Vectors& start, const Vectors& x) {
+    for (int i = 0; i < system.count(); ++i) {
+        if (system.matrix.free[i] == 0.0) CHECK(x.at(i) == start.at(i));
+    }
+}
+
+ClothModel several_cloths() {
+    Fabric free = sheet_fabric();
+    free.springs.shear = 0.0;
+    ClothModel model;
+    append_cloth(model, make_grid(1.0, 1.0, 20, 20), sheet_fabric(), "square");
+    append_cloth(model, make_grid(0.3, 2.0, 4, 25), sheet_fabric(), "strip");
+    append_cloth(model, make_sphere(0.3, 2), free, "ball");
+    append_cloth(model, make_grid(0.1, 0.1, 2, 2), sheet_fabric(), "patch");
+    finish_model(model);
+    return model;
+}
+
+ClothModel unequal_masses(unsigned seed, ClothModel model) {
+    Random random(seed);
+    for (double& mass : model.mass) mass *= random.decades(1e-6, 1.0);
+    return model;
+}
+
+Fabric stiff_fabric(double factor) {
+    Fabric fabric = sheet_fabric();
+    for (double* constant : {&fabric.springs.structural, &fabric.springs.shear, &fabric.springs.bend}) *constant *= factor;
+    return fabric;
+}
+
+/// A rope of `count` vertices along an oblique line, every third link doubled.
+ClothModel rope(int count) {
+    std::vector<Link> links;
+    for (int i = 0; i + 1 < count; ++i) {
+        links.push_back({i, i + 1, 0.1, 500.0, 0.1});
+        if (i % 3 == 0) links.push_back({i + 1, i, 0.12, 200.0, 0.0});
+    }
+    ClothModel model = linked_masses(std::vector<double>(count, 1e-3), links);
+    for (int i = 0; i < count; ++i) model.rest.push_back(0.1 * i * Vec3(1.0, 2.0, -2.0) / 3.0);
+    return model;
+}
+
+}  // namespace
+
+TEST_CASE("The residual asked for is reached in double precision, prescribed entries kept") {
+    for (const int side : {9, 17, 33}) {
+        SheetSystem sheet(static_cast<unsigned>(side), side, 0.3);
+        touch_and_pin(sheet);
+        const Vectors start = prescribed(sheet);
+        const double first = sheet.residual(sheet.right, start);
+        int before = 0;
+        for (const double target : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
+            const Solved solved = solve(sheet, sheet.right, start, {.relative_residual = target});
+            CAPTURE(side, target, solved.report.iterations);
+            CHECK(solved.report.converged);
+            CHECK(sheet.residual(sheet.right, solved.x) <= target * first * (1.0 + 1e-9));
+            CHECK(solved.report.iterations >= before);
+            before = solved.report.iterations;
+            check_kept(sheet, start, solved.x);
+        }
+        CHECK(before <= 80);
+    }
+}
+
+TEST_CASE("What counts as converged is at the residual asked for, whatever limits the iterations") {
+    SheetSystem sheet(1, 25, 0.3);
+    touch_and_pin(sheet);
+    const Vectors start = prescribed(sheet);
+    const double first = sheet.residual(sheet.right, start);
+    for (int most = 1; most <= 40; ++most) {
+        const Solved solved = solve(sheet, sheet.right, start, {.relative_residual = 1e-8, .most_iterations = most});
+        CAPTURE(most);
+        CHECK(solved.report.iterations <= most);
+        if (solved.report.converged) CHECK(sheet.residual(sheet.right, solved.x) <= 1e-8 * first);
+    }
+    const Solved cut = solve(sheet, sheet.right, start, {.relative_residual = 1e-8, .most_iterations = 3});
+    CHECK(cut.report.iterations == 3);
+    CHECK_FALSE(cut.report.converged);
+    CHECK(sheet.residual(sheet.right, cut.x) < first);
+}
+
+TEST_CASE("The energy rule leaves an error of about its share of the solution") {
+    for (const int side : {17, 33, 48}) {
+        SheetSystem sheet(static_cast<unsigned>(side) + 20u, side, 0.2);
+        sheet.touch_share(0.2, 0.1, 10.0);
+        const Vectors start = prescribed(sheet), exact = direct_solution(sheet, sheet.right, start);
+        const double whole = sheet.energy_norm(difference(exact, start));
+        int before = 0;
+        for (const double share : {0.3, 0.05, 0.01, 1e-3}) {
+            const Solved solved = solve(sheet, sheet.right, start, {.relative_gain = share});
+            const double error = sheet.energy_norm(difference(solved.x, exact));
+            CAPTURE(side, share, solved.report.iterations, error / whole);
+            CHECK(solved.report.converged);
+            CHECK(error <= 1.5 * share * whole);
+            CHECK(solved.report.iterations >= before);
+            before = solved.report.iterations;
+            const Solved absolute = solve(sheet, sheet.right, start, {.absolute_gain = share * share * whole * whole});
+            CHECK(absolute.report.converged);
+            CHECK(sheet.energy_norm(difference(absolute.x, exact)) <= 1.5 * share * whole);
+        }
+    }
+}
+
+TEST_CASE("A right side of zero takes no iteration of multigrid") {
+    SheetSystem sheet(2, 17, 0.3);
+    const Solved solved = solve(sheet, sheet.zeros(), sheet.zeros(), {.relative_residual = 1e-6});
+    CHECK(solved.report.iterations == 0);
+    CHECK(solved.report.converged);
+    CHECK(same_bits(solved.x, sheet.zeros()));
+}
+
+TEST_CASE("Multigrid leaves alone what is prescribed everywhere") {
+    SheetSystem sheet(3, 17, 0.3);
+    sheet.pin_share(1.1);
+    const Vectors start = prescribed(sheet);
+    const Solved solved = solve(sheet, sheet.right, start, {.relative_residual = 1e-6});
+    CHECK(solved.report.converged);
+    CHECK(same_bits(solved.x, start));
+}
+
+TEST_CASE("A right side that is not finite ends without an answer") {
+    SheetSystem sheet(4, 17, 0.3);
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        Vectors b = sheet.right;
+        b.y[100] = value;
+        CHECK_FALSE(solve(sheet, b, sheet.zeros(), {.relative_residual = 1e-6}).report.converged);
+        CHECK_FALSE(solve(sheet, b, sheet.zeros(), {.relative_gain = 0.05}).report.converged);
+    }
+}
+
+TEST_CASE("Large and small right sides are solved alike") {
+    SheetSystem sheet(5, 17, 0.3);
+    const Solved plain = solve(sheet, sheet.right, sheet.zeros(), {.relative_residual = 1e-8});
+    for (const double factor : {0x1p-200, 0x1p-30, 0x1p30, 0x1p200}) {
+        Vectors b = sheet.zeros();
+        add_scaled(b, factor, sheet.right);
+        const Solved solved = solve(sheet, b, sheet.zeros(), {.relative_residual = 1e-8});
+        Vectors scaled = sheet.zeros();
+        add_scaled(scaled, 1.0 / factor, solved.x);
+        CHECK(solved.report.converged);
+        CHECK(solved.report.iterations == plain.report.iterations);
+        CHECK(sheet.energy_norm(difference(scaled, plain.x)) <= 1e-12 * sheet.energy_norm(plain.x));
+    }
+}
+
+TEST_CASE("Clothes of a few vertices are solved, free, pinned and touching") {
+    for (int count = 1; count <= 40; ++count) {
+        SheetSystem system(static_cast<unsigned>(count), rope(count), 0.03);
+        check_solution(system, 200);
+        system.touch_share(0.5, 0.1, 1e3);
+        check_solution(system, 200);
+        system.pin_share(0.2);
+        check_solution(system, 200);
+    }
+}
+
+TEST_CASE("Small sheets of any shape are solved") {
+    for (int columns = 2; columns <= 7; ++columns) {
+        for (int rows = 2; rows <= 6; ++rows) {
+            SheetSystem system(static_cast<unsigned>(columns), cloth_model(make_grid(0.3, 0.5, columns, rows), sheet_fabric()),
+                               0.02);
+            touch_and_pin(system);
+            check_solution(system, 200);
+        }
+    }
+}
+
+TEST_CASE("Several separate clothes are solved together") {
+    SheetSystem system(6, several_cloths(), 0.01);
+    check_solution(system, 100);
+    touch_and_pin(system);
+    check_solution(system, 200);
+}
+
+TEST_CASE("Masses a million times apart are solved") {
+    for (const int side : {9, 21, 33}) {
+        const ClothModel sheet = cloth_model(make_grid(1.0, 1.0, side, side), sheet_fabric());
+        SheetSystem system(static_cast<unsigned>(side), unequal_masses(static_cast<unsigned>(side), sheet), 0.2 / (side - 1));
+        check_solution(system, 200);
+        touch_and_pin(system);
+        check_solution(system, 400);
+    }
+}
+
+TEST_CASE("Springs as stiff as dt^2 k/m = 1e6 are solved") {
+    for (const double factor : {1e-3, 1.0, 100.0, 3000.0}) {
+        const ClothModel sheet = cloth_model(make_grid(1.0, 1.0, 17, 17), stiff_fabric(factor));
+        SheetSystem system(7, sheet, 0.1 / 16.0);
+        CAPTURE(factor, SheetSystem::dt * SheetSystem::dt * 1000.0 * factor / sheet.mass[40]);
+        check_solution(system, 200);
+        system.matrix.free[0] = system.matrix.free[16] = 0.0;
+        system.fill();
+        check_solution(system, 200);
+    }
+}
+
+TEST_CASE("A second solve in the same work space has the same bits, whatever was solved between") {
+    SheetSystem sheet(8, 21, 0.3), small(9, 5, 0.3), free(10, several_cloths(), 0.01);
+    MultigridSpace space;
+    const auto run = [&](const SheetSystem& system) {
+        Multigrid multigrid(compute, system.model.adjacency, system.model.rest);
+        multigrid.fill(system.matrix, Multigrid::Coarser::filled);
+        Vectors x = system.zeros();
+        CHECK(solve_multigrid(system.matrix, multigrid, system.right, {.relative_residual = 1e-7}, space, x).converged);
+        return x;
+    };
+    const Vectors first = run(sheet);
+    for (const SheetSystem* between : {&small, &free}) {
+        run(*between);
+        CHECK(same_bits(run(sheet), first));
+    }
+}
+
+}  // namespace percale::test

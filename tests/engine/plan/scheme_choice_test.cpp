@@ -1,0 +1,160 @@
+#include "engine/plan/scheme_choice.h"
+
+#include <cmath>
+#include <limits>
+
+#include "engine/schemes/schemes.h"
+#include "engine/plan/planning.h"
+#include "engine/step/step.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+World sheet(const StepSettings& settings, int side = 9, double stiffer = 1.0) {
+    Fabric fabric = sheet_fabric();
+    fabric.springs.structural *= stiffer;
+    fabric.springs.shear *= stiffer;
+    fabric.springs.bend *= stiffer;
+    fabric.spring_damping = 0.0;
+    const TriangleMesh grid = make_grid(1.0, 1.0, side, side);
+    World world = make_world(cloth_model(grid, fabric), grid.vertices, settings);
+    update_plan(world);
+    return world;
+}
+
+/// Largest speed after some steps from a small disturbance, without gravity.
+double speed_after(Scheme scheme, double dt, int steps) {
+    World world = sheet({.time_step = dt, .scheme = scheme, .gravity = Vec3::Zero()});
+    Random random(3);
+    for (int i = 0; i < world.model.vertex_count(); ++i) world.state.velocities.set(i, 1e-6 * random.point(1.0));
+    StepReport report;
+    for (int n = 0; n < steps && (n == 0 || report.ok()); ++n) report = step(world);
+    return report.ok() ? report.largest_speed : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+TEST_CASE("The stable step of a pair of masses is that of the oscillator, less what damping takes") {
+    const double m1 = 0.2, m2 = 0.3, omega = std::sqrt(40.0 * (1.0 / m1 + 1.0 / m2));
+    for (const double damping : {0.0, 0.5}) {
+        const World world = make_world(linked_masses({m1, m2}, {{0, 1, 1.0, 40.0, damping}}), {Vec3(0, 0, 0), Vec3(1, 0, 0)}, {});
+        const double zeta = 0.5 * damping * (1.0 / m1 + 1.0 / m2) / omega;
+        const double a = 2.0 * (std::sqrt(1.0 + zeta * zeta) - zeta);
+        CHECK(stable_step(world, Scheme::symplectic_euler) == Approx(a / omega).epsilon(1e-9));
+        CHECK(stable_step(world, Scheme::forward_euler) == 0.0);
+        CHECK(std::isinf(stable_step(world, Scheme::tr_bdf2)));
+    }
+}
+
+TEST_CASE("On a sheet steps are stable below the estimate and not far above it") {
+    for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4}) {
+        const double stable = stable_step(sheet({}), scheme);
+        CAPTURE(static_cast<int>(scheme), stable);
+        CHECK(speed_after(scheme, 0.93 * stable, 300) < 1e-4);
+        CHECK(speed_after(scheme, 1.1 * stable, 2000) > 1.0);
+    }
+}
+
+TEST_CASE("Steps of cloth of given moduli with hinges are stable below the estimate and not far above it") {
+    const auto speed = [](double share, int steps) {
+        Fabric fabric{.area_density = 0.2, .spring_damping = 0.0};
+        fabric.stretch_stiffness = {900.0, 700.0};
+        fabric.shear_stiffness = 100.0;
+        fabric.bend_stiffness = 1e-3;
+        StepSettings settings{.scheme = Scheme::symplectic_euler, .gravity = Vec3::Zero()};
+        const TriangleMesh grid = make_grid(1.0, 1.0, 9, 9);
+        ClothModel model;
+        append_cloth(model, grid, fabric, "cloth");
+        append_hinges_of_last_cloth(model, 1e-3);
+        finish_model(model);
+        World world = make_world(model, grid.vertices, settings);
+        world.settings.time_step = share * stable_step(world, settings.scheme);
+        Random random(3);
+        for (int i = 0; i < 81; ++i) world.state.velocities.set(i, 1e-6 * random.point(1.0));
+        StepReport report;
+        for (int n = 0; n < steps && (n == 0 || report.ok()); ++n) report = step(world);
+        return report.ok() ? report.largest_speed : std::numeric_limits<double>::infinity();
+    };
+    CHECK(speed(0.93, 300) < 1e-4);
+    CHECK(speed(1.1, 2000) > 1.0);
+}
+
+TEST_CASE("Steps far too long end in a status, never silently") {
+    World world = sheet({.time_step = 0.02, .scheme = Scheme::rk4});
+    StepReport report;
+    for (int n = 0; n < 1000 && (n == 0 || report.ok()); ++n) {
+        for (int i = 0; n == 0 && i < 81; i += 7) world.state.velocities.set(i, Vec3(0.1, 0.05 * i, -0.1));
+        report = step(world);
+    }
+    CHECK(report.status == StepStatus::not_finite);
+}
+
+TEST_CASE("The choice is explicit for coarse soft cloth, implicit for stiff or fine cloth and with contact") {
+    const auto chosen = [](World world) { return choose_scheme(world, scene_facts(world)); };
+    const SchemeChoice soft = chosen(sheet({.scheme = Scheme::automatic}, 5, 0.05));
+    CHECK(soft.scheme == Scheme::symplectic_euler);
+    CHECK(soft.parts >= 1);
+    CHECK(mentions(soft.reason, {"symplectic_euler", "backward_euler", "evaluations"}));
+    CHECK(chosen(sheet({.scheme = Scheme::automatic}, 33, 10.0)).scheme == Scheme::backward_euler);
+    CHECK(chosen(sheet({.adaptive = true, .scheme = Scheme::automatic}, 17, 100.0)).scheme == Scheme::tr_bdf2);
+    CHECK(chosen(sheet({.adaptive = true, .scheme = Scheme::automatic}, 5, 0.05)).scheme == Scheme::rk4);
+    World over = sheet({.scheme = Scheme::automatic}, 5, 0.05);
+    over.script.obstacles.push_back({"ball", {}, {}});
+    CHECK(choose_scheme(over, scene_facts(over)).scheme == Scheme::backward_euler);
+    over.settings.adaptive = true;
+    CHECK(choose_scheme(over, scene_facts(over)).scheme == Scheme::tr_bdf2);
+    over.settings.contact_response = ContactResponse::projection;
+    CHECK(choose_scheme(over, scene_facts(over)).scheme == Scheme::backward_euler);
+}
+
+TEST_CASE("What is chosen takes as many parts as it needs to be stable") {
+    World world = sheet({.time_step = 1.0 / 60.0, .scheme = Scheme::automatic}, 7, 0.1);
+    world.script.free[0] = 0.0;
+    for (int n = 0; n < 60; ++n) REQUIRE(step(world).ok());
+    CHECK(world.plan.scheme == Scheme::symplectic_euler);
+    CHECK(world.plan.parts > 1);
+    CHECK(world.report.smallest_dt == Approx(1.0 / 60.0 / world.plan.parts));
+    CHECK(world.report.largest_strain < 1.0);
+}
+
+TEST_CASE("Warnings name what will go wrong, and there are none where nothing will") {
+    const auto warnings = [](const StepSettings& settings, int side = 9) {
+        const World world = sheet(settings, side);
+        std::string text;
+        for (const std::string& warning : step_warnings(world, world.plan)) text += warning;
+        return text;
+    };
+    CHECK(warnings({}).empty());
+    CHECK(warnings({.time_step = 1e-4, .scheme = Scheme::rk4}).empty());
+    CHECK(mentions(warnings({.time_step = 0.02, .scheme = Scheme::rk4}), {"time_step 0.02 s", "rk4", "stable"}));
+    CHECK(mentions(warnings({.time_step = 1e-5, .scheme = Scheme::forward_euler}), {"forward_euler", "grow"}));
+    CHECK(mentions(warnings({.scheme = Scheme::trapezoid}), {"trapezoid", "tr_bdf2"}));
+    CHECK(mentions(warnings({.scheme = Scheme::implicit_midpoint}), {"implicit_midpoint", "gain energy"}));
+    CHECK(warnings({.time_step = 1e-3, .scheme = Scheme::trapezoid}).empty());
+    CHECK(warnings({.newton_iterations = 1}).empty());
+    CHECK(mentions(warnings({.newton_iterations = 1}, 65), {"newton_iterations = 1", "4225"}));
+}
+
+TEST_CASE("Slivers of cloth of moduli are warned of where the solver is iterative") {
+    const auto warned = [](double height, const Fabric& fabric, LinearSolver solver) {
+        TriangleMesh mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, height}, {0.5, 0, -0.5}},
+                          .triangles = {{0, 2, 1}, {0, 1, 3}}};
+        const World world = make_world(cloth_model(mesh, fabric), mesh.vertices, {.linear_solver = solver});
+        std::string text;
+        for (const std::string& warning : step_warnings(world, world.plan)) text += warning;
+        return text;
+    };
+    const Fabric moduli = fabric_preset("silk");
+    Fabric isotropic = moduli;
+    isotropic.stretch_stiffness = std::array{100.0, 100.0};
+    isotropic.shear_stiffness.reset();
+    CHECK(mentions(warned(0.005, isotropic, LinearSolver::multigrid), {"cloth 'cloth'", "200 times as long as high", "direct"}));
+    CHECK(warned(0.005, isotropic, LinearSolver::direct).empty());
+    CHECK(warned(0.005, isotropic, LinearSolver::automatic).empty());  // so few vertices are solved directly
+    CHECK(warned(0.02, isotropic, LinearSolver::multigrid).empty());
+    CHECK(warned(0.005, free_fabric(), LinearSolver::multigrid).empty());
+}
+
+}  // namespace percale::test
