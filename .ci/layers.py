@@ -1,18 +1,19 @@
 #!/usr/bin/env python3
 """Checks what the architecture promises: .ci/layers.py [ROOT].
 
-Include directions, cycles, a test file for every source, sizes, public headers, names and texts. One line a violation,
+Include directions, rings, a test file for every source, sizes, public headers, names, texts and words (words.py). One line a violation,
 `path:line: what (value, limit)`, then the statistics; exit code 1 if anything is wrong. Standard library only.
 """
 import math
 import re
 import subprocess
 import sys
-from collections import defaultdict
+from collections import Counter, defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
 from cpp_functions import Unbalanced, code_lines, find_functions, plain_code, without_comments_and_literals
+from words import check_glossary, check_readmes
 
 TOP_LEVEL = {'CMakeLists.txt', 'engine', 'collision', 'scenes', 'tests', 'data', 'README.md', 'LICENSE', 'CMakePresets.json',
              '.ci', '.github', '.clang-format', '.clang-tidy', '.editorconfig', '.gitignore', '.gitattributes'}
@@ -35,6 +36,14 @@ MAY_INCLUDE = {
 }
 # The rooms of scenes/, each of which may include itself and the rooms before it.
 SCENES_ROOMS = ['common', 'report', 'shapes', 'format', 'meshes', 'run', 'export', 'doctor', 'compare', 'stress', 'program']
+# Which folder of collision may include which other ones; tolerances.h all of them. What stands on top (detector.*) sees all, a
+# backend sees the top and what a tree is.
+COLLISION_FOLDERS = {
+    'geometry': set(), 'certificate': set(),
+    'obstacle': {'geometry', 'certificate'}, 'lists': {'geometry', 'obstacle'}, 'self': {'geometry'},
+    'untangle': {'geometry', 'certificate'},
+    **{backend: {'top', 'geometry', 'obstacle'} for backend in ('fcl', 'bullet', 'brute_force')},
+}
 # Header prefixes of other projects and the folders that may see them.
 OTHERS = [
     (r'fcl/', ('collision/fcl/', 'tests/collision/')),
@@ -56,6 +65,11 @@ MOST_FUNCTION_LINES, P90_FUNCTION_LINES, MEDIAN_FUNCTION_LINES = 60, 25, 8
 MOST_FILE_LINES, P90_FILE_LINES = 450, 300
 MOST_PARAMETERS, DEEPEST_NESTING = 6, 3
 MOST_FILE_BYTES = 1 << 20
+MOST_FOLDER_FILES = 25
+# Folders that may hold more files of their own, and why.
+LARGE_FOLDERS = {
+    'tests/fuzz/corpus/*': 'inputs that the fuzzers found and nobody reads',
+}
 
 SNAKE_CASE = re.compile(r'[a-z0-9_]+(?:\.[a-z0-9_]+)*$')
 FIXED_NAMES = {'README.md', 'CMakeLists.txt'}
@@ -181,6 +195,18 @@ def check_rooms(tree):
                 tree.complain(path, line, f'scenes/{room} must not include scenes/{other} ({name})')
 
 
+def check_collision_folders(tree):
+    folder_of = lambda path: path.split('/')[1] if path.count('/') > 1 else 'top'
+    for path in tree.code('collision'):
+        folder = folder_of(path)
+        for line, name, target in tree.includes[path]:
+            other = folder_of(target) if target and target.startswith('collision/') else folder
+            if target == 'collision/tolerances.h' or other in (folder, 'include') or folder == 'top':
+                continue
+            if other not in COLLISION_FOLDERS.get(folder, set()):
+                tree.complain(path, line, f'collision/{folder} must not include collision/{other} ({name})')
+
+
 def check_other_project(tree, path, line, name):
     if path.startswith('.ci/'):
         return
@@ -223,13 +249,43 @@ def cycles(graph):
     return found
 
 
+def module_names(tree):
+    """The module of each code file: x.cpp, x.h, x.inl and x_kernel.inl of a folder are one, named by folder/x. A public header
+    belongs to the source of its name in its layer."""
+    sources = {(path.split('/')[0], PurePosixPath(path).stem): path[:-4] for path in tree.code(*LIBRARY) if path.endswith('.cpp')}
+    names = {}
+    for path in tree.includes:
+        name = re.sub(r'(?:(?<=[^/])_kernel\.inl|\.\w+)$', '', path)
+        is_public = '/include/' in path
+        names[path] = sources.get((path.split('/')[0], PurePosixPath(path).stem), name) if is_public else name
+    return names
+
+
+def check_modules(tree):
+    """Modules, too, include in one direction; files that do not include each other may still make a ring of modules."""
+    names, graph = module_names(tree), defaultdict(set)
+    for path, includes in tree.includes.items():
+        graph[names[path]] |= {names[target] for _, _, target in includes if target in names} - {names[path]}
+    for ring in cycles(graph):
+        tree.complain(ring[0], 1, f'modules include each other ({", ".join(ring)})')
+
+
+def check_folder_sizes(tree):
+    sizes = Counter(str(PurePosixPath(path).parent) for path in tree.files)
+    for folder, size in sorted(sizes.items()):
+        if size > MOST_FOLDER_FILES and not any(PurePosixPath(folder).match(large) for large in LARGE_FOLDERS):
+            tree.complain(folder, 1, f'too many files in one folder ({size}, {MOST_FOLDER_FILES})')
+
+
 def check_cycles(tree):
     files, folders = defaultdict(set), defaultdict(set)
+    # A layer's tolerances.h includes nothing and is read by all folders: it counts as a folder of its own.
+    folder_of = lambda path: path if path.endswith('/tolerances.h') else str(PurePosixPath(path).parent)
     for path, includes in tree.includes.items():
         for _, _, target in includes:
             if target is not None:
                 files[path].add(target)
-                ends = [str(PurePosixPath(end).parent) for end in (path, target)]
+                ends = [folder_of(end) for end in (path, target)]
                 folders[ends[0]] |= {ends[1]} - {ends[0]}
     for ring in cycles(files):
         tree.complain(ring[0], 1, f'files include each other ({", ".join(ring)})')
@@ -330,10 +386,14 @@ def check_test_size(tree):
     return library, tests
 
 
+RULES = (check_top_level, check_directions, check_rooms, check_collision_folders, check_cycles, check_modules,
+         check_folder_sizes, check_mirror, check_public_headers, check_names, check_texts, check_readmes, check_glossary)
+
+
 def check(root):
     """Gives (violations, summary)."""
     tree = read_tree(Path(root))
-    for rule in (check_top_level, check_directions, check_rooms, check_cycles, check_mirror, check_public_headers, check_names, check_texts):
+    for rule in RULES:
         rule(tree)
     functions, files = check_functions(tree), check_files(tree)
     check_distribution(tree, 'p90 of function lines', functions, 0.9, P90_FUNCTION_LINES)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import layers
+import words as words_module
 from cpp_functions import Unbalanced, code_lines, count_parameters, find_functions
 
 CLEAN = {
@@ -92,6 +93,21 @@ class Rules(unittest.TestCase):
         self.assertEqual(layers.MAY_INCLUDE['scenes'], {'public', 'public_collision', 'scenes'})
         self.assertNotIn('public', layers.MAY_INCLUDE['support'])
 
+    def test_folders_of_collision(self):
+        header = {folder: f'collision/{folder}/a.h' for folder in layers.COLLISION_FOLDERS} | {'top': 'collision/detector.h'}
+        clean = {path: '#pragma once\n' for path in header.values()} | {'collision/tolerances.h': '#pragma once\n'}
+        for folder, path in header.items():
+            for other, target in header.items():
+                said = violations({**clean, path: f'#include "{target}"\n#include "collision/tolerances.h"\n'})
+                is_refused = any(f'collision/{folder} must not include collision/{other} ' in line for line in said)
+                allowed = folder == 'top' or other in layers.COLLISION_FOLDERS[folder] | {folder}
+                self.assertEqual(is_refused, not allowed, (folder, other, said))
+
+    def test_tolerances_of_a_layer_make_no_ring_of_folders(self):
+        changes = {'collision/detector.h': '#include "lists/a.h"\n', 'collision/lists/a.h': '#include "tolerances.h"\n'}
+        self.assertEqual(violations({**changes, 'collision/tolerances.h': '#pragma once\n'}), [])
+        self.assertIn('folders include each other', violations({**changes, 'collision/tolerances.h': '#include "detector.h"\n'})[1])
+
     def test_an_include_that_is_no_file(self):
         self.include_caught('scenes/scene.h', '"sceen.h"', 'is no file of the project')
 
@@ -115,7 +131,8 @@ class Rules(unittest.TestCase):
 
     def test_files_that_include_each_other(self):
         found = violations({'scenes/a.h': '#include "b.h"\n', 'scenes/b.h': '#include "c.h"\n', 'scenes/c.h': '#include "a.h"\n'})
-        self.assertEqual(found, ['scenes/a.h:1: files include each other (scenes/a.h, scenes/b.h, scenes/c.h)'])
+        self.assertEqual(found, ['scenes/a.h:1: files include each other (scenes/a.h, scenes/b.h, scenes/c.h)',
+                                 'scenes/a:1: modules include each other (scenes/a, scenes/b, scenes/c)'])
 
     def test_a_file_that_includes_itself(self):
         self.caught('scenes/a.h', '#include "a.h"\n', 'files include each other')
@@ -123,6 +140,46 @@ class Rules(unittest.TestCase):
     def test_folders_that_include_each_other(self):
         found = violations({'scenes/run.h': '#include "export/frames.h"\n'})
         self.assertEqual(found, ['scenes:1: folders include each other (scenes, scenes/export)'])
+
+    def test_modules_that_include_each_other(self):
+        small_tests = {f'tests/scenes/{name}_test.cpp': 'int x;\n' for name in 'ab'}
+        ring = {'scenes/a.h': 'int x;\n', 'scenes/b.h': 'int x;\n', 'scenes/a.cpp': '#include "b.h"\n', 'scenes/b.cpp': '#include "a.h"\n'}
+        self.assertEqual(violations({**ring, **small_tests}), ['scenes/a:1: modules include each other (scenes/a, scenes/b)'])
+        self.assertEqual(violations({**ring, **small_tests, 'scenes/b.cpp': '#include "b.h"\n'}), [])
+
+    def test_a_kernel_belongs_to_the_module_of_its_name(self):
+        ring = {'engine/model/a.h': 'int x;\n', 'engine/model/b.h': '#include "model/a.h"\n',
+                'engine/model/a_kernel.inl': '#include "model/b.h"\n'}
+        self.assertEqual(violations(ring), ['engine/model/a:1: modules include each other (engine/model/a, engine/model/b)'])
+
+    def test_a_public_header_belongs_to_the_source_of_its_name(self):
+        ring = {'engine/include/percale/world.h': '#pragma once\n', 'engine/world.cpp': '#include "step/run.h"\n',
+                'engine/step/run.h': '#include "percale/world.h"\n', 'tests/engine/world_test.cpp': 'int x;\n'}
+        self.assertEqual(violations(ring), ['engine/step/run:1: modules include each other (engine/step/run, engine/world)'])
+        self.assertEqual(violations({**ring, 'engine/world.cpp': 'int x;\n'}), [])
+
+    def test_three_modules_in_a_ring_are_one_violation(self):
+        ring = {f'tests/support/{a}.{end}': f'#include "{b}.h"\n' if end == 'cpp' else 'int x;\n'
+                for a, b in ('ab', 'bc', 'ca') for end in ('h', 'cpp')}
+        self.assertEqual(violations(ring), ['tests/support/a:1: modules include each other '
+                                            '(tests/support/a, tests/support/b, tests/support/c)'])
+
+    def test_files_in_one_folder(self):
+        self.assertEqual(violations({f'scenes/export/f{i}.h': 'int x;\n' for i in range(24)}), [])
+        found = violations({f'scenes/export/f{i}.h': 'int x;\n' for i in range(25)})
+        self.assertEqual(found, ['scenes/export:1: too many files in one folder (26, 25)'])
+        self.assertEqual(violations({f'tests/fuzz/corpus/obj/f{i}': 'x\n' for i in range(40)}), [])
+
+    def test_length_of_readmes(self):
+        self.assertEqual(violations({'scenes/README.md': 'x\n' * 80, 'README.md': 'x\n' * 120}), [])
+        self.caught('scenes/README.md', 'x\n' * 81, 'README too long (81 lines, 80)')
+        self.caught('README.md', 'x\n' * 121, 'README too long (121 lines, 120)')
+
+    def test_width_of_readmes(self):
+        wide = 'x' * 121
+        self.caught('scenes/README.md', f'a\n{wide}\n', 'README.md:2: line of a README too wide (121, 120)')
+        self.caught('scenes/README.md', f'```\n{wide}\n```\n{wide}\n', 'README.md:4: line')
+        self.assertEqual(violations({'README.md': f'{wide[1:]}\n| {wide} |\n\n    {wide}\n\n```sh\n{wide}\n```\n'}), [])
 
     def test_every_direction_between_the_rooms_of_scenes(self):
         for low, room in enumerate(layers.SCENES_ROOMS):
@@ -219,6 +276,53 @@ class Rules(unittest.TestCase):
             result = subprocess.run(program, capture_output=True, check=False, text=True)
             self.assertEqual(result.returncode, 1)
             self.assertIn('1 violations', result.stdout)
+
+
+class Glossary(unittest.TestCase):
+    """With a glossary of its own, so that these hold whatever words the project's has."""
+
+    def said(self, path, text, *words):
+        tree = layers.Tree(Path('.'), [path], {path: text})
+        words_module.check_glossary(tree, list(words))
+        return tree.violations
+
+    def test_an_identifier_is_searched_by_its_parts(self):
+        way = words_module.Word('way', 'displacement', ('engine',))
+        for name in ['way', 'ways', 'least_way', 'way_of_all', 'WayLimit', 'longestWay', 'way_', 'WAY_2']:
+            self.assertEqual(self.said('engine/a.h', f'int x;\nint {name};\n', way),
+                             [f'engine/a.h:2: "way" in {name}: the glossary says displacement'])
+        for name in ['always', 'wayward', 'away_from', 'Runway']:
+            self.assertEqual(self.said('engine/a.h', f'int {name};\n', way), [], name)
+
+    def test_words_of_several_parts(self):
+        word = words_module.Word('least_share', 'first_fraction', ('engine',))
+        self.assertEqual(len(self.said('engine/a.h', 'int the_least_share, LeastShare;\n', word)), 2)
+        self.assertEqual(self.said('engine/a.h', 'int least, share, least_of_share;\n', word), [])
+
+    def test_only_in_the_folders_of_a_word(self):
+        way = words_module.Word('way', 'displacement', ('engine',))
+        self.assertEqual(self.said('scenes/a.h', 'int way;\n', way), [])
+        self.assertEqual(self.said('engine_room/a.h', 'int way;\n', way), [])
+
+    def test_prose_only_where_told(self):
+        text = '// In this way.\nint x;  /* a way\n   or two Ways */\nconst char* s = "way";\n'
+        for in_prose, lines in ((False, []), (True, [1, 2, 3])):
+            said = self.said('engine/a.h', text, words_module.Word('way', 'displacement', ('engine',), in_prose))
+            self.assertEqual(said, [f'engine/a.h:{line}: "way": the glossary says displacement' for line in lines])
+
+    def test_prose_of_readmes(self):
+        word = words_module.Word('least_share', 'first fraction', ('engine',), True)
+        self.assertEqual(self.said('engine/README.md', 'x\nthe least share counts\n', word),
+                         ['engine/README.md:2: "least_share": the glossary says first fraction'])
+
+    def test_an_identifier_is_named_once_a_file(self):
+        way = words_module.Word('way', 'displacement', ('engine',))
+        self.assertEqual(len(self.said('engine/a.h', 'int way; int f() { return way; }\n', way)), 1)
+
+    def test_the_projects_glossary_is_checked(self):
+        word = words_module.GLOSSARY[0]
+        found = violations({f'{word.folders[0]}/thing.h': f'int {word.forbidden};\n'})
+        self.assertIn(f'the glossary says {word.instead}', '\n'.join(found))
 
 
 class FunctionFinder(unittest.TestCase):

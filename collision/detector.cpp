@@ -5,13 +5,13 @@
 #include <limits>
 #include <optional>
 
-#include "candidate_lists.h"
-#include "cut_floor.h"
-#include "list_passes.h"
-#include "pack_measure.h"
+#include "geometry/cut_floor.h"
+#include "lists/candidate_lists.h"
+#include "lists/list_passes.h"
+#include "lists/pack_measure.h"
 #include "percale/certify.h"
-#include "self_contact_detection.h"
-#include "untangle.h"
+#include "self/self_contact_detection.h"
+#include "untangle/untangle.h"
 
 namespace percale {
 namespace {

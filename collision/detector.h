@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "obstacle_tree.h"
+#include "obstacle/obstacle_tree.h"
 #include "percale/contact.h"
 
 namespace percale {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "obstacle_tree.h"
+#include "obstacle/obstacle_tree.h"
 
 namespace percale {
 

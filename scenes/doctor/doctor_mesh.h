@@ -1,6 +1,6 @@
 #pragma once
 
-#include "doctor/doctor.h"
+#include "doctor/finding.h"
 #include "meshes/mesh_facts.h"
 #include "percale/fabric.h"
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <string>
+
 #include "doctor/doctor.h"
 
 namespace percale::scenes {

@@ -5,12 +5,14 @@
 
 #include "common/text.h"
 #include "doctor/doctor_mesh.h"
+#include "format/scene_file.h"
 #include "percale/error.h"
 #include "run/motion_parts.h"
+#include "run/obstacle_motion.h"
 #include "run/run_scene.h"
 #include "run/scene_plan.h"
 #include "run/start_fault.h"
-#include "run/timeline.h"
+#include "run/step_count.h"
 
 namespace percale::scenes {
 namespace {

@@ -1,6 +1,11 @@
 #pragma once
 
-#include "doctor/doctor.h"
+#include <span>
+#include <string>
+#include <vector>
+
+#include "doctor/finding.h"
+#include "format/override.h"
 #include "percale/simulation.h"
 #include "run/scene_build.h"
 

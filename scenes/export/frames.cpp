@@ -8,6 +8,7 @@
 #include "common/whole_file.h"
 #include "meshes/obj_file.h"
 #include "percale/error.h"
+#include "run/obstacle_motion.h"
 
 namespace percale::scenes {
 
@@ -38,10 +39,6 @@ std::string numbered(const std::string& folder, const std::string& name, int ind
 }
 
 }  // namespace
-
-bool obstacle_moves(const ObstacleSpec& obstacle) {
-    return obstacle.motion.size() > 1 || (obstacle.spin && obstacle.spin->turns_per_s != 0.0);
-}
 
 FrameWriter::FrameWriter(const std::string& folder, const Scene& scene)
     : folder_(folder), cloth_names_(file_names("cloth", scene.cloths)), obstacle_names_(file_names("obstacle", scene.obstacles)) {

@@ -47,7 +47,4 @@ private:
     std::map<std::string, OutputFolder> folders_;
 };
 
-/// Whether an obstacle has more than one pose during a run.
-bool obstacle_moves(const ObstacleSpec& obstacle);
-
 }  // namespace percale::scenes

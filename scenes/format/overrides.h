@@ -1,6 +1,6 @@
 #pragma once
 
-#include "format/scene_file.h"
+#include "format/override.h"
 #include "format/toml_document.h"
 
 namespace percale::scenes {

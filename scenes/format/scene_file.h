@@ -5,17 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "format/override.h"
 #include "format/scene.h"
 
 namespace percale::scenes {
-
-/// One `--set KEY=VALUE`: a dotted key of the scene file and a TOML value (a bare word is taken as a string). An option that
-/// stands for a key, such as --fps, is named in messages in place of `--set KEY`.
-struct Override {
-    std::string key;
-    std::string value;
-    std::string option = {};
-};
 
 /// Reads a TOML scene file, overrides applied before anything is checked. Throws SceneError with "file:line:column: what",
 /// the allowed range or the nearest valid key. Keys and ranges: scene_keys.h.

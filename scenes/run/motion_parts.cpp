@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "run/timeline.h"
+#include "run/obstacle_motion.h"
 
 namespace percale::scenes {
 namespace {

@@ -96,11 +96,4 @@ RunResult run_scene(BuiltScene& built, const RunHooks& hooks = {}, const RunSett
 /// another number of vertices than the cloth.
 std::optional<std::vector<Vec3>> read_reference(const BuiltScene& built);
 
-/// Steps of a scene, undivided, and the length of the last one, s.
-struct StepCount {
-    long steps = 0;
-    double last_dt = 0.0;
-};
-StepCount count_steps(double duration, double time_step);
-
 }  // namespace percale::scenes

@@ -8,8 +8,8 @@
 #include "percale/error.h"
 #include "percale/fabric_presets.h"
 #include "run/event_script.h"
+#include "run/obstacle_motion.h"
 #include "run/start_fault.h"
-#include "run/timeline.h"
 #include "run/vertex_selection.h"
 
 namespace percale::scenes {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/text.h"
-#include "run/run_scene.h"
 #include "run/start_fault.h"
+#include "run/step_count.h"
 
 namespace percale::scenes {
 

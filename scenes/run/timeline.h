@@ -5,10 +5,6 @@
 
 namespace percale::scenes {
 
-/// Pose of an obstacle at a time: motion keyframes (linear, shortest way, constant outside) replace the pose's translation and
-/// rotation, the scale stays; a spin turns it about an axis of the world through the mesh's origin on top.
-Pose obstacle_pose_at(const ObstacleSpec& obstacle, double time);
-
 /// Drives the scripted part of a scene: events, pin paths, obstacle motion.
 class Timeline {
 public:

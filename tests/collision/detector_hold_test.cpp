@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "collision/detector.h"
-#include "collision/obstacle.h"
+#include "collision/obstacle/obstacle.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision_random.h"
 #include "tests/support/collision_scenes.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision/candidate_lists.h"
+#include "collision/lists/candidate_lists.h"
 #include "percale/mesh.h"
 
 namespace percale::test {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "collision/obstacle_tree.h"
+#include "collision/obstacle/obstacle_tree.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision_random.h"
 #include "tests/support/collision_shapes.h"

@@ -7,7 +7,7 @@
 #include "percale/detectors.h"
 #include "percale/error.h"
 #include "scenes/meshes/mesh_import.h"
-#include "scenes/run/timeline.h"
+#include "scenes/run/obstacle_motion.h"
 #include "scenes/shapes/spikes.h"
 #include "tests/support/bench_meshes.h"
 #include "tests/support/collision_shapes.h"

@@ -89,17 +89,6 @@ TEST_CASE("a resting obstacle is written once, a moving one in every frame") {
     CHECK(folder.file_count() == 3 + 1 + 3);
 }
 
-TEST_CASE("an obstacle moves if it has several keyframes or turns") {
-    CHECK_FALSE(obstacle_moves(obstacle("a", 0)));
-    CHECK_FALSE(obstacle_moves(obstacle("a", 1)));
-    CHECK(obstacle_moves(obstacle("a", 2)));
-    ObstacleSpec turning = obstacle("a", 0);
-    turning.spin = Spin{.axis = Vec3::UnitY(), .turns_per_s = 0.5, .from = 1.0};
-    CHECK(obstacle_moves(turning));
-    turning.spin->turns_per_s = 0.0;
-    CHECK_FALSE(obstacle_moves(turning));
-}
-
 TEST_CASE("names that cannot be part of a file name are refused before anything is written") {
     const TestFolder folder;
     const auto refused = [&](const std::string& name) {

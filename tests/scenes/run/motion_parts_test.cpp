@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "scenes/format/scene_file.h"
-#include "scenes/run/timeline.h"
+#include "scenes/run/obstacle_motion.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision_random.h"
 

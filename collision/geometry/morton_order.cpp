@@ -1,0 +1,45 @@
+#include "geometry/morton_order.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+namespace percale {
+namespace {
+
+/// Spreads the lowest 20 bits to every third one.
+std::uint64_t spread(std::uint64_t x) {
+    std::uint64_t result = 0;
+    for (int bit = 0; bit < 20; ++bit) result |= (x >> bit & 1U) << (3 * bit);
+    return result;
+}
+
+std::vector<std::uint64_t> morton_codes(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
+    Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+    for (const Vec3& x : positions) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    constexpr double most = 1048575.0;
+    const double extent = std::max((high - low).maxCoeff(), 1e-300);
+    std::vector<std::uint64_t> codes;
+    for (const auto& [a, b, c] : triangles) {
+        const Vec3 place = ((positions[a] + positions[b] + positions[c]) / 3.0 - low) / extent * most;
+        const Vec3 centre = place.cwiseMax(0.0).cwiseMin(most);  // by rounding it may lie outside, far if all are in one point
+        codes.push_back(spread(static_cast<std::uint64_t>(centre.x())) | spread(static_cast<std::uint64_t>(centre.y())) << 1 |
+                        spread(static_cast<std::uint64_t>(centre.z())) << 2);
+    }
+    return codes;
+}
+
+}  // namespace
+
+std::vector<int> morton_order(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
+    const std::vector<std::uint64_t> codes = morton_codes(triangles, positions);
+    std::vector<int> order(triangles.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return codes[a] < codes[b]; });
+    return order;
+}
+
+}  // namespace percale

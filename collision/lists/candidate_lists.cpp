@@ -1,0 +1,318 @@
+#include "lists/candidate_lists.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "lists/pack_measure.h"
+
+namespace percale {
+namespace {
+
+constexpr double skin_share = 0.4;    // of the thickness: room around a vertex before its lists are built anew
+constexpr double least_share = 1e-4;  // of a move: below it lists are built however many packs they hold
+constexpr double skin_of_way = 0.2;   // of the move the list is built for
+
+double skin(double thickness, double way) { return skin_share * thickness + skin_of_way * way; }
+
+/// How far a point inside a box is from its sides; negative outside.
+double depth(const Box& box, const Vec3& x) { return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff()); }
+
+}  // namespace
+
+void ListedPacks::clear() {
+    reach.clear();
+    wake.clear();
+    at.clear();
+}
+
+void ListedPacks::add(int cloth_feature, int number, double apart, double thickness) {
+    reach.push_back(below(apart));
+    wake.push_back(below(apart - thickness));
+    at.push_back({.feature = cloth_feature, .number = static_cast<unsigned>(number)});
+}
+
+void ListedPacks::hold(std::size_t i, unsigned lane, double thickness) {
+    at[i].held |= 1U << lane & 0xffU;
+    wake[i] = below(static_cast<double>(reach[i]) - thickness);
+}
+
+int total_version(const Obstacles& obstacles) {
+    int sum = static_cast<int>(obstacles.size());
+    for (const auto& obstacle : obstacles) sum += obstacle->version();
+    return sum;
+}
+
+CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
+                               std::span<const Vec3> positions)
+    : CandidateLists(triangles, vertex_thickness, positions, make_clusters(triangles, positions)) {}
+
+CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
+                               std::span<const Vec3> positions, ClothClusters clusters)
+    : triangles_(triangles.begin(), triangles.end()),
+      thickness_(vertex_thickness.begin(), vertex_thickness.end()),
+      clusters_(std::move(clusters)),
+      vertex_start_(1, 0),
+      lists_(clusters_.clusters.size()),
+      seen_(positions.begin(), positions.end()),
+      way_(positions.size(), 0.0),
+      cluster_way_(clusters_.clusters.size(), 0.0),
+      moved_(positions.size(), 0.0),
+      vertex_boxes_(positions.size()) {
+    for (std::size_t i = 0; i < lists_.size(); ++i) {
+        const std::vector<int>& all = clusters_.clusters[i].all_vertices;
+        vertices_.insert(vertices_.end(), all.begin(), all.end());
+        vertex_start_.push_back(static_cast<int>(vertices_.size()));
+        for (const int vertex : all) lists_[i].thickness = std::max(lists_[i].thickness, thickness_[vertex]);
+    }
+}
+
+bool CandidateLists::covers(std::size_t cluster, const ClothMove& move, int version) {
+    ClusterList& list = lists_[cluster];
+    if (list.version != version) return false;
+    const std::span<const int> vertices = vertices_of(cluster);
+    if (list.travel + cluster_way_[cluster] <= list.inside_until) return true;
+    double room = list.thickness, room_at_end = room;
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+        room = std::min(room, depth(list.boxes[k], move.from[vertices[k]]));
+        room_at_end = std::min(room_at_end, depth(list.boxes[k], move.to[vertices[k]]));
+    }
+    list.inside_until = list.travel + room;
+    return std::min(room, room_at_end) >= 0.0;
+}
+
+Box CandidateLists::set_boxes(std::size_t cluster, const ClothMove& move) {
+    ClusterList& list = lists_[cluster];
+    list.boxes.clear();
+    Box whole;
+    for (const int vertex : vertices_of(cluster)) {
+        Box& box = list.boxes.emplace_back();
+        box.add(move.from[vertex]);
+        box.add(move.to[vertex]);
+        box.grow(skin(list.thickness, way_[vertex]));
+        whole.add(box);
+    }
+    whole.grow(list.thickness);
+    list.inside_until = -1.0;
+    return whole;
+}
+
+/// Lists a cloth feature with those packs of its kind in near patches that can come within the thickness.
+void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list) {
+    const std::span<const int> vertices = pair.vertices();
+    Box room, now;
+    for (const int vertex : vertices) {
+        room.add(vertex_boxes_[vertex]);
+        now.add(move.from[vertex]);
+    }
+    room.grow(list.thickness);
+    const ObstaclePacks& packs = obstacle.packs();
+    const int feature = static_cast<int>(list.features.size());
+    const std::size_t before = list.packs.size();
+    for (const int patch : near_patches_) {
+        if (!packs.box[patch].overlaps(room)) continue;
+        const auto [first, last] = packs.packs_of(patch, pair.kind);
+        for (int number = first; number < last; ++number) {
+            const PackHull& hull = packs.hulls[number];
+            const Box box = hull.box();
+            if (!box.overlaps(room) || stays_above(hull, vertices, list.thickness)) continue;
+            const double apart = std::max(box.gap(now), height_above(hull, vertices, move.from));
+            list.packs.add(feature, number, apart, list.thickness);
+        }
+    }
+    if (list.packs.size() == before) return;
+    list.features.push_back(pair);
+    listed_ += static_cast<long>(list.packs.size() - before);
+}
+
+/// Whether the plane keeps the pack out of the thickness of vertices that stay in their boxes.
+bool CandidateLists::stays_above(const PackHull& hull, std::span<const int> vertices, double thickness) const {
+    const double enough = hull.offset + (1.0 + 1e-6) * thickness;
+    return std::all_of(vertices.begin(), vertices.end(), [&](int vertex) {
+        const Box& box = vertex_boxes_[vertex];
+        const Vec3 twice_centre = box.low + box.high, sides = box.high - box.low;
+        return 0.5 * (hull.normal.dot(twice_centre) - hull.normal.cwiseAbs().dot(sides)) > enough;
+    });
+}
+
+void CandidateLists::add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle) {
+    ClusterList& list = lists_[cluster];
+    const ClothCluster& features = clusters_.clusters[cluster];
+    for (std::size_t k = 0; k < features.all_vertices.size(); ++k) vertex_boxes_[features.all_vertices[k]] = list.boxes[k];
+    for (const int vertex : features.vertices) {
+        add_packs({.kind = PairKind::vertex_face, .cloth = {vertex, -1, -1}, .obstacle = obstacle_number}, move, obstacle, list);
+    }
+    for (const auto& [a, b] : features.edges) {
+        add_packs({.kind = PairKind::edge_edge, .cloth = {a, b, -1}, .obstacle = obstacle_number}, move, obstacle, list);
+    }
+    for (const int face : features.triangles) {
+        add_packs({.kind = PairKind::face_vertex,
+                   .cloth = triangles_[face],
+                   .edge_bits = clusters_.edge_owner_bits[face],
+                   .obstacle = obstacle_number},
+                  move, obstacle, list);
+    }
+}
+
+void CandidateLists::set_ways(const ClothMove& move) {
+    std::fill(cluster_way_.begin(), cluster_way_.end(), 0.0);
+    if (move.from.data() == move.to.data()) {
+        std::fill(way_.begin(), way_.end(), 0.0);
+        return;
+    }
+    for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = (move.to[i] - move.from[i]).norm();
+    for (std::size_t i = 0; i < lists_.size(); ++i) {
+        for (const int vertex : vertices_of(i)) cluster_way_[i] = std::max(cluster_way_[i], way_[vertex]);
+    }
+}
+
+/// Whether all cloth stays away from all obstacles' boxes. One look at the distance allows for that much way, so that cloth far
+/// away costs one pass over its vertices.
+bool CandidateLists::is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version) {
+    const auto stays = [&] {
+        const auto count = 3 * static_cast<long>(anchor_.size());
+        const auto way = [&](std::span<const Vec3> x) {
+            return std::sqrt(3.0) * pack_kernels().largest_difference(x[0].data(), anchor_[0].data(), count);
+        };
+        return way(move.from) < room_ && (move.to.data() == move.from.data() || way(move.to) < room_);
+    };
+    if (way_.empty()) return true;
+    if (!empty_) return false;
+    if (room_version_ == version && room_ > 0.0 && stays()) return true;
+    if (move.to.data() == move.from.data()) return false;
+    Box cloth;
+    for (const Vec3& x : move.from) cloth.add(x);
+    room_ = 1e300;
+    for (const auto& obstacle : obstacles) room_ = std::min(room_, cloth.gap(obstacle->whole_box()));
+    room_ -= *std::max_element(thickness_.begin(), thickness_.end());
+    room_version_ = version;
+    anchor_.assign(move.from.begin(), move.from.end());
+    return room_ > 0.0 && stays();
+}
+
+double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
+    const int version = total_version(obstacles);
+    if (is_out_of_reach(move, obstacles, version)) return 1.0;
+    advance(move.from, move.part.from, obstacles);
+    set_ways(move);
+    dirty_.clear();
+    held_.clear();
+    for (std::size_t i = 0; i < lists_.size(); ++i) {
+        if (covers(i, move, version)) continue;
+        dirty_.push_back(i);
+        keep_held(i, obstacles);
+        lists_[i].version = version;
+    }
+    if (dirty_.empty()) return 1.0;
+    double share = 1.0;
+    ClothMove covered = move;
+    while (!rebuild(covered, obstacles, share < least_share)) {
+        share *= 0.5;
+        shortened_.resize(move.from.size());
+        for (std::size_t i = 0; i < shortened_.size(); ++i) shortened_[i] = move.from[i] + share * (move.to[i] - move.from[i]);
+        covered.to = shortened_;
+        set_ways(covered);
+    }
+    if (share < 1.0) set_ways(move);
+    mark_held(obstacles);
+    empty_ = std::all_of(lists_.begin(), lists_.end(), [](const ClusterList& list) { return list.features.empty(); });
+    return share;
+}
+
+void CandidateLists::empty_dirty(const ClothMove& move) {
+    listed_ = 0;
+    asked_.clear();
+    for (const std::size_t i : dirty_) {
+        ClusterList& list = lists_[i];
+        list.features.clear();
+        list.packs.clear();
+        list.holds = false;
+        list.travel = 0.0;
+        asked_.push_back(set_boxes(i, move));
+    }
+}
+
+void CandidateLists::set_least(ClusterList& list) {
+    const ListedPacks& packs = list.packs;
+    const auto count = static_cast<long>(packs.size());
+    list.least_reach = static_cast<double>(pack_kernels().least(packs.reach.data(), count));
+    list.quiet_until = static_cast<double>(pack_kernels().least(packs.wake.data(), count));
+}
+
+/// Builds the dirty lists anew; false (and lists of no use) if they would hold too many packs, unless `whatever_it_takes`.
+bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes) {
+    const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 500000L + 40L * static_cast<long>(way_.size());
+    empty_dirty(move);
+    for (std::size_t number = 0; number < obstacles.size(); ++number) {
+        obstacles[number]->find(asked_, found_);
+        for (std::size_t k = 0; k < dirty_.size(); ++k) {
+            const int first = found_.start[k], count = found_.start[k + 1] - first;
+            if (count == 0) continue;
+            near_patches_ = std::span<const int>(found_.ids).subspan(first, count);
+            add_features(dirty_[k], static_cast<int>(number), move, *obstacles[number]);
+            if (listed_ > most) return false;
+        }
+    }
+    for (const std::size_t i : dirty_) set_least(lists_[i]);
+    return true;
+}
+
+void CandidateLists::keep_held(std::size_t cluster, const Obstacles& obstacles) {
+    const ClusterList& list = lists_[cluster];
+    if (!list.holds) return;
+    for (std::size_t i = 0; i < list.packs.size(); ++i) {
+        if (list.packs.at[i].held == 0) continue;
+        const ContactPair& feature = list.features[list.packs.at[i].feature];
+        const FeaturePack& pack = obstacles[feature.obstacle]->packs().packs[list.packs.at[i].number];
+        for (unsigned held = list.packs.at[i].held; held != 0; held &= held - 1) {
+            held_.emplace_back(cluster, feature.with(pack, std::countr_zero(held)));
+        }
+    }
+}
+
+/// What was a contact in a list stays one in the list that replaces it.
+void CandidateLists::mark_held(const Obstacles& obstacles) {
+    for (const auto& [cluster, held] : held_) {
+        ClusterList& list = lists_[cluster];
+        const int place = obstacles[held.obstacle]->packs().place_of[static_cast<int>(held.kind)][held.feature];
+        for (std::size_t f = 0; f < list.features.size(); ++f) {
+            const ContactPair& pair = list.features[f];
+            if (pair.kind == held.kind && pair.cloth == held.cloth && pair.obstacle == held.obstacle) hold(list, f, place);
+        }
+    }
+}
+
+/// Holds the lane at a place of ObstaclePacks::place_of, if the feature is listed with its pack.
+void CandidateLists::hold(ClusterList& list, std::size_t feature, int place) const {
+    std::vector<ListedPack>& packs = list.packs.at;
+    const auto first = std::partition_point(
+        packs.begin(), packs.end(), [&](const ListedPack& pack) { return static_cast<std::size_t>(pack.feature) < feature; });
+    for (std::size_t i = first - packs.begin(); i < packs.size() && static_cast<std::size_t>(packs[i].feature) == feature; ++i) {
+        if (static_cast<int>(packs[i].number) != place / pack_lanes) continue;
+        list.packs.hold(i, place % pack_lanes, thickness_[list.features[feature].cloth[0]]);
+        list.quiet_until = std::min(list.quiet_until, static_cast<double>(list.packs.wake[i]));
+        list.holds = true;
+    }
+}
+
+void CandidateLists::advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles) {
+    double way = 0.0;
+    for (const auto& obstacle : obstacles) way = std::max(way, obstacle->longest_way());
+    way *= std::abs(fraction - seen_fraction_);
+    double most = 0.0;
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+        moved_[i] = (positions[i] - seen_[i]).squaredNorm();
+        most = std::max(most, moved_[i]);
+    }
+    seen_fraction_ = fraction;
+    if (most == 0.0 && way == 0.0) return;
+    for (std::size_t i = 0; i < lists_.size(); ++i) {
+        double square = 0.0;
+        for (const int vertex : vertices_of(i)) square = std::max(square, moved_[vertex]);
+        lists_[i].travel += std::sqrt(square) + way;
+    }
+    std::copy(positions.begin(), positions.end(), seen_.begin());
+}
+
+}  // namespace percale

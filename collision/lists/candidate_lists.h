@@ -1,0 +1,149 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geometry/cloth_clusters.h"
+#include "lists/contact_pair.h"
+#include "obstacle/obstacle.h"
+#include "percale/saved_state.h"
+
+namespace percale {
+
+using Obstacles = std::vector<std::unique_ptr<Obstacle>>;
+
+/// The next number below in single precision, or one near it.
+inline float below(double x) { return static_cast<float>(x - 1e-6 * std::abs(x)); }
+
+/// The next number above in single precision, or one near it.
+inline float above(double x) { return static_cast<float>(x + 1e-6 * std::abs(x)); }
+
+/// A pack of obstacle features that can come near a cloth feature.
+struct ListedPack {
+    int feature = 0;           // of the cluster's list
+    unsigned number : 24 = 0;  // of the pack, among those of the feature's obstacle
+    unsigned held : 8 = 0;     // lanes that have been contacts since the last refresh: they stay so while they are near
+};
+
+/// The packs of a cluster, in the order of its features, with lower bounds that the list's travel uses up. Each bound has an
+/// array of its own, because it is all that is read of packs that stay away.
+struct ListedPacks {
+    std::vector<float> reach;  // m, least distance + travel when last measured: reach - travel is below all distances
+    std::vector<float> wake;   // m, while travel is below this, no pair of the pack is a row
+    std::vector<ListedPack> at;
+
+    std::size_t size() const { return reach.size(); }
+    void clear();
+    void add(int cloth_feature, int number, double apart, double thickness);
+    /// Nothing of the pack is nearer than `least`, and travel must grow by `to_contact` before anything new can be a contact.
+    void raise(std::size_t i, double least, double to_contact, double thickness, double travel) {
+        reach[i] = std::max(reach[i], below(least + travel));
+        const float near = below(static_cast<double>(reach[i]) - thickness);
+        wake[i] = std::max(wake[i], at[i].held != 0 ? near : std::max(near, below(to_contact + travel)));
+    }
+    void hold(std::size_t i, unsigned lane, double thickness);
+};
+
+/// All packs of obstacle features that can come closer to a cluster than the thickness while its vertices stay in their boxes.
+struct ClusterList {
+    std::vector<Box> boxes;             // one for each of the cluster's vertices (ClothCluster::all_vertices)
+    std::vector<ContactPair> features;  // by obstacle, kind, cloth feature; without an obstacle feature
+    ListedPacks packs;
+    double thickness = 0.0;      // m, largest of its vertices
+    double travel = 0.0;         // m, bound of how much any distance has shrunk since the list was made
+    double least_reach = 0.0;    // least ListedPacks::reach
+    double quiet_until = 0.0;    // least ListedPacks::wake
+    double inside_until = -1.0;  // m, travel up to which all vertices are surely in their boxes
+    bool holds = false;          // some lane is held
+    int version = -1;            // of the obstacles' motion it was built for
+};
+
+/// Tells all poses that the obstacles have had so far from any others.
+int total_version(const Obstacles& obstacles);
+
+/// Tells cloth and obstacles from others, wherever they are.
+std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vector<double>& vertex_thickness,
+                         const Obstacles& obstacles);
+
+/// Poses of the obstacles at the start and the end of a step, as they were saved. Throws SceneError for those of another size.
+std::vector<std::array<Pose, 2>> restored_poses(const Obstacles& obstacles, StateReader& state);
+
+/// Verlet lists: candidates of all cloth, rebuilt only where the cloth left its boxes or an obstacle moves.
+class CandidateLists {
+public:
+    CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
+                   std::span<const Vec3> positions);
+
+    /// Everything that later calls depend on; with the obstacles as they are now.
+    void save(const Obstacles& obstacles, StateWriter& state) const;
+    /// Lists as they were saved, of the same cloth and obstacles. Throws SceneError for what is none of these. Obstacles may
+    /// still be elsewhere, but must be where they were when `settle` is called, which is before anything else.
+    static CandidateLists restored(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
+                                   const Obstacles& obstacles, StateReader& state);
+    void settle(const Obstacles& obstacles);
+
+    /// Makes every list good for all states between two, and moves the lists' time to `move.from`. A move so long that its lists
+    /// would not fit into memory is covered in part: returns the share of it, from its start, that the lists are good for.
+    double cover(const ClothMove& move, const Obstacles& obstacles);
+
+    /// Tells the lists that cloth and obstacles are here now: shortens the bounds by what they moved.
+    void advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles);
+
+    /// Nothing is near any cluster.
+    bool empty() const { return empty_; }
+    std::span<const ClothCluster> clusters() const { return clusters_.clusters; }
+    std::span<ClusterList> lists() { return lists_; }
+    /// m, how far each vertex goes in the move that was covered last, and the farthest of a cluster.
+    std::span<const double> ways() const { return way_; }
+    double cluster_way(std::size_t cluster) const { return cluster_way_[cluster]; }
+    /// Sets the least bounds of a list whose packs' bounds have changed.
+    static void set_least(ClusterList& list);
+
+private:
+    CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, std::span<const Vec3> positions,
+                   ClothClusters clusters);
+    void check(const Obstacles& obstacles, const StateReader& state) const;
+    std::span<const int> vertices_of(std::size_t cluster) const {
+        return std::span(vertices_).subspan(vertex_start_[cluster], vertex_start_[cluster + 1] - vertex_start_[cluster]);
+    }
+    bool covers(std::size_t cluster, const ClothMove& move, int version);
+    Box set_boxes(std::size_t cluster, const ClothMove& move);
+    void add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle);
+    void add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list);
+    bool stays_above(const PackHull& hull, std::span<const int> vertices, double thickness) const;
+    bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes);
+    void empty_dirty(const ClothMove& move);
+    void keep_held(std::size_t cluster, const Obstacles& obstacles);
+    void mark_held(const Obstacles& obstacles);
+    void hold(ClusterList& list, std::size_t feature, int place) const;
+    bool is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version);
+    void set_ways(const ClothMove& move);
+
+    std::vector<Triangle> triangles_;
+    std::vector<double> thickness_;
+    ClothClusters clusters_;
+    std::vector<int> vertex_start_, vertices_;  // all vertices of each cluster, one after the other
+    std::vector<ClusterList> lists_;
+    std::vector<Vec3> seen_;                 // positions at the last advance
+    std::vector<double> way_, cluster_way_;  // m
+    std::vector<double> moved_;              // m^2, since the last advance
+    std::vector<Box> vertex_boxes_;          // valid while a cluster is built
+    std::span<const int> near_patches_;      // likewise, ascending
+    std::vector<std::size_t> dirty_;
+    std::vector<Box> asked_;
+    std::vector<std::pair<std::size_t, ContactPair>> held_;  // of the lists being replaced, with their clusters
+    IdLists found_;
+    std::vector<Vec3> shortened_;  // the end of the part of a long move that is covered
+    double seen_fraction_ = 0.0;
+    std::vector<Vec3> anchor_;  // positions from which nothing is in reach before some vertex has gone `room_`
+    double room_ = 0.0;         // m
+    int room_version_ = -1;     // of the obstacles' motion
+    bool empty_ = true;
+    long listed_ = 0;  // packs, while lists are built
+};
+
+}  // namespace percale

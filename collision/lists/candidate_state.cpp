@@ -1,0 +1,162 @@
+#include <algorithm>
+
+#include "lists/candidate_lists.h"
+
+namespace percale {
+
+template <class Archive, OfType<Box> Value>
+void exchange(Archive& archive, Value& box) {
+    archive(box.low, box.high);
+}
+
+template <class Archive, OfType<ContactPair> Value>
+void exchange(Archive& archive, Value& pair) {
+    archive.choice(pair.kind, 3);
+    archive(pair.cloth, pair.edge_bits, pair.obstacle);
+}
+
+template <class Archive, OfType<ListedPack> Value>
+void exchange(Archive& archive, Value& pack) {
+    std::uint32_t number_and_held = pack.number | static_cast<std::uint32_t>(pack.held) << 24;
+    archive(pack.feature, number_and_held);
+    if constexpr (Archive::reads) {
+        pack.number = number_and_held & 0xffffffU;
+        pack.held = number_and_held >> 24;
+    }
+}
+
+template <class Archive, OfType<ListedPacks> Value>
+void exchange(Archive& archive, Value& packs) {
+    archive(packs.reach, packs.wake, packs.at);
+}
+
+template <class Archive, OfType<ClusterList> Value>
+void exchange(Archive& archive, Value& list) {
+    archive(list.boxes, list.features, list.packs, list.travel, list.inside_until, list.version);
+}
+
+namespace {
+
+constexpr int settled_later = 0;  // version of lists that are good for the obstacles' poses
+
+/// Whether an order holds every number below `count` once.
+bool is_permutation_of(std::span<const int> order, std::size_t count) {
+    std::vector<bool> seen(count, false);
+    for (const int number : order) {
+        if (number < 0 || static_cast<std::size_t>(number) >= count || seen[number]) return false;
+        seen[number] = true;
+    }
+    return order.size() == count;
+}
+
+bool is_good(const ContactPair& pair, std::size_t vertices, const Obstacles& obstacles) {
+    const auto cloth = pair.vertices();
+    const bool known = std::all_of(cloth.begin(), cloth.end(),
+                                   [&](int vertex) { return vertex >= 0 && static_cast<std::size_t>(vertex) < vertices; });
+    const bool rest_unused =
+        std::all_of(pair.cloth.begin() + pair.cloth_count(), pair.cloth.end(), [](int v) { return v == -1; });
+    return known && rest_unused && pair.obstacle >= 0 && static_cast<std::size_t>(pair.obstacle) < obstacles.size();
+}
+
+/// Whether all arrays are of one length and the packs are those of the features, one after the other.
+bool are_in_order(const ClusterList& list) {
+    const ListedPacks& packs = list.packs;
+    if (packs.wake.size() != packs.size() || packs.at.size() != packs.size()) return false;
+    if (packs.size() == 0) return true;
+    const auto before = [](const ListedPack& a, const ListedPack& b) { return a.feature < b.feature; };
+    return packs.at.front().feature >= 0 && static_cast<std::size_t>(packs.at.back().feature) < list.features.size() &&
+           std::is_sorted(packs.at.begin(), packs.at.end(), before);
+}
+
+/// Whether there is every pack and it is of its feature's kind.
+bool has_good_packs(const ClusterList& list, const Obstacles& obstacles) {
+    for (std::size_t i = 0; i < list.packs.size(); ++i) {
+        const ContactPair& feature = list.features[list.packs.at[i].feature];
+        const std::vector<FeaturePack>& packs = obstacles[feature.obstacle]->packs().packs;
+        const std::size_t number = list.packs.at[i].number;
+        if (number >= packs.size() || packs[number].kind != feature.kind) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vector<double>& vertex_thickness,
+                         const Obstacles& obstacles) {
+    StateWriter writer;
+    writer(triangles, vertex_thickness);
+    for (const auto& obstacle : obstacles) {
+        writer(obstacle->surface().triangles, obstacle->friction());
+        for (const Vec3& x : obstacle->local_vertices()) writer(x);
+    }
+    return checksum(writer.take());
+}
+
+std::vector<std::array<Pose, 2>> restored_poses(const Obstacles& obstacles, StateReader& state) {
+    std::vector<std::array<Pose, 2>> poses;
+    for (const auto& obstacle : obstacles) {
+        state(poses.emplace_back());
+        const double scale = obstacle->start_pose().scale;
+        state.demand(poses.back()[0].scale == scale && poses.back()[1].scale == scale, "an obstacle of another size");
+    }
+    return poses;
+}
+
+void CandidateLists::save(const Obstacles& obstacles, StateWriter& state) const {
+    const int version = total_version(obstacles);
+    std::vector<int> order;
+    for (const ClothCluster& cluster : clusters_.clusters) {
+        order.insert(order.end(), cluster.triangles.begin(), cluster.triangles.end());
+    }
+    std::vector<ClusterList> lists = lists_;
+    for (ClusterList& list : lists) list.version = list.version == version ? settled_later : -1;
+    state(order, lists, seen_, seen_fraction_, anchor_, room_, room_version_ == version, empty_);
+}
+
+CandidateLists CandidateLists::restored(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
+                                        const Obstacles& obstacles, StateReader& state) {
+    std::vector<int> order;
+    std::vector<ClusterList> saved;
+    std::vector<Vec3> seen;
+    state(order, saved, seen);
+    state.demand(is_permutation_of(order, triangles.size()), "no order of the triangles");
+    state.demand(seen.size() == vertex_thickness.size(), "a wrong number of vertices");
+    CandidateLists lists(triangles, vertex_thickness, seen, make_clusters(triangles, seen.size(), order));
+    state.demand(saved.size() == lists.lists_.size(), "a wrong number of lists");
+    for (std::size_t i = 0; i < saved.size(); ++i) saved[i].thickness = lists.lists_[i].thickness;
+    lists.lists_ = std::move(saved);
+    bool room_is_known = false;
+    state(lists.seen_fraction_, lists.anchor_, lists.room_, room_is_known, lists.empty_);
+    lists.room_version_ = room_is_known ? settled_later : -1;
+    lists.check(obstacles, state);
+    for (ClusterList& list : lists.lists_) {
+        set_least(list);
+        list.holds =
+            std::any_of(list.packs.at.begin(), list.packs.at.end(), [](const ListedPack& pack) { return pack.held != 0; });
+    }
+    return lists;
+}
+
+void CandidateLists::settle(const Obstacles& obstacles) {
+    const int version = total_version(obstacles);
+    for (ClusterList& list : lists_) list.version = list.version == settled_later ? version : -1;
+    room_version_ = room_version_ == settled_later ? version : -1;
+}
+
+void CandidateLists::check(const Obstacles& obstacles, const StateReader& state) const {
+    state.demand(anchor_.empty() || anchor_.size() == seen_.size(), "a wrong number of vertices");
+    state.demand(!anchor_.empty() || room_version_ != settled_later, "room about nothing");
+    for (std::size_t cluster = 0; cluster < lists_.size(); ++cluster) {
+        const ClusterList& list = lists_[cluster];
+        state.demand(list.boxes.empty() ? list.features.empty() && list.version != settled_later
+                                        : list.boxes.size() == vertices_of(cluster).size(),
+                     "a wrong number of boxes");
+        for (const ContactPair& feature : list.features) {
+            state.demand(is_good(feature, seen_.size(), obstacles), "a feature that there is not");
+        }
+        state.demand(are_in_order(list), "packs of no feature");
+        state.demand(has_good_packs(list, obstacles), "a pack that there is not");
+    }
+}
+
+}  // namespace percale

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+
+#include "lists/contact_pair.h"
+
+namespace percale {
+
+/// The kernels of the widest instruction set that the processor has and PERCALE_INSTRUCTIONS in the environment allows.
+const PackKernels& pack_kernels();
+
+/// What is asked about a cloth feature and a pack: m.
+struct PackLimits {
+    double near = 0.0;
+    double thickness = 0.0;
+};
+
+/// Bounds for the cloth feature of `pair` and all features of a pack that is placed where the obstacle is.
+PackAnswer measure(const ContactPair& pair, std::span<const Vec3> cloth, const PlacedPack& placed, const PackLimits& limits);
+
+}  // namespace percale

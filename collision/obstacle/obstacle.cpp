@@ -1,0 +1,102 @@
+#include "obstacle/obstacle.h"
+
+#include <algorithm>
+
+namespace percale {
+namespace {
+
+/// The point whose image under the pose is `x`.
+Vec3 inverse_transform(const Pose& pose, const Vec3& x) {
+    const Rotation& q = pose.rotation;
+    const Pose back{.translation = Vec3::Zero(), .rotation = {q.w, -q.x, -q.y, -q.z}, .scale = 1.0 / pose.scale};
+    return transform(back, x - pose.translation);
+}
+
+}  // namespace
+
+Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree)
+    : mesh_(mesh), built_(pose), start_pose_(pose), end_pose_(pose), friction_(friction) {
+    surface_ = make_surface(mesh.vertices, mesh.triangles);
+    local_ = surface_.vertices;
+    start_ = transform(pose, local_);
+    end_ = start_;
+    surface_.vertices = start_;
+    packs_ = make_packs(surface_);
+    set_pack_boxes();
+    make_patch_tree(make_tree);
+}
+
+/// A tree of patches has a sixteenth of the leaves, and what it finds is what the lists want.
+void Obstacle::make_patch_tree(TreeFactory make_tree) {
+    boxes_ = packs_.box;
+    for (const Box& box : boxes_) {
+        const int first = static_cast<int>(stand_in_corners_.size());
+        stand_in_corners_.push_back(box.low);
+        stand_in_corners_.push_back(box.high);
+        stand_ins_.push_back({first, first + 1, first});
+    }
+    tree_ = make_tree(stand_in_corners_, stand_ins_);
+}
+
+void Obstacle::set_pack_boxes() {
+    set_boxes(packs_, surface_, paths());
+    whole_box_ = {};
+    for (const Box& box : packs_.box) whole_box_.add(box);
+}
+
+void Obstacle::move(const Pose& start, const Pose& end) {
+    const bool stays = start == start_pose_ && end == end_pose_ && start == end;
+    if (stays && !moves_) return;
+    ++version_;
+    start_pose_ = start;
+    end_pose_ = end;
+    moves_ = start != end;
+    away_ = start != built_;
+    longest_way_ = 0.0;
+    for (std::size_t i = 0; i < local_.size(); ++i) {
+        start_[i] = transform(start, local_[i]);
+        end_[i] = moves_ ? transform(end, local_[i]) : start_[i];
+        longest_way_ = std::max(longest_way_, (end_[i] - start_[i]).norm());
+    }
+    set_pack_boxes();
+}
+
+Box Obstacle::to_tree(const Box& box) const {
+    Box grown = box;
+    grown.grow(longest_way_);
+    if (!away_) return grown;
+    Box turned;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 x((corner & 1 ? grown.high : grown.low).x(), (corner & 2 ? grown.high : grown.low).y(),
+                     (corner & 4 ? grown.high : grown.low).z());
+        turned.add(transform(built_, inverse_transform(start_pose_, x)));
+    }
+    // Two rotations round off; a billionth of the coordinates' size is far above that.
+    turned.grow(1e-9 * (turned.low.cwiseAbs().maxCoeff() + turned.high.cwiseAbs().maxCoeff()));
+    return turned;
+}
+
+void Obstacle::find(std::span<const Box> boxes, IdLists& found) {
+    asked_.clear();
+    for (const Box& box : boxes) asked_.push_back(to_tree(box));
+    tree_->find(asked_, raw_);
+    found.start.assign(1, 0);
+    found.ids.clear();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const auto first = static_cast<long>(found.ids.size());
+        for (int k = raw_.start[i]; k < raw_.start[i + 1]; ++k) {
+            const int patch = raw_.ids[k];
+            if (boxes_[patch].overlaps(asked_[i]) && packs_.box[patch].overlaps(boxes[i])) found.ids.push_back(patch);
+        }
+        std::sort(found.ids.begin() + first, found.ids.end());
+        found.start.push_back(static_cast<int>(found.ids.size()));
+    }
+}
+
+TriangleMesh Obstacle::given_mesh() const {
+    TriangleMesh placed = mesh_;
+    placed.vertices = transform(start_pose_, mesh_.vertices);
+    return placed;
+}
+
+}  // namespace percale

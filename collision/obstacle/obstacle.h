@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+
+#include "obstacle/obstacle_packs.h"
+#include "obstacle/obstacle_surface.h"
+#include "obstacle/obstacle_tree.h"
+
+namespace percale {
+
+/// One obstacle in motion. Within a step each vertex runs straight from its place at the start to its place at the end.
+class Obstacle {
+public:
+    /// `pose` places the mesh (its scale included); the tree is built there, once.
+    Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree);
+
+    void move(const Pose& start, const Pose& end);
+
+    const ObstacleSurface& surface() const { return surface_; }
+    double friction() const { return friction_; }
+    bool moves() const { return moves_; }
+    /// m, longest way of a vertex in the coming step.
+    double longest_way() const { return longest_way_; }
+    /// At the two ends of the coming step.
+    const Pose& start_pose() const { return start_pose_; }
+    const Pose& end_pose() const { return end_pose_; }
+    /// The cleaned vertices without the pose, m.
+    std::span<const Vec3> local_vertices() const { return local_; }
+    /// Counts the poses it has had: lists made for another one are no longer good.
+    int version() const { return version_; }
+
+    Vec3 at(int vertex, double fraction) const {
+        return moves_ ? Vec3(start_[vertex] + fraction * (end_[vertex] - start_[vertex])) : start_[vertex];
+    }
+    /// Asks memory for a vertex.
+    void fetch(int vertex) const { __builtin_prefetch(&start_[vertex]); }
+    Vec3 displacement(int vertex) const { return moves_ ? Vec3(end_[vertex] - start_[vertex]) : Vec3(Vec3::Zero()); }
+
+    const ObstaclePacks& packs() const { return packs_; }
+    /// Box of everything during the whole step, m, world.
+    const Box& whole_box() const { return whole_box_; }
+    /// A pack at a fraction of the step; placed when first asked for.
+    const PlacedPack& placed(int pack, double fraction) { return place(packs_, pack, surface_, paths(), fraction); }
+
+    /// Patches whose boxes come near each world box during the step, ascending and the same for every kind of tree.
+    void find(std::span<const Box> boxes, IdLists& found);
+    /// The mesh at the start of the step, as it was given (not cleaned).
+    TriangleMesh given_mesh() const;
+
+private:
+    Box to_tree(const Box& box) const;
+    void set_pack_boxes();
+    void make_patch_tree(TreeFactory make_tree);
+    VertexPaths paths() const { return {start_, moves_ ? end_ : start_}; }
+
+    TriangleMesh mesh_;
+    ObstacleSurface surface_;        // vertices where the tree was built
+    std::vector<Vec3> local_;        // cleaned vertices before the pose
+    std::vector<Vec3> start_, end_;  // m, world
+    ObstaclePacks packs_;
+    Box whole_box_;
+    std::vector<Box> boxes_;  // of the patches where the tree was built
+    std::vector<Vec3> stand_in_corners_;
+    std::vector<Triangle> stand_ins_;  // one triangle for each patch, with the patch's box: what the tree holds
+    std::unique_ptr<ObstacleTree> tree_;
+    std::vector<Box> asked_;  // work space of find
+    IdLists raw_;
+    Pose built_, start_pose_, end_pose_;
+    double friction_ = 0.0;
+    double longest_way_ = 0.0;
+    int version_ = 0;
+    bool moves_ = false;
+    bool away_ = false;  // not where the tree was built
+};
+
+}  // namespace percale

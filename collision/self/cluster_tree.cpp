@@ -1,0 +1,36 @@
+#include "self/cluster_tree.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace percale {
+
+void ClusterTree::refit(std::span<const Box> boxes) {
+    leaves_ = std::bit_ceil(std::max<std::size_t>(boxes.size(), 1));
+    nodes_.resize(2 * leaves_);
+    std::copy(boxes.begin(), boxes.end(), nodes_.begin() + static_cast<long>(leaves_));
+    std::fill(nodes_.begin() + static_cast<long>(leaves_ + boxes.size()), nodes_.end(), Box{});
+    for (std::size_t k = leaves_ - 1; k > 0; --k) {
+        nodes_[k] = nodes_[2 * k];
+        nodes_[k].add(nodes_[2 * k + 1]);
+    }
+}
+
+void ClusterTree::find_pairs(std::vector<std::pair<int, int>>& pairs) const {
+    pairs.clear();
+    std::vector<std::pair<std::size_t, std::size_t>> open{{1, 1}};  // nodes of one level
+    while (!open.empty()) {
+        const auto [a, b] = open.back();
+        open.pop_back();
+        if (!nodes_[a].overlaps(nodes_[b])) continue;
+        if (a >= leaves_) {
+            pairs.emplace_back(static_cast<int>(a - leaves_), static_cast<int>(b - leaves_));
+            continue;
+        }
+        open.insert(open.end(), {{2 * a, 2 * b}, {2 * a, 2 * b + 1}, {2 * a + 1, 2 * b + 1}});
+        if (a != b) open.emplace_back(2 * a + 1, 2 * b);
+    }
+    std::sort(pairs.begin(), pairs.end());
+}
+
+}  // namespace percale

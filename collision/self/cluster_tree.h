@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geometry/box.h"
+
+namespace percale {
+
+/// A complete binary tree of boxes over items 0 ... n - 1 in the order given: good where items that follow each other lie near
+/// each other. Refitted, never rebuilt.
+class ClusterTree {
+public:
+    /// Takes the items' boxes; all items if their number has changed.
+    void refit(std::span<const Box> boxes);
+
+    /// All pairs (a, b) with a <= b of items whose boxes overlap, (a, a) included, in ascending order.
+    void find_pairs(std::vector<std::pair<int, int>>& pairs) const;
+
+private:
+    std::vector<Box> nodes_;  // node 1 is the root, the children of k are 2k and 2k + 1; leaves begin at leaves_
+    std::size_t leaves_ = 0;
+};
+
+}  // namespace percale

@@ -1,0 +1,109 @@
+#include "self/self_contact_detection.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/cut_floor.h"
+#include "percale/certify.h"
+
+namespace percale {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Whether a distance stays above its floor while it shrinks by `way`.
+bool stays_clear(double distance, double thickness, double way) { return distance - floor_below(distance, thickness) > way; }
+
+}  // namespace
+
+SelfContactDetection::SelfContactDetection(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
+                                           const SelfContact& cloth)
+    : lists_(triangles, vertex_thickness, cloth), friction_(cloth.friction.begin(), cloth.friction.end()) {
+    for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
+        if (cloth.cloth[triangles[t][0]] >= 0) met_triangles_.push_back(t);
+    }
+}
+
+StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) const {
+    TriangleMesh cloth{.vertices = {positions.begin(), positions.end()}, .triangles = {}};
+    for (const int t : met_triangles_) cloth.triangles.push_back(lists_.surface().triangles[t]);
+    const ClothCertificate certificate = certify_cloth(cloth);
+    const auto& pairs = certificate.crossing.empty() ? certificate.touching : certificate.crossing;
+    if (pairs.empty()) return {};
+    StartFault fault;
+    fault.intersecting_pairs = static_cast<int>(certificate.crossing.size());
+    fault.cloth_triangle = met_triangles_[pairs[0].first];
+    fault.other_cloth_triangle = met_triangles_[pairs[0].second];
+    return fault;
+}
+
+void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) {
+    for (const SelfList& list : lists_.lists()) {
+        for (SelfPair& pair : lists_.pairs(list)) pair.zone = 0.0;
+    }
+    lists_.cover(start, predicted);
+}
+
+double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRows& rows) {
+    lists_.cover(positions, positions);
+    double smallest = infinity;
+    for (SelfList& list : lists_.lists()) {
+        if (list.least_reach - list.travel >= list.thickness) continue;
+        list.least_reach = infinity;
+        for (SelfPair& pair : lists_.pairs(list)) {
+            if (pair.reach - list.travel < pair.thickness) smallest = std::min(smallest, measure(list, pair, positions, rows));
+            list.least_reach = std::min(list.least_reach, pair.reach);
+        }
+    }
+    return smallest;
+}
+
+/// Measures a pair and adds its row; returns its distance, or infinity if it has none.
+double SelfContactDetection::measure(const SelfList& list, SelfPair& pair, std::span<const Vec3> positions,
+                                     ContactRows& rows) const {
+    const SelfPairContact contact = self_contact(pair, positions, lists_.surface());
+    pair.reach = contact.distance + list.travel;
+    const double zone = contact.share * pair.thickness;
+    // As with obstacles, a contact stays one until the next refresh.
+    if (pair.zone == 0.0 && contact.distance < zone) pair.zone = zone;
+    if (contact.distance >= pair.zone) return infinity;
+    add_row(pair, contact, rows);
+    return contact.distance;
+}
+
+void SelfContactDetection::add_row(const SelfPair& pair, const SelfPairContact& contact, ContactRows& rows) const {
+    rows.vertex.push_back(pair.vertex);
+    rows.weight.push_back(contact.weight);
+    rows.direction.push_back(contact.direction);
+    rows.obstacle_point.push_back(Vec3::Zero());
+    rows.obstacle_displacement.push_back(Vec3::Zero());
+    rows.distance.push_back(contact.distance);
+    rows.thickness.push_back(pair.zone);
+    rows.friction.push_back(0.5 * (friction_[pair.vertex[0]] + friction_[pair.vertex[3]]));
+    rows.share.push_back(1.0);
+    rows.obstacle.push_back(-1);
+    rows.feature.push_back(pair.shape == PairShape::edge_edge ? 2 : 1);
+}
+
+double SelfContactDetection::largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to) {
+    double safe = lists_.cover(from, to);
+    lists_.set_motion(from, to);
+    for (SelfList& list : lists_.lists()) safe = cut(list, from, to, safe);
+    return safe;
+}
+
+/// Lowers `safe` where a pair of the list needs it.
+double SelfContactDetection::cut(const SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe) {
+    const double way = lists_.shrink(list);
+    if (stays_clear(list.least_reach - list.travel, list.thickness, way * safe)) return safe;
+    for (SelfPair& pair : lists_.pairs(list)) {
+        if (stays_clear(pair.reach - list.travel, pair.thickness, way * safe)) continue;
+        const double distance = self_distance(pair, from);
+        pair.reach = distance + list.travel;
+        if (stays_clear(distance, pair.thickness, way * safe)) continue;
+        safe = safe_time(moving_pair(pair, from, to), pair.shape, floor_below(distance, pair.thickness), safe);
+    }
+    return safe;
+}
+
+}  // namespace percale

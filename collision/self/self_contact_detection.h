@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "self/self_contact_lists.h"
+
+namespace percale {
+
+/// Contact of cloth with cloth: candidate lists, rows and cuts.
+class SelfContactDetection {
+public:
+    SelfContactDetection(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, const SelfContact& cloth);
+
+    /// The first pair of cloth triangles that cross, or touch without being neighbours; exact.
+    StartFault check_start(std::span<const Vec3> positions) const;
+
+    /// As those of ContactDetector.
+    void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted);
+    double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to);
+
+    /// Appends rows; returns the smallest distance of those, m, or infinity.
+    double add_rows(std::span<const Vec3> positions, ContactRows& rows);
+
+    /// As those of SelfContactLists.
+    void save(StateWriter& state) const { lists_.save(state); }
+    void restore(StateReader& state) { lists_.restore(state); }
+
+private:
+    double cut(const SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe);
+    double measure(const SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows) const;
+    void add_row(const SelfPair& pair, const SelfPairContact& contact, ContactRows& rows) const;
+
+    SelfContactLists lists_;
+    std::vector<double> friction_;
+    std::vector<int> met_triangles_;  // of cloth that meets cloth
+};
+
+}  // namespace percale

@@ -1,0 +1,66 @@
+#include <algorithm>
+
+#include "self/self_contact_lists.h"
+
+namespace percale {
+
+template <class Archive, OfType<SelfList> Value>
+void exchange(Archive& archive, Value& list) {
+    archive(list.first, list.second, list.begin, list.end, list.travel, list.least_reach, list.thickness);
+}
+
+template <class Archive, OfType<SelfPair> Value>
+void exchange(Archive& archive, Value& pair) {
+    archive.choice(pair.shape, 2);
+    archive(pair.vertex, pair.feature, pair.thickness, pair.zone, pair.reach);
+}
+
+namespace {
+
+bool below(int number, std::size_t count) { return number >= 0 && static_cast<std::size_t>(number) < count; }
+
+/// The vertices of two features, the first -1 where there are no such features.
+std::array<int, 4> vertices_of(const SelfPair& pair, const ClothSurface& surface) {
+    const auto [first, second] = pair.feature;
+    if (pair.shape == PairShape::edge_edge) {
+        if (!below(first, surface.edges.size()) || !below(second, surface.edges.size())) return {-1};
+        const auto &a = surface.edges[first].vertex, &b = surface.edges[second].vertex;
+        return {a[0], a[1], b[0], b[1]};
+    }
+    if (!below(first, surface.vertex_owner.size()) || !below(second, surface.triangles.size())) return {-1};
+    const Triangle& face = surface.triangles[second];
+    return {first, face[0], face[1], face[2]};
+}
+
+/// Whether a pair is of two features that share no vertex.
+bool is_good(const SelfPair& pair, const ClothSurface& surface) {
+    if (pair.vertex[0] < 0 || pair.vertex != vertices_of(pair, surface)) return false;
+    std::array<int, 4> sorted = pair.vertex;
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+}
+
+}  // namespace
+
+void SelfContactLists::save(StateWriter& state) const { state(start_, way_, seen_, lists_, pairs_, made_); }
+
+void SelfContactLists::restore(StateReader& state) {
+    state(start_, way_, seen_, lists_, pairs_, made_);
+    check(state);
+}
+
+void SelfContactLists::check(const StateReader& state) const {
+    for (const auto* positions : {&start_, &way_, &seen_}) {
+        state.demand(positions->size() == rest_.size(), "a wrong number of vertices");
+    }
+    std::size_t next = 0;
+    for (const SelfList& list : lists_) {
+        state.demand(below(list.first, clusters_.size()) && below(list.second, clusters_.size()), "a cluster that there is not");
+        state.demand(list.begin == next && list.begin < list.end && list.end <= pairs_.size(), "pairs that there are not");
+        next = list.end;
+    }
+    state.demand(next == pairs_.size(), "pairs of no list");
+    for (const SelfPair& pair : pairs_) state.demand(is_good(pair, surface_), "a pair that there is not");
+}
+
+}  // namespace percale

@@ -1,0 +1,114 @@
+#include "self/self_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/triangle_distance.h"
+
+namespace percale {
+namespace {
+
+constexpr double rounding = 1e-9;
+constexpr double flat_slope = 0.05;        // sine below which faces count as flat against a contact
+constexpr double least_angle_sine = 0.03;  // edges at smaller angles are left to their ends
+
+PointTriangle vertex_on_face(const SelfPair& pair, std::span<const Vec3> x) {
+    return closest_on_triangle(x[pair.vertex[0]], x[pair.vertex[1]], x[pair.vertex[2]], x[pair.vertex[3]]);
+}
+
+EdgeEdge edge_on_edge(const SelfPair& pair, std::span<const Vec3> x) {
+    return closest_on_edges(x[pair.vertex[0]], x[pair.vertex[1]], x[pair.vertex[2]], x[pair.vertex[3]]);
+}
+
+void set_direction(const Vec3& apart, SelfPairContact& contact) {
+    contact.distance = apart.norm();
+    if (contact.distance > 0.0) contact.direction = apart / contact.distance;
+}
+
+/// Whether cloth at `foot` goes away from what lies in the direction `towards`, on to a neighbouring vertex; up to rounding, so
+/// that above an edge of flat cloth at least one triangle stands for the contact.
+bool falls(const Vec3& neighbour, const Vec3& foot, const Vec3& towards) {
+    const Vec3 way = neighbour - foot;
+    return way.dot(towards) <= rounding * way.norm();
+}
+
+bool edge_stands(const ClothSurface& surface, int triangle, int edge_index, const Vec3& foot, const Vec3& towards,
+                 std::span<const Vec3> x) {
+    const ClothSurface::Edge& edge = surface.edges[edge_index];
+    if (edge.triangle[0] != triangle) return false;
+    return edge.triangle[1] < 0 || falls(x[edge.opposite[1]], foot, towards);
+}
+
+bool vertex_stands(const ClothSurface& surface, int triangle, int vertex, const Vec3& towards, std::span<const Vec3> x) {
+    if (surface.vertex_owner[vertex] != triangle) return false;
+    const std::span<const int> ring = surface.neighbours(vertex);
+    return std::all_of(ring.begin(), ring.end(), [&](int next) { return falls(x[next], x[vertex], towards); });
+}
+
+SelfPairContact vertex_face(const SelfPair& pair, std::span<const Vec3> x, const ClothSurface& surface) {
+    const PointTriangle closest = vertex_on_face(pair, x);
+    SelfPairContact contact{.weight = {1.0, -closest.weight[0], -closest.weight[1], -closest.weight[2]}};
+    set_direction(x[pair.vertex[0]] - closest.point, contact);
+    const int triangle = pair.feature[1];
+    bool stands = true;
+    if (closest.region == TriangleRegion::edge) {
+        const int edge = surface.triangle_edges[triangle][closest.corner];
+        stands = edge_stands(surface, triangle, edge, closest.point, contact.direction, x);
+    } else if (closest.region == TriangleRegion::vertex) {
+        const int corner = pair.vertex[1 + closest.corner];
+        // Of two vertices the one with the lower number is the vertex, the other the corner of a face.
+        stands = pair.vertex[0] < corner && vertex_stands(surface, triangle, corner, contact.direction, x);
+    }
+    contact.share = stands ? 1.0 : 0.0;
+    return contact;
+}
+
+/// How an edge crosses another that lies in the direction `towards`: 1 as a ridge or boundary, 1/2 in flat cloth, 0 in a valley.
+double edge_share(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& towards, std::span<const Vec3> x) {
+    double share = 1.0;
+    for (const int vertex : edge.opposite) {
+        if (vertex < 0 || edge.opposite[1] < 0) continue;
+        const Vec3 way = x[vertex] - foot;
+        const double rise = way.dot(towards), level = flat_slope * way.norm();
+        if (rise > -level) share = std::min(share, rise > level ? 0.0 : 0.5);
+    }
+    return share;
+}
+
+SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const ClothSurface& surface) {
+    const EdgeEdge closest = edge_on_edge(pair, x);
+    const double s = closest.s, t = closest.t;
+    const Vec3 &a = x[pair.vertex[0]], &b = x[pair.vertex[1]], &c = x[pair.vertex[2]], &d = x[pair.vertex[3]];
+    SelfPairContact contact{.weight = {1.0 - s, s, t - 1.0, -t}};
+    const Vec3 first = a + s * (b - a), second = c + t * (d - c);
+    set_direction(first - second, contact);
+    if (contact.distance >= pair.thickness) return contact;
+    const double limit = least_angle_sine * least_angle_sine * (b - a).squaredNorm() * (d - c).squaredNorm();
+    const bool cross = (b - a).cross(d - c).squaredNorm() > limit;
+    if (!cross || s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0) return contact;
+    contact.share = std::min(edge_share(surface.edges[pair.feature[0]], first, -contact.direction, x),
+                             edge_share(surface.edges[pair.feature[1]], second, contact.direction, x));
+    return contact;
+}
+
+}  // namespace
+
+double self_distance(const SelfPair& pair, std::span<const Vec3> positions) {
+    const bool edges = pair.shape == PairShape::edge_edge;
+    return std::sqrt(edges ? edge_on_edge(pair, positions).distance_squared : vertex_on_face(pair, positions).distance_squared);
+}
+
+SelfPairContact self_contact(const SelfPair& pair, std::span<const Vec3> positions, const ClothSurface& surface) {
+    return pair.shape == PairShape::edge_edge ? edge_edge(pair, positions, surface) : vertex_face(pair, positions, surface);
+}
+
+MovingFour moving_pair(const SelfPair& pair, std::span<const Vec3> from, std::span<const Vec3> to) {
+    MovingFour four;
+    for (int k = 0; k < 4; ++k) {
+        four.from[k] = from[pair.vertex[k]];
+        four.to[k] = to[pair.vertex[k]];
+    }
+    return four;
+}
+
+}  // namespace percale

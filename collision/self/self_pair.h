@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "geometry/time_of_impact.h"
+#include "self/cloth_surface.h"
+
+namespace percale {
+
+/// Two features of cloth that share no vertex: a vertex and a face, or two edges.
+struct SelfPair {
+    PairShape shape = PairShape::point_triangle;
+    std::array<int, 4> vertex{-1, -1, -1, -1};  // the vertex and the face's corners; the ends of both edges
+    std::array<int, 2> feature{-1, -1};         // vertex and triangle; two edges
+    double thickness = 0.0;                     // m, below it they may be in contact
+    double zone = 0.0;                          // m, where its contact began since the last refresh; 0: it is none
+    double reach = 0.0;  // distance + travel when last measured: reach - travel bounds the distance from below
+};
+
+/// The exact closest points of a pair.
+struct SelfPairContact {
+    double distance = 0.0;           // m
+    std::array<double, 4> weight{};  // of the pair's vertices: > 0 on the first side, < 0 on the second, sum 0
+    Vec3 direction = Vec3::Zero();   // unit, second side towards first
+    /// Share of the thickness from which on the pair stands for the contact: 1 where it is a local minimum of the distance
+    /// (closest points inside the face, or on its edges and corners where the faces around fall away; inside two edges that cross
+    /// as ridges), 1/2 for edges that cross in flat cloth, where vertices and faces meet first, else 0. Of closest points that
+    /// several pairs share one pair has them. Not filled in for edges farther apart than the pair's thickness.
+    double share = 0.0;
+};
+
+/// m.
+double self_distance(const SelfPair& pair, std::span<const Vec3> positions);
+
+SelfPairContact self_contact(const SelfPair& pair, std::span<const Vec3> positions, const ClothSurface& surface);
+
+MovingFour moving_pair(const SelfPair& pair, std::span<const Vec3> from, std::span<const Vec3> to);
+
+}  // namespace percale

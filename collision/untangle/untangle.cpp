@@ -1,0 +1,315 @@
+#include "untangle/untangle.h"
+
+#include <algorithm>
+
+#include "geometry/signed_depth_convex.h"
+#include "untangle/untangle_spread.h"
+
+namespace percale {
+namespace {
+
+constexpr double most_stretch = 0.5;
+constexpr int most_patches = 256;
+constexpr int most_rounds = 60;       // of one way
+constexpr double reach_growth = 1.5;  // where a way was not long enough
+constexpr int refinements = 4;        // halvings of the last such growth
+constexpr int most_failures = 64;     // in a row, of obstacles that cloth cannot be pushed out of at once
+constexpr long most_searches = 4000;  // of conflicts: what takes more is given up
+
+/// A state on the way to one that is clear.
+struct Tangle {
+    const TangledCloth& cloth;
+    std::span<const SolidObstacle> obstacles;
+    std::vector<Vec3> positions;
+    std::vector<int> behind;    // obstacle, -1
+    std::vector<double> limit;  // m, farthest that a vertex may move
+    mutable long searches = 0;  // how often conflicts were looked for
+
+    std::vector<int> conflicts(std::span<const Vec3> places, const std::vector<bool>& moved) const {
+        ++searches;
+        return find_conflicts(cloth, obstacles, places, moved);
+    }
+};
+
+struct Patch {
+    std::vector<int> vertices;
+    std::vector<int> deep;  // those that are inside or behind
+    int obstacle = -1;
+    double margin = 0.0;  // m, what is to be left between cloth and obstacle
+};
+
+/// One side to leave by: along `way`, or by the nearest place of the surface.
+struct Way {
+    bool nearest = false;
+    Vec3 way = Vec3::Zero();
+    double reach = 0.0;  // m, the first to try
+};
+
+struct Attempt {
+    std::vector<Vec3> positions;
+    std::vector<bool> moved;
+    double largest_move = 0.0, stretch = 0.0;
+
+    bool tears() const { return stretch > most_stretch; }
+    bool better_than(const Attempt& other) const {
+        if (tears() != other.tears()) return other.tears();
+        return tears() ? stretch < other.stretch : largest_move < other.largest_move;
+    }
+};
+
+/// For each vertex the obstacle that it is in conflict with or behind, -1.
+std::vector<int> conflicts_of(const Tangle& tangle) {
+    std::vector<int> conflict = tangle.conflicts(tangle.positions, {});
+    for (std::size_t v = 0; v < conflict.size(); ++v) {
+        if (tangle.behind[v] >= 0) conflict[v] = tangle.behind[v];
+    }
+    return conflict;
+}
+
+void add_vertex(const Tangle& tangle, int vertex, int obstacle, Patch& patch) {
+    patch.vertices.push_back(vertex);
+    patch.margin = std::max(patch.margin, tangle.cloth.thickness[vertex]);
+    const bool deep = tangle.behind[vertex] >= 0 || tangle.obstacles[obstacle].inside(tangle.positions[vertex]);
+    if (deep) patch.deep.push_back(vertex);
+}
+
+/// The connected vertices in conflict that hold the lowest such vertex; empty where there are none.
+Patch first_patch(const Tangle& tangle, std::vector<int> conflict) {
+    Patch patch;
+    const auto first = std::find_if(conflict.begin(), conflict.end(), [](int obstacle) { return obstacle >= 0; });
+    if (first == conflict.end()) return patch;
+    patch.obstacle = *first;
+    std::vector<int> waiting{static_cast<int>(first - conflict.begin())};
+    while (!waiting.empty()) {
+        const int v = waiting.back();
+        waiting.pop_back();
+        if (conflict[v] < 0) continue;
+        add_vertex(tangle, v, conflict[v], patch);
+        conflict[v] = -1;
+        waiting.insert(waiting.end(), tangle.cloth.neighbours[v].begin(), tangle.cloth.neighbours[v].end());
+    }
+    std::sort(patch.vertices.begin(), patch.vertices.end());
+    return patch;
+}
+
+/// A direction and its opposite, unless they are there already.
+void add_both(const Vec3& direction, std::vector<Vec3>& directions) {
+    if (!(direction.norm() > 0.0)) return;
+    for (const Vec3& way : {Vec3(direction.normalized()), Vec3(-direction.normalized())}) {
+        const auto same = [&](const Vec3& other) { return other.dot(way) > 0.999; };
+        if (std::none_of(directions.begin(), directions.end(), same)) directions.push_back(way);
+    }
+}
+
+Vec3 cloth_normal(const Tangle& tangle, const Patch& patch) {
+    Vec3 normal = Vec3::Zero();
+    const auto in_patch = [&](int v) { return std::binary_search(patch.vertices.begin(), patch.vertices.end(), v); };
+    for (const Triangle& t : tangle.cloth.triangles) {
+        if (!std::any_of(t.begin(), t.end(), in_patch)) continue;
+        const auto& x = tangle.positions;
+        normal += (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    }
+    return normal;
+}
+
+Vec3 obstacle_normal(const SolidObstacle& obstacle) {
+    Vec3 normal = Vec3::Zero();
+    for (const certificate::Corners& t : obstacle.triangles()) normal += (t[1] - t[0]).cross(t[2] - t[0]);
+    return normal;
+}
+
+std::vector<Vec3> possible_directions(const Tangle& tangle, const Patch& patch) {
+    const SolidObstacle& obstacle = tangle.obstacles[patch.obstacle];
+    std::vector<Vec3> points, directions;
+    for (const int v : patch.vertices) points.push_back(tangle.positions[v]);
+    if (const auto overlap = hull_overlap(points, obstacle.vertices())) add_both(overlap->direction, directions);
+    add_both(cloth_normal(tangle, patch), directions);
+    if (!obstacle.watertight()) add_both(obstacle_normal(obstacle), directions);
+    for (int axis = 0; axis < 3; ++axis) add_both(Vec3::Unit(axis), directions);
+    return directions;
+}
+
+/// How far the deepest vertex of a patch has to go along a direction, m; nothing where most do not come out there.
+std::optional<double> reach_along(const Tangle& tangle, const Patch& patch, const Vec3& direction) {
+    const SolidObstacle& obstacle = tangle.obstacles[patch.obstacle];
+    double reach = 0.0;
+    std::size_t lost = 0;
+    for (const int v : patch.deep) {
+        const std::optional<double> exit = obstacle.exit(tangle.positions[v], direction);
+        reach = std::max(reach, exit.value_or(0.0));
+        lost += exit ? 0 : 1;
+    }
+    if (2 * lost > patch.deep.size()) return std::nullopt;
+    return reach + patch.margin;
+}
+
+/// The shortest first.
+std::vector<Way> possible_ways(const Tangle& tangle, const Patch& patch) {
+    std::vector<Way> ways;
+    for (const Vec3& direction : possible_directions(tangle, patch)) {
+        if (const auto reach = reach_along(tangle, patch, direction)) ways.push_back({false, direction, *reach});
+    }
+    std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.reach < b.reach; });
+    if (tangle.obstacles[patch.obstacle].watertight()) ways.insert(ways.begin(), {true, Vec3::Zero(), patch.margin});
+    return ways;
+}
+
+/// What leaves, and how.
+struct Plan {
+    int obstacle;
+    const Way& way;
+    const std::vector<bool>& core;
+};
+
+Attempt attempt(const Tangle& tangle, const Plan& plan, double reach) {
+    const auto& [obstacle, way, core] = plan;
+    const std::vector<Vec3>& x = tangle.positions;
+    std::vector<Vec3> moves(x.size(), Vec3::Zero());
+    for (std::size_t v = 0; v < x.size(); ++v) {
+        if (!core[v]) continue;
+        moves[v] = way.nearest ? Vec3(tangle.obstacles[obstacle].pushed_out(x[v], reach) - x[v]) : Vec3(reach * way.way);
+    }
+    spread_moves(tangle.cloth, x, core, tangle.limit, moves);
+    Attempt result{.positions = x, .moved = std::vector<bool>(x.size())};
+    for (std::size_t v = 0; v < x.size(); ++v) {
+        result.positions[v] += moves[v];
+        result.moved[v] = result.positions[v] != x[v];
+        result.largest_move = std::max(result.largest_move, moves[v].norm());
+    }
+    result.stretch = largest_stretch(tangle.cloth, x, result.positions);
+    return result;
+}
+
+/// Adds what is in conflict among the moved vertices to the core; whether anything is in conflict, and whether any is new.
+struct Growth {
+    bool conflict = false, grown = false;
+};
+
+Growth grow_core(const Tangle& tangle, const Attempt& tried, std::vector<bool>& core) {
+    const std::vector<int> conflict = tangle.conflicts(tried.positions, tried.moved);
+    Growth growth;
+    for (std::size_t v = 0; v < core.size(); ++v) {
+        if (conflict[v] < 0 || !(tried.moved[v] || core[v])) continue;
+        growth.conflict = true;
+        growth.grown = growth.grown || !core[v];
+        core[v] = true;
+    }
+    return growth;
+}
+
+struct Reaches {
+    double too_short, enough;
+};
+
+/// The move of `good`, which is enough, brought nearer to one that is too short.
+Attempt shortened(const Tangle& tangle, const Plan& plan, Reaches reaches, Attempt good) {
+    for (int k = 0; k < refinements && reaches.too_short < reaches.enough; ++k) {
+        const double middle = 0.5 * (reaches.too_short + reaches.enough);
+        Attempt shorter = attempt(tangle, plan, middle);
+        std::vector<bool> core = plan.core;
+        const bool enough = !grow_core(tangle, shorter, core).conflict;
+        (enough ? reaches.enough : reaches.too_short) = middle;
+        if (enough) good = std::move(shorter);
+    }
+    return good;
+}
+
+/// Follows one way until the patch and what moves with it is clear; nothing where that takes a move of `most` or more.
+std::optional<Attempt> follow(const Tangle& tangle, const Patch& patch, const Way& way, double most) {
+    std::vector<bool> core(tangle.positions.size());
+    for (const int v : patch.vertices) core[v] = true;
+    double reach = way.reach, too_short = way.reach;
+    const double farthest = way.nearest ? 8.0 * patch.margin : most;
+    for (int round = 0; round < most_rounds && reach < farthest && tangle.searches < most_searches; ++round) {
+        Attempt found = attempt(tangle, {patch.obstacle, way, core}, reach);
+        if (found.largest_move >= most) return std::nullopt;
+        const Growth growth = grow_core(tangle, found, core);
+        if (!growth.conflict) return shortened(tangle, {patch.obstacle, way, core}, {too_short, reach}, std::move(found));
+        too_short = reach;
+        if (!growth.grown) reach *= reach_growth;
+    }
+    return std::nullopt;
+}
+
+/// Length of the diagonal of everything, m.
+double extent(const Tangle& tangle) {
+    certificate::Box box;
+    for (const Vec3& x : tangle.positions) box.add(x);
+    for (const SolidObstacle& obstacle : tangle.obstacles) box.add(obstacle.tree().bounds());
+    return (box.high - box.low).norm();
+}
+
+std::optional<Attempt> best_attempt(const Tangle& tangle, const Patch& patch) {
+    const double everything = extent(tangle);
+    std::optional<Attempt> best;
+    for (const Way& way : possible_ways(tangle, patch)) {
+        const double most = best && !best->tears() ? best->largest_move : everything;
+        std::optional<Attempt> found = follow(tangle, patch, way, most);
+        if (found && (!best || found->better_than(*best))) best = std::move(found);
+    }
+    return best;
+}
+
+bool holds_fixed(const Tangle& tangle, const Patch& patch) {
+    return std::any_of(patch.deep.begin(), patch.deep.end(), [&](int v) { return !(tangle.cloth.free[v] > 0.0); });
+}
+
+void accept(Attempt found, int obstacle, Tangle& tangle, std::vector<int>& cause) {
+    for (std::size_t v = 0; v < cause.size(); ++v) {
+        if (found.moved[v]) cause[v] = obstacle;
+    }
+    tangle.positions = std::move(found.positions);
+}
+
+enum class Shallow { nothing_to_do, pushed_out, no_way };
+
+/// All patches of a closed obstacle at once to the nearest places of its surface, if that tears nothing: garments overlap bodies
+/// a little in hundreds of places.
+/// `conflict` is of the state as it is.
+Shallow push_out_shallow(int obstacle, const std::vector<int>& conflict, Tangle& tangle, std::vector<int>& cause) {
+    if (!tangle.obstacles[obstacle].watertight()) return Shallow::nothing_to_do;
+    Patch all{.vertices = {}, .deep = {}, .obstacle = obstacle};
+    for (std::size_t v = 0; v < conflict.size(); ++v) {
+        if (conflict[v] == obstacle) add_vertex(tangle, static_cast<int>(v), obstacle, all);
+    }
+    if (all.vertices.empty()) return Shallow::nothing_to_do;
+    const Patch first = first_patch(tangle, conflict);
+    if (first.obstacle == obstacle && first.vertices.size() == all.vertices.size()) return Shallow::nothing_to_do;
+    std::optional<Attempt> found = follow(tangle, all, {.nearest = true, .reach = all.margin}, extent(tangle));
+    if (!found || found->tears()) return Shallow::no_way;
+    accept(std::move(*found), obstacle, tangle, cause);
+    return Shallow::pushed_out;
+}
+
+}  // namespace
+
+std::optional<Untangled> untangle(const TangledCloth& cloth, std::span<const SolidObstacle> obstacles,
+                                  std::span<const Vec3> positions) {
+    Tangle tangle{.cloth = cloth,
+                  .obstacles = obstacles,
+                  .positions = {positions.begin(), positions.end()},
+                  .behind = find_behind(cloth, obstacles, positions),
+                  .limit = distance_from_fixed(cloth, positions)};
+    std::vector<int> cause(positions.size(), -1);
+    std::vector<int> conflict = conflicts_of(tangle);
+    int failed = 0;
+    for (int k = 0; k < static_cast<int>(obstacles.size()) && failed < most_failures; ++k) {
+        const Shallow end = push_out_shallow(k, conflict, tangle, cause);
+        if (end == Shallow::nothing_to_do) continue;
+        failed = end == Shallow::no_way ? failed + 1 : 0;
+        if (end == Shallow::pushed_out) conflict = conflicts_of(tangle);
+    }
+    for (int round = 0; round < most_patches; ++round) {
+        const Patch patch = first_patch(tangle, std::move(conflict));
+        if (patch.vertices.empty()) return Untangled{.positions = std::move(tangle.positions), .obstacle = std::move(cause)};
+        if (holds_fixed(tangle, patch)) return std::nullopt;
+        std::optional<Attempt> found = best_attempt(tangle, patch);
+        if (!found) return std::nullopt;
+        accept(std::move(*found), patch.obstacle, tangle, cause);
+        for (const int v : patch.vertices) tangle.behind[v] = -1;
+        conflict = conflicts_of(tangle);
+    }
+    return std::nullopt;
+}
+
+}  // namespace percale

@@ -1,0 +1,215 @@
+#include "untangle/untangle_check.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "certificate/triangle_gap.h"
+#include "certificate/triangle_overlap.h"
+
+namespace percale {
+namespace {
+
+using certificate::Box;
+using certificate::BoxTree;
+using certificate::Corners;
+using certificate::Overlap;
+
+/// Part of the thickness that moved cloth keeps from obstacles.
+constexpr double least_gap = 0.25;
+
+/// Disjoint sets of vertices, each known by its lowest member.
+class Parts {
+public:
+    explicit Parts(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+    int of(int vertex) {
+        while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
+        return vertex;
+    }
+    void join(int a, int b) {
+        const int x = of(a), y = of(b);
+        parent_[std::max(x, y)] = std::min(x, y);
+    }
+
+private:
+    std::vector<int> parent_;
+};
+
+Corners corners(std::span<const Vec3> x, const Triangle& t) { return {x[t[0]], x[t[1]], x[t[2]]}; }
+
+/// The cloth's triangles in a tree, their boxes grown by the gap that they have to keep.
+struct PlacedCloth {
+    std::vector<Corners> triangles;
+    std::vector<double> gap;
+    std::vector<certificate::Slab> slab;  // of triangles with a gap
+    BoxTree tree;
+
+    /// Whether a triangle with a gap is nearer than it to one that it does not meet; a bound tells it of most.
+    bool is_too_near(int i, const Corners& other) const {
+        const double surely_far = gap[i] * (1.0 + 1e-9);
+        if (certificate::triangle_separation(triangles[i], slab[i], other, surely_far) > surely_far) return false;
+        return certificate::triangle_distance(triangles[i], other) < gap[i];
+    }
+};
+
+PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std::vector<bool>& moved) {
+    std::vector<Corners> triangles;
+    std::vector<double> gaps;
+    std::vector<certificate::Slab> slabs;
+    std::vector<Box> boxes;
+    for (const Triangle& t : cloth.triangles) {
+        triangles.push_back(corners(x, t));
+        const bool any = !moved.empty() && (moved[t[0]] || moved[t[1]] || moved[t[2]]);
+        gaps.push_back(any ? least_gap * cloth.thickness[t[0]] : 0.0);
+        slabs.push_back(any ? certificate::slab_of(triangles.back()) : certificate::Slab{});
+        Box box = certificate::box_of(triangles.back());
+        box.low.array() -= gaps.back();
+        box.high.array() += gaps.back();
+        boxes.push_back(box);
+    }
+    return {std::move(triangles), std::move(gaps), std::move(slabs), BoxTree(std::span<const Box>(boxes))};
+}
+
+/// The cloth triangles that lie about an obstacle's box: all that can meet it, come too near or have a corner inside.
+std::vector<int> triangles_around(const PlacedCloth& placed, const SolidObstacle& obstacle) {
+    const Box bounds = obstacle.tree().bounds();
+    std::vector<int> around;
+    placed.tree.walk([&](const Box& box) { return certificate::overlap(box, bounds); },
+                     [&](int item) { around.push_back(item); });
+    return around;
+}
+
+/// How each cloth triangle lies to an obstacle.
+struct Meetings {
+    std::vector<bool> meets;     // shares a point with it
+    std::vector<bool> too_near;  // or comes nearer than its gap
+};
+
+Meetings find_meetings(const PlacedCloth& placed, const SolidObstacle& obstacle) {
+    Meetings found{std::vector<bool>(placed.triangles.size()), std::vector<bool>(placed.triangles.size())};
+    placed.tree.walk_overlaps(obstacle.tree(), [&](int i, int j) {
+        const Corners &a = placed.triangles[i], &b = obstacle.triangles()[j];
+        if (found.meets[i]) return;
+        if (certificate::classify(a, b) != Overlap::disjoint)
+            found.meets[i] = found.too_near[i] = true;
+        else if (!found.too_near[i] && placed.gap[i] > 0.0)
+            found.too_near[i] = placed.is_too_near(i, b);
+    });
+    return found;
+}
+
+/// Vertices joined by triangles that do not meet the obstacle lie on one side of it: one of them tells of all. Every vertex of
+/// cloth belongs to a triangle.
+std::vector<bool> find_inside(const TangledCloth& cloth, const SolidObstacle& obstacle, std::span<const Vec3> x,
+                              std::span<const int> around, const std::vector<bool>& meets) {
+    std::vector<bool> inside(x.size()), asked(x.size());
+    if (!obstacle.watertight()) return inside;
+    Parts parts(cloth.vertex_count());
+    for (const int i : around) {
+        const Triangle& t = cloth.triangles[i];
+        if (meets[i]) continue;
+        parts.join(t[0], t[1]);
+        parts.join(t[1], t[2]);
+    }
+    for (const int i : around) {
+        for (const int v : cloth.triangles[i]) {
+            const int first = parts.of(v);
+            if (!asked[first]) inside[first] = obstacle.inside(x[first]);
+            asked[first] = true;
+            inside[v] = inside[first];
+        }
+    }
+    return inside;
+}
+
+bool is_cut(const Vec3& a, const Vec3& b, const SolidObstacle& obstacle) {
+    const Corners edge{a, b, b};
+    const Box box = certificate::box_of(edge);
+    bool cut = false;
+    obstacle.tree().walk(
+        [&](const Box& other) { return !cut && certificate::overlap(box, other); },
+        [&](int item) { cut = cut || certificate::classify(edge, obstacle.triangles()[item]) != Overlap::disjoint; });
+    return cut;
+}
+
+/// The part of most vertices in every connected piece of cloth; at its index the number of the part.
+std::vector<int> largest_parts(Parts& parts, Parts& pieces, int count) {
+    std::vector<int> size(count, 0), largest(count, -1);
+    for (int v = 0; v < count; ++v) ++size[parts.of(v)];
+    for (int v = 0; v < count; ++v) {
+        int& best = largest[pieces.of(v)];
+        if (best < 0 || size[parts.of(v)] > size[best]) best = parts.of(v);
+    }
+    return largest;
+}
+
+void mark_behind(const TangledCloth& cloth, const SolidObstacle& obstacle, int number, std::span<const Vec3> x,
+                 std::vector<int>& behind) {
+    const Meetings meetings = find_meetings(place(cloth, x, {}), obstacle);
+    if (std::find(meetings.meets.begin(), meetings.meets.end(), true) == meetings.meets.end()) return;
+    Parts parts(cloth.vertex_count()), pieces(cloth.vertex_count());
+    for (std::size_t i = 0; i < cloth.triangles.size(); ++i) {
+        const Triangle& t = cloth.triangles[i];
+        for (int k = 0; k < 3; ++k) {
+            const int a = t[k], b = t[(k + 1) % 3];
+            pieces.join(a, b);
+            if (!meetings.meets[i] || !is_cut(x[a], x[b], obstacle)) parts.join(a, b);
+        }
+    }
+    const std::vector<int> largest = largest_parts(parts, pieces, cloth.vertex_count());
+    for (int v = 0; v < cloth.vertex_count(); ++v) {
+        if (largest[pieces.of(v)] != parts.of(v)) behind[v] = number;
+    }
+}
+
+}  // namespace
+
+TangledCloth make_tangled_cloth(std::span<const Triangle> triangles, std::span<const double> thickness,
+                                std::span<const double> free) {
+    TangledCloth cloth{.triangles = triangles, .thickness = thickness, .free = free, .neighbours = {}};
+    cloth.neighbours.resize(thickness.size());
+    for (const Triangle& t : triangles) {
+        for (int k = 0; k < 3; ++k) {
+            cloth.neighbours[t[k]].push_back(t[(k + 1) % 3]);
+            cloth.neighbours[t[k]].push_back(t[(k + 2) % 3]);
+        }
+    }
+    for (std::vector<int>& ring : cloth.neighbours) {
+        std::sort(ring.begin(), ring.end());
+        ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+    }
+    return cloth;
+}
+
+std::vector<int> find_conflicts(const TangledCloth& cloth, std::span<const SolidObstacle> obstacles,
+                                std::span<const Vec3> positions, const std::vector<bool>& moved) {
+    const PlacedCloth placed = place(cloth, positions, moved);
+    std::vector<int> conflict(positions.size(), -1);
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        const std::vector<int> around = triangles_around(placed, obstacles[k]);
+        if (around.empty()) continue;
+        const Meetings meetings = find_meetings(placed, obstacles[k]);
+        const std::vector<bool> inside = find_inside(cloth, obstacles[k], positions, around, meetings.meets);
+        const auto mark = [&](const Triangle& t, bool pierced) {
+            for (const int v : t) {
+                if (pierced || inside[v]) conflict[v] = static_cast<int>(k);
+            }
+        };
+        for (const int i : around) {
+            const Triangle& t = cloth.triangles[i];
+            mark(t, meetings.too_near[i] && !inside[t[0]] && !inside[t[1]] && !inside[t[2]]);
+        }
+    }
+    return conflict;
+}
+
+std::vector<int> find_behind(const TangledCloth& cloth, std::span<const SolidObstacle> obstacles,
+                             std::span<const Vec3> positions) {
+    std::vector<int> behind(positions.size(), -1);
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        if (!obstacles[k].watertight()) mark_behind(cloth, obstacles[k], static_cast<int>(k), positions, behind);
+    }
+    return behind;
+}
+
+}  // namespace percale

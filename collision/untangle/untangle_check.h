@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "percale/mesh.h"
+#include "untangle/untangle_obstacle.h"
+
+namespace percale {
+
+/// Cloth as untangling sees it: all cloths of a simulation, what connects them.
+struct TangledCloth {
+    std::span<const Triangle> triangles;
+    std::span<const double> thickness;  // m, of each vertex
+    std::span<const double> free;       // 0: stays
+    std::vector<std::vector<int>> neighbours;
+
+    int vertex_count() const { return static_cast<int>(thickness.size()); }
+};
+
+TangledCloth make_tangled_cloth(std::span<const Triangle> triangles, std::span<const double> thickness,
+                                std::span<const double> free);
+
+/// For each vertex an obstacle that it conflicts with, -1 where there is none: it is inside, or a triangle of it crosses or
+/// touches the obstacle without a corner inside. Triangles with a vertex for which `moved` is true also conflict where they come
+/// nearer than a quarter of the thickness. `moved` may be empty.
+std::vector<int> find_conflicts(const TangledCloth& cloth, std::span<const SolidObstacle> obstacles,
+                                std::span<const Vec3> positions, const std::vector<bool>& moved);
+
+/// Vertices behind an open obstacle: where it cuts a piece of cloth in parts, all but the part of most vertices. -1 or the
+/// obstacle.
+std::vector<int> find_behind(const TangledCloth& cloth, std::span<const SolidObstacle> obstacles,
+                             std::span<const Vec3> positions);
+
+}  // namespace percale

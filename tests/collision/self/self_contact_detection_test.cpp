@@ -1,0 +1,240 @@
+#include "collision/self/self_contact_detection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/catch.h"
+#include "tests/support/collision_backends.h"
+#include "tests/support/collision_cloths.h"
+#include "tests/support/collision_steps.h"
+
+using namespace percale;
+using namespace percale::test;
+
+namespace {
+
+std::unique_ptr<ContactDetector> detector_for(const Cloths& cloths, const Backend& backend) {
+    std::unique_ptr<ContactDetector> detector = backend.make_detector();
+    detector->set_cloth(cloths.mesh.triangles, cloths.thickness);
+    detector->set_self_contact(cloths.self_contact());
+    return detector;
+}
+
+std::vector<Vec3> shaken(std::vector<Vec3> x, double by, Random& random) {
+    for (Vec3& point : x) point += random.point(by);
+    return x;
+}
+
+/// A sheet folded over along the middle of its columns, upper half `gap` above the lower.
+std::vector<Vec3> folded(const TriangleMesh& sheet, double gap) {
+    std::vector<Vec3> x = sheet.vertices;
+    for (Vec3& point : x) {
+        if (point.x() > 0.0) point = {-point.x() + 0.03, point.y() + gap, point.z() + 0.02};
+    }
+    return x;
+}
+
+}  // namespace
+
+TEST_CASE("after a cut no cloth crosses cloth, on thousands of random moves") {
+    Random random(GENERATE(1U, 2U, 3U));
+    const Cloths cloths = sheet_stack(3, 6, 0.1, random.decades(1e-3, 0.05), random);
+    const auto detector = detector_for(cloths, backends()[0]);
+    std::vector<Vec3> x = cloths.mesh.vertices;
+    REQUIRE(cloths.clean(x));
+    int cuts = 0;
+    for (int move = 0; move < 400; ++move) {
+        const Vec3 together = random.point(1.0);
+        std::vector<Vec3> to = shaken(x, random.decades(1e-3, 1.0), random);
+        for (Vec3& point : to) point += together;
+        if (move % 4 == 0) detector->refresh(x, to);
+        const double fraction = detector->largest_safe_fraction(x, to, {0.0, 1.0});
+        REQUIRE((fraction >= 0.0 && fraction <= 1.0));
+        cuts += fraction < 1.0;
+        REQUIRE(cloths.clean(between(x, to, 0.5 * fraction)));
+        x = between(x, to, fraction);
+        REQUIRE(cloths.clean(x));
+        if (move % 20 == 19) x = cloths.mesh.vertices;
+    }
+    CHECK(cuts > 200);
+    CHECK(cuts < 400);
+}
+
+TEST_CASE("rows between cloths keep the promise of their header") {
+    Random random(GENERATE(1U, 2U));
+    const double h = 0.05;
+    Cloths cloths = sheet_stack(3, 8, 0.04, h, random);
+    for (std::size_t i = 0; i < 64; ++i) cloths.thickness[i] = 0.02;
+    const auto detector = detector_for(cloths, backends()[0]);
+    const auto& x = cloths.mesh.vertices;
+    ContactRows rows;
+    detector->refresh(x, x);
+    detector->evaluate(x, 0.3, rows);
+    REQUIRE(rows.size() > 50);
+    double least = 1e300;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        Vec3 apart = -rows.obstacle_point[i];
+        double sum = 0.0;
+        for (int k = 0; k < 4; ++k) {
+            apart += rows.weight[i][k] * x[rows.vertex[i][k]];
+            sum += rows.weight[i][k];
+        }
+        CHECK(sum == Approx(0.0).margin(1e-14));
+        CHECK((apart - rows.distance[i] * rows.direction[i]).norm() < 1e-12);
+        CHECK(rows.distance[i] < rows.thickness[i]);
+        CHECK(rows.distance[i] > 0.0);
+        CHECK(rows.obstacle[i] == -1);
+        CHECK(rows.obstacle_displacement[i] == Vec3(Vec3::Zero()));
+        const int first = rows.vertex[i][0], second = rows.vertex[i][3];
+        CHECK(rows.friction[i] == Approx(0.5 * (cloths.friction[first] + cloths.friction[second])));
+        CHECK(rows.thickness[i] <= 0.5 * (cloths.thickness[first] + cloths.thickness[second]) * (1 + 1e-12));
+        least = std::min(least, rows.distance[i]);
+    }
+    CHECK(detector->smallest_distance() == least);
+}
+
+TEST_CASE("every vertex of cloth that lies above a face of other cloth nearer than the thickness has a row") {
+    Random random(GENERATE(3U, 4U, 5U));
+    const double h = 0.05;
+    const Cloths cloths = sheet_stack(2, 8, 0.04, h, random);
+    const auto detector = detector_for(cloths, backends()[0]);
+    const std::vector<Vec3> x = shaken(cloths.mesh.vertices, 0.004, random);
+    ContactRows rows;
+    detector->evaluate(x, 0.0, rows);
+    std::vector<double> nearest(x.size(), 1e300);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows.feature[i] == 1) nearest[rows.vertex[i][0]] = std::min(nearest[rows.vertex[i][0]], rows.distance[i]);
+    }
+    int above = 0;
+    const ClothSurface surface = make_cloth_surface(cloths.mesh.triangles, x.size());
+    for (int v = 0; v < static_cast<int>(x.size()); ++v) {
+        for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+            const Triangle& c = surface.triangles[t];
+            if (cloths.cloth[v] == cloths.cloth[c[0]]) continue;
+            const SelfPairContact contact = self_contact({.vertex = {v, c[0], c[1], c[2]}, .feature = {v, t}}, x, surface);
+            const bool face = contact.weight[1] < 0.0 && contact.weight[2] < 0.0 && contact.weight[3] < 0.0;
+            if (!face || contact.distance >= h) continue;
+            ++above;
+            CHECK(nearest[v] <= contact.distance);
+        }
+    }
+    CHECK(above > 40);
+}
+
+TEST_CASE("a sheet folded onto itself is in contact with itself") {
+    Cloths cloths;
+    cloths.add(make_grid(1, 1, 21, 21), 0.02);
+    const auto detector = detector_for(cloths, backends()[0]);
+    const std::vector<Vec3> x = folded(cloths.mesh, 0.01);
+    ContactRows rows;
+    detector->evaluate(x, 0.0, rows);
+    CHECK(rows.size() > 200);
+    CHECK(detector->smallest_distance() == Approx(0.01).epsilon(0.1));
+    std::vector<Vec3> through = x;
+    for (std::size_t i = 0; i < through.size(); ++i) {
+        if (cloths.mesh.vertices[i].x() > 0.1) through[i].y() -= 0.05;
+    }
+    const double fraction = detector->largest_safe_fraction(x, through, {0.0, 1.0});
+    CHECK(fraction < 0.2);
+    CHECK(fraction > 0.05);
+    CHECK(cloths.clean(between(x, through, fraction)));
+}
+
+TEST_CASE(
+    "a flat sheet much finer than its thickness has no contact with itself, nor when it is stretched, squeezed or bent a "
+    "little") {
+    Cloths cloths;
+    const TriangleMesh sheet = make_grid(0.1, 0.1, 29, 29);  // edges of 3.6 mm
+    cloths.add(sheet, 0.02);
+    const auto detector = detector_for(cloths, backends()[0]);
+    ContactRows rows;
+    for (const double scale : {1.0, 1.5, 0.6}) {
+        std::vector<Vec3> x = sheet.vertices;
+        for (Vec3& point : x) point = {scale * point.x(), 0.5 * std::sin(20.0 * point.x()) / 20.0, point.z()};
+        detector->evaluate(x, 0.0, rows);
+        CHECK(rows.size() == 0);
+        CHECK(std::isinf(detector->smallest_distance()));
+    }
+}
+
+TEST_CASE("cloth that moves as a whole or apart is not cut, cloth that is not said to meet cloth passes through it") {
+    Random random(7);
+    const Cloths cloths = sheet_stack(3, 6, 0.1, 0.02, random);
+    const auto detector = detector_for(cloths, backends()[0]);
+    std::vector<Vec3> to = cloths.mesh.vertices;
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += Vec3(3.0, 20.0 + 0.5 * cloths.cloth[i], -1.0);
+    CHECK(detector->largest_safe_fraction(cloths.mesh.vertices, to, {0.0, 1.0}) == 1.0);
+    for (std::size_t i = 0; i < to.size(); ++i) to[i].y() -= 2.0 * cloths.cloth[i];
+    CHECK(detector->largest_safe_fraction(cloths.mesh.vertices, to, {0.0, 1.0}) < 0.2);
+    detector->set_cloth(cloths.mesh.triangles, cloths.thickness);
+    CHECK(detector->largest_safe_fraction(cloths.mesh.vertices, to, {0.0, 1.0}) == 1.0);
+    ContactRows rows;
+    detector->evaluate(cloths.mesh.vertices, 0.0, rows);
+    CHECK(rows.size() == 0);
+}
+
+TEST_CASE("all backends give the same rows between cloths and the same cuts, behind those of obstacles") {
+    Random random(2);
+    const Cloths cloths = sheet_stack(3, 7, 0.06, 0.05, random);
+    const std::vector<Vec3> to = shaken(cloths.mesh.vertices, 0.2, random);
+    const TriangleMesh ball = moved(make_sphere(0.3, 2), {0, -0.33, 0});
+    ContactRows first;
+    double cut = -1.0;
+    for (const Backend& backend : backends()) {
+        const auto detector = detector_for(cloths, backend);
+        detector->add_obstacle(ball, {}, 0.2);
+        detector->refresh(cloths.mesh.vertices, to);
+        const double fraction = detector->largest_safe_fraction(cloths.mesh.vertices, to, {0.0, 1.0});
+        ContactRows rows;
+        detector->evaluate(between(cloths.mesh.vertices, to, fraction), fraction, rows);
+        REQUIRE(rows.obstacle.front() == 0);
+        REQUIRE(rows.obstacle.back() == -1);
+        CHECK(std::is_sorted(rows.obstacle.rbegin(), rows.obstacle.rend()));
+        if (cut < 0.0) {
+            first = rows;
+            cut = fraction;
+        }
+        CHECK(same_rows(rows, first));
+        CHECK(fraction == cut);
+    }
+}
+
+TEST_CASE("a pair that was a contact stays one until the next refresh") {
+    // A vertex above a flat sheet, which then dips under it so that its closest point leaves the face.
+    Random random(3);
+    const Cloths cloths = sheet_stack(2, 6, 0.04, 0.05, random);
+    const auto detector = detector_for(cloths, backends()[0]);
+    const auto& x = cloths.mesh.vertices;
+    ContactRows near, shifted, fresh;
+    detector->refresh(x, x);
+    detector->evaluate(x, 0.0, near);
+    std::vector<Vec3> aside = x;
+    for (std::size_t i = 36; i < aside.size(); ++i) aside[i] += Vec3(0.02, 0.0, 0.015);
+    detector->evaluate(aside, 0.0, shifted);
+    detector->refresh(aside, aside);
+    detector->evaluate(aside, 0.0, fresh);
+    CHECK(shifted.size() > fresh.size());
+}
+
+TEST_CASE("a start where cloth crosses or touches cloth is reported with both triangles") {
+    Cloths cloths;
+    cloths.add(make_grid(1, 1, 3, 3), 0.01, false);
+    cloths.add(moved(make_grid(1, 1, 3, 3), {0, 0.1, 0}), 0.01);
+    cloths.add(moved(make_grid(1, 1, 3, 3), {0, 0.2, 0}), 0.01);
+    const auto detector = detector_for(cloths, backends()[0]);
+    std::vector<Vec3> x = cloths.mesh.vertices;
+    CHECK_FALSE(detector->check_start(x).any());
+    x[4].y() = 5.0;  // through both, but this cloth meets none
+    CHECK_FALSE(detector->check_start(x).any());
+    x[9 + 4] += Vec3(0.01, 0.2, 0.013);
+    const StartFault fault = detector->check_start(x);
+    REQUIRE(fault.between_cloths());
+    CHECK(fault.obstacle == -1);
+    CHECK(fault.intersecting_pairs > 0);
+    CHECK((fault.cloth_triangle >= 8 && fault.cloth_triangle < 16));
+    CHECK((fault.other_cloth_triangle >= 16 && fault.other_cloth_triangle < 24));
+    x[9 + 4].y() = 0.2;
+    const StartFault touching = detector->check_start(x);
+    CHECK(touching.between_cloths());
+    CHECK(touching.intersecting_pairs == 0);
+}

@@ -1,0 +1,174 @@
+#include "collision/self/self_contact_lists.h"
+
+#include <algorithm>
+#include <map>
+
+#include "tests/support/catch.h"
+#include "tests/support/collision_cloths.h"
+#include "tests/support/collision_steps.h"
+
+using namespace percale;
+using namespace percale::test;
+
+namespace {
+
+using Key = std::pair<int, std::array<int, 2>>;
+
+/// By features, the edge with the lower number first.
+std::map<Key, SelfPair> pairs_of(SelfContactLists& lists) {
+    std::map<Key, SelfPair> pairs;
+    for (const SelfList& list : lists.lists()) {
+        for (SelfPair pair : lists.pairs(list)) {
+            if (pair.shape == PairShape::edge_edge && pair.feature[0] > pair.feature[1]) {
+                std::swap(pair.feature[0], pair.feature[1]);
+                std::swap(pair.vertex[0], pair.vertex[2]);
+                std::swap(pair.vertex[1], pair.vertex[3]);
+            }
+            const bool fresh = pairs.insert({{static_cast<int>(pair.shape), pair.feature}, pair}).second;
+            CHECK(fresh);
+        }
+    }
+    return pairs;
+}
+
+/// All pairs without a common vertex.
+std::vector<SelfPair> every_pair(const Cloths& cloths) {
+    const ClothSurface surface = make_cloth_surface(cloths.mesh.triangles, cloths.mesh.vertices.size());
+    std::vector<SelfPair> pairs;
+    for (int v = 0; v < static_cast<int>(cloths.mesh.vertices.size()); ++v) {
+        for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+            const Triangle& c = surface.triangles[t];
+            if (v != c[0] && v != c[1] && v != c[2]) pairs.push_back({.vertex = {v, c[0], c[1], c[2]}, .feature = {v, t}});
+        }
+    }
+    for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
+        for (int f = e + 1; f < static_cast<int>(surface.edges.size()); ++f) {
+            const auto &a = surface.edges[e].vertex, &b = surface.edges[f].vertex;
+            if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) continue;
+            pairs.push_back({.shape = PairShape::edge_edge, .vertex = {a[0], a[1], b[0], b[1]}, .feature = {e, f}});
+        }
+    }
+    return pairs;
+}
+
+double zone(const Cloths& cloths, const SelfPair& pair) {
+    const double mean = 0.5 * (cloths.thickness[pair.vertex[0]] + cloths.thickness[pair.vertex[3]]);
+    const bool one = cloths.cloth[pair.vertex[0]] == cloths.cloth[pair.vertex[3]];
+    return one ? std::min(mean, 0.5 * self_distance(pair, cloths.mesh.vertices)) : mean;
+}
+
+void check_bounds(SelfContactLists& lists, const std::vector<Vec3>& x) {
+    for (const SelfList& list : lists.lists()) {
+        for (const SelfPair& pair : lists.pairs(list)) {
+            CHECK(pair.reach - list.travel <= self_distance(pair, x) * (1 + 1e-12));
+            CHECK(list.least_reach <= pair.reach);
+        }
+    }
+}
+
+std::vector<Vec3> shaken(std::vector<Vec3> x, double by, Random& random) {
+    for (Vec3& point : x) point += random.point(by);
+    return x;
+}
+
+}  // namespace
+
+TEST_CASE("lists of cloth against cloth hold every pair that comes near on the way, each once, and bound its distance") {
+    Random random(GENERATE(1U, 2U, 3U, 4U));
+    const double h = 0.05;
+    const Cloths cloths = sheet_stack(3, 9, 0.06, h, random);
+    SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    std::vector<Vec3> x = cloths.mesh.vertices;
+    for (int step = 0; step < 5; ++step) {
+        // A long way together, a short one each.
+        const Vec3 together = random.point(2.0);
+        std::vector<Vec3> to = shaken(x, random.decades(1e-3, 0.1), random);
+        for (Vec3& point : to) point += together;
+        CHECK(lists.cover(x, to) == 1.0);
+        const double fraction = random.number(0.0, 1.0);
+        const std::vector<Vec3> here = shaken(between(x, to, fraction), 0.1 * h, random);
+        CHECK(lists.cover(here, here) == 1.0);
+        const auto pairs = pairs_of(lists);
+        int near = 0;
+        for (const SelfPair& pair : every_pair(cloths)) {
+            const double distance = self_distance(pair, here), thickness = zone(cloths, pair);
+            const auto found = pairs.find({static_cast<int>(pair.shape), pair.feature});
+            if (found == pairs.end()) {
+                CHECK(distance >= thickness);
+                continue;
+            }
+            ++near;
+            CHECK(found->second.vertex == pair.vertex);
+            CHECK(found->second.thickness == Approx(thickness).epsilon(1e-12));
+        }
+        CHECK(near > 10);
+        check_bounds(lists, here);
+        x = here;
+    }
+}
+
+TEST_CASE("lists hold while cloth moves as a whole, along its prediction or by less than half of the thickness") {
+    Random random(6);
+    const double h = 0.05;
+    const Cloths cloths = sheet_stack(2, 9, 0.06, h, random);
+    SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    const std::vector<Vec3>& start = cloths.mesh.vertices;
+    const std::vector<Vec3> to = shaken(start, 0.3, random);
+    lists.cover(start, to);
+    // Zones are taken over where lists are made anew, so only their place in memory tells.
+    const auto kept = [&](const std::vector<Vec3>& x) {
+        for (const SelfList& list : lists.lists()) lists.pairs(list)[0].reach = -123.0;
+        lists.cover(x, x);
+        return lists.pairs(lists.lists()[0])[0].reach == -123.0;
+    };
+    CHECK(kept(between(start, to, 0.37)));
+    CHECK(kept(shaken(between(start, to, 0.9), 0.25 * h, random)));
+    std::vector<Vec3> away = between(start, to, 0.6);
+    for (Vec3& point : away) point += Vec3(5.0, -2.0, 1.0);
+    CHECK(kept(away));
+    std::vector<Vec3> off = between(start, to, 0.5);
+    off[17].y() += 0.55 * h;
+    CHECK_FALSE(kept(off));
+    CHECK(kept(off));
+}
+
+TEST_CASE("what has been a contact stays one where lists are made anew") {
+    Random random(9);
+    const Cloths cloths = sheet_stack(2, 6, 0.06, 0.05, random);
+    SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    std::vector<Vec3> x = cloths.mesh.vertices;
+    lists.cover(x, x);
+    int marked = 0;
+    for (const SelfList& list : lists.lists()) {
+        for (SelfPair& pair : lists.pairs(list)) {
+            if (pair.feature[1] % 3 == 0) pair.zone = 0.01 * (1 + pair.feature[0]);
+            marked += pair.zone > 0.0;
+        }
+    }
+    REQUIRE(marked > 10);
+    const auto before = pairs_of(lists);
+    x[0].y() += 10.0;  // the lists no longer hold
+    lists.cover(x, x);
+    int taken = 0;
+    for (const auto& [key, pair] : pairs_of(lists)) {
+        const auto old = before.find(key);
+        CHECK(pair.zone == (old == before.end() ? 0.0 : old->second.zone));
+        taken += pair.zone > 0.0;
+    }
+    CHECK(taken > marked / 2);
+}
+
+TEST_CASE("cloth that meets no cloth is in no list") {
+    Random random(5);
+    Cloths cloths;
+    cloths.add(make_grid(1, 1, 5, 5), 0.05, false);
+    cloths.add(moved(make_grid(1, 1, 5, 5), {0, 0.01, 0}), 0.05);
+    cloths.add(moved(make_grid(1, 1, 5, 5), {0, 0.02, 0}), 0.05);
+    SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    lists.cover(cloths.mesh.vertices, cloths.mesh.vertices);
+    const auto pairs = pairs_of(lists);
+    CHECK(pairs.size() > 50);
+    for (const auto& [key, pair] : pairs) {
+        for (const int v : pair.vertex) CHECK(v >= 25);
+    }
+}

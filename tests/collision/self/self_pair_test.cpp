@@ -1,0 +1,159 @@
+#include "collision/self/self_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/catch.h"
+#include "tests/support/collision_shapes.h"
+#include "tests/support/collision_truth.h"
+
+using namespace percale;
+using namespace percale::test;
+
+namespace {
+
+/// Two sheets whose features are paired: the lower has the first vertices.
+struct TwoSheets {
+    TriangleMesh mesh;
+    int upper = 0;  // first vertex of the upper sheet
+    ClothSurface surface;
+
+    TwoSheets(const TriangleMesh& lower, const TriangleMesh& above)
+        : mesh(joined(lower, above)),
+          upper(static_cast<int>(lower.vertices.size())),
+          surface(make_cloth_surface(mesh.triangles, mesh.vertices.size())) {}
+
+    std::vector<SelfPair> vertex_face_pairs() const {
+        std::vector<SelfPair> pairs;
+        for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) {
+            for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+                const Triangle& corner = mesh.triangles[t];
+                if ((v < upper) != (corner[0] < upper)) pairs.push_back(pair(v, corner, t));
+            }
+        }
+        return pairs;
+    }
+    std::vector<SelfPair> edge_pairs() const {
+        std::vector<SelfPair> pairs;
+        for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
+            for (int f = e + 1; f < static_cast<int>(surface.edges.size()); ++f) {
+                const auto &a = surface.edges[e].vertex, &b = surface.edges[f].vertex;
+                if ((a[0] < upper) == (b[0] < upper)) continue;
+                pairs.push_back(
+                    {.shape = PairShape::edge_edge, .vertex = {a[0], a[1], b[0], b[1]}, .feature = {e, f}, .thickness = 1e3});
+            }
+        }
+        return pairs;
+    }
+    static SelfPair pair(int vertex, const Triangle& t, int triangle) {
+        return {.vertex = {vertex, t[0], t[1], t[2]}, .feature = {vertex, triangle}};
+    }
+    SelfPairContact contact(const SelfPair& pair) const { return self_contact(pair, mesh.vertices, surface); }
+    double total_share(const std::vector<SelfPair>& pairs, double nearer_than) const {
+        double sum = 0.0;
+        for (const SelfPair& p : pairs) {
+            if (self_distance(p, mesh.vertices) < nearer_than) sum += contact(p).share;
+        }
+        return sum;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("weights and direction of two features of cloth give the distance between them") {
+    Random random(8);
+    for (int round = 0; round < 20; ++round) {
+        const TwoSheets sheets(crumpled_sheet(1, 4, 0.2, random), moved(crumpled_sheet(1, 4, 0.2, random), {0, 0.8, 0}));
+        const auto& x = sheets.mesh.vertices;
+        std::vector<SelfPair> pairs = sheets.vertex_face_pairs();
+        const std::vector<SelfPair> more = sheets.edge_pairs();
+        pairs.insert(pairs.end(), more.begin(), more.end());
+        for (const SelfPair& pair : pairs) {
+            const SelfPairContact contact = sheets.contact(pair);
+            const bool edges = pair.shape == PairShape::edge_edge;
+            const auto& v = pair.vertex;
+            const double truth = edges ? true_edge_edge(x[v[0]], x[v[1]], x[v[2]], x[v[3]])
+                                       : true_point_triangle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+            CHECK(contact.distance == Approx(truth).epsilon(1e-9).margin(1e-12));
+            CHECK(self_distance(pair, x) == Approx(contact.distance).epsilon(1e-12));
+            Vec3 apart = Vec3::Zero();
+            double sum = 0.0;
+            for (int k = 0; k < 4; ++k) {
+                apart += contact.weight[k] * x[v[k]];
+                sum += contact.weight[k];
+                CHECK((k < (edges ? 2 : 1) ? contact.weight[k] >= 0.0 : contact.weight[k] <= 0.0));
+            }
+            CHECK(sum == Approx(0.0).margin(1e-14));
+            CHECK(contact.direction.dot(apart) == Approx(contact.distance).epsilon(1e-9).margin(1e-12));
+            CHECK(contact.direction.norm() == Approx(1.0));
+        }
+    }
+}
+
+TEST_CASE("a vertex above a face, an edge or a corner of a sheet is in contact with one pair") {
+    // A narrow tip pointing down, far smaller than the sheet's cells.
+    TriangleMesh tip{.vertices = {{0, 0, 0}, {0.001, 0.05, 0}, {-0.001, 0.05, 0.001}}, .triangles = {{0, 1, 2}}};
+    const Vec3 place = GENERATE(Vec3(0.13, 0, 0.08), Vec3(0.0, 0, 0.1), Vec3(0.25, 0, 0.25), Vec3(0, 0, 0), Vec3(0.5, 0, 0.125),
+                                Vec3(0.53, 0, 0.03), Vec3(-0.5, 0, -0.5), Vec3(-0.51, 0, -0.51));
+    const TwoSheets sheets(make_grid(1, 1, 5, 5), moved(tip, place + Vec3(0, 0.002, 0)));
+    const double near = 0.04;
+    double shares = sheets.total_share(sheets.vertex_face_pairs(), near);
+    for (const SelfPair& pair : sheets.edge_pairs()) {
+        // Only the tip is near; edges through it end there.
+        if (self_distance(pair, sheets.mesh.vertices) < near) shares += sheets.contact(pair).share;
+    }
+    CHECK(shares == 1.0);
+}
+
+TEST_CASE("two ridges that cross are in contact through their edges") {
+    const TriangleMesh roof{.vertices = {{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 1}, {0, -0.5, -1}},
+                            .triangles = {{0, 2, 1}, {0, 1, 3}}};
+    TriangleMesh gutter{.vertices = {{0, 0.1, -1}, {0, 0.1, 1}, {1, 0.6, 0}, {-1, 0.6, 0}}, .triangles = {{0, 1, 2}, {0, 3, 1}}};
+    const TwoSheets crossing(roof, gutter);
+    CHECK(crossing.total_share(crossing.edge_pairs(), 0.2) == 1.0);
+    CHECK(crossing.total_share(crossing.vertex_face_pairs(), 0.2) == 0.0);
+    // A valley has faces that are nearer than its edge.
+    for (int v = 2; v < 4; ++v) gutter.vertices[v].y() = 0.02;
+    const TwoSheets valley(roof, gutter);
+    const auto pairs = valley.edge_pairs();
+    const auto middle = std::find_if(pairs.begin(), pairs.end(), [](const SelfPair& p) {
+        return p.vertex == std::array<int, 4>{0, 1, 4, 5};
+    });
+    REQUIRE(middle != pairs.end());
+    CHECK(valley.contact(*middle).share == 0.0);
+}
+
+TEST_CASE("edges that cross in flat sheets wait for half of the thickness, parallel ones are left to their ends") {
+    const Pose turned{.translation = {0.03, 0.01, 0.02}, .rotation = {std::cos(0.2), 0, std::sin(0.2), 0}, .scale = 1.0};
+    const TwoSheets crossed(make_grid(1, 1, 4, 4), placed(make_grid(1, 1, 4, 4), turned));
+    int inner = 0;
+    for (const SelfPair& pair : crossed.edge_pairs()) {
+        const SelfPairContact contact = crossed.contact(pair);
+        const bool boundary =
+            crossed.surface.edges[pair.feature[0]].triangle[1] < 0 && crossed.surface.edges[pair.feature[1]].triangle[1] < 0;
+        if (!boundary) CHECK(contact.share <= 0.5);
+        inner += contact.share == 0.5;
+    }
+    CHECK(inner > 20);
+    const TwoSheets parallel(make_grid(1, 1, 4, 4), moved(make_grid(1, 1, 4, 4), {0, 0.01, 0}));
+    for (const SelfPair& pair : parallel.edge_pairs()) {
+        const auto &a = parallel.surface.edges[pair.feature[0]].vertex, &b = parallel.surface.edges[pair.feature[1]].vertex;
+        const auto& x = parallel.mesh.vertices;
+        if ((x[a[1]] - x[a[0]]).cross(x[b[1]] - x[b[0]]).norm() < 1e-12) CHECK(parallel.contact(pair).share == 0.0);
+    }
+}
+
+TEST_CASE("a pair moves with its four vertices") {
+    Random random(2);
+    std::vector<Vec3> from, to;
+    for (int i = 0; i < 6; ++i) {
+        from.push_back(random.point(1.0));
+        to.push_back(random.point(1.0));
+    }
+    const MovingFour four = moving_pair({.vertex = {5, 0, 3, 1}}, from, to);
+    for (int k = 0; k < 4; ++k) {
+        const int v = std::array{5, 0, 3, 1}[k];
+        CHECK(four.from[k] == from[v]);
+        CHECK(four.to[k] == to[v]);
+    }
+}
