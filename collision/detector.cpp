@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "geometry/cut_floor.h"
-#include "lists/candidate_lists.h"
+#include "lists/candidate_state.h"
 #include "lists/list_passes.h"
 #include "lists/pack_measure.h"
 #include "percale/certify.h"
@@ -108,7 +108,7 @@ public:
         state(scene_hash(triangles_, thickness_, obstacles_));
         for (const auto& obstacle : obstacles_) state(obstacle->start_pose(), obstacle->end_pose());
         state(kept_at_, smallest_distance_, lists_.has_value());
-        if (lists_) lists_->save(obstacles_, state);
+        if (lists_) percale::save(*lists_, obstacles_, state);
         if (between_cloths_) between_cloths_->save(state);
     }
 
@@ -124,7 +124,7 @@ public:
         state(kept_at, smallest_distance, listed);
         state.demand(kept_at.empty() || kept_at.size() == thickness_.size(), "a wrong number of vertices");
         std::optional<CandidateLists> lists;
-        if (listed) lists = CandidateLists::restored(triangles_, thickness_, obstacles_, state);
+        if (listed) lists = restored_lists(triangles_, thickness_, obstacles_, state);
         std::optional<SelfContactDetection> between_cloths = between_cloths_;
         if (between_cloths) between_cloths->restore(state);
         state.demand(state.at_end(), "there is more than belongs to it");

@@ -46,30 +46,39 @@ int total_version(const Obstacles& obstacles) {
 
 CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
                                std::span<const Vec3> positions)
-    : CandidateLists(triangles, vertex_thickness, positions, make_clusters(triangles, positions)) {}
+    : CandidateLists(triangles, vertex_thickness, make_clusters(triangles, positions),
+                     {.lists = {}, .seen = {positions.begin(), positions.end()}, .anchor = {}}) {}
 
 CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
-                               std::span<const Vec3> positions, ClothClusters clusters)
+                               ClothClusters clusters, ListsMemory memory)
     : triangles_(triangles.begin(), triangles.end()),
       thickness_(vertex_thickness.begin(), vertex_thickness.end()),
       clusters_(std::move(clusters)),
       vertex_start_(1, 0),
-      lists_(clusters_.clusters.size()),
-      seen_(positions.begin(), positions.end()),
-      way_(positions.size(), 0.0),
+      memory_(std::move(memory)),
+      way_(thickness_.size(), 0.0),
       cluster_way_(clusters_.clusters.size(), 0.0),
-      moved_(positions.size(), 0.0),
-      vertex_boxes_(positions.size()) {
-    for (std::size_t i = 0; i < lists_.size(); ++i) {
+      moved_(thickness_.size(), 0.0),
+      vertex_boxes_(thickness_.size()) {
+    memory_.lists.resize(clusters_.clusters.size());
+    for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
         const std::vector<int>& all = clusters_.clusters[i].all_vertices;
         vertices_.insert(vertices_.end(), all.begin(), all.end());
         vertex_start_.push_back(static_cast<int>(vertices_.size()));
-        for (const int vertex : all) lists_[i].thickness = std::max(lists_[i].thickness, thickness_[vertex]);
+        ClusterList& list = memory_.lists[i];
+        for (const int vertex : all) list.thickness = std::max(list.thickness, thickness_[vertex]);
     }
 }
 
+void CandidateLists::settle(const Obstacles& obstacles) {
+    const int version = total_version(obstacles);
+    const auto settled = [&](int& old) { old = old == good_version ? version : no_version; };
+    for (ClusterList& list : memory_.lists) settled(list.version);
+    settled(memory_.room_version);
+}
+
 bool CandidateLists::covers(std::size_t cluster, const ClothMove& move, int version) {
-    ClusterList& list = lists_[cluster];
+    ClusterList& list = memory_.lists[cluster];
     if (list.version != version) return false;
     const std::span<const int> vertices = vertices_of(cluster);
     if (list.travel + cluster_way_[cluster] <= list.inside_until) return true;
@@ -83,7 +92,7 @@ bool CandidateLists::covers(std::size_t cluster, const ClothMove& move, int vers
 }
 
 Box CandidateLists::set_boxes(std::size_t cluster, const ClothMove& move) {
-    ClusterList& list = lists_[cluster];
+    ClusterList& list = memory_.lists[cluster];
     list.boxes.clear();
     Box whole;
     for (const int vertex : vertices_of(cluster)) {
@@ -137,7 +146,7 @@ bool CandidateLists::stays_above(const PackHull& hull, std::span<const int> vert
 }
 
 void CandidateLists::add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle) {
-    ClusterList& list = lists_[cluster];
+    ClusterList& list = memory_.lists[cluster];
     const ClothCluster& features = clusters_.clusters[cluster];
     for (std::size_t k = 0; k < features.all_vertices.size(); ++k) vertex_boxes_[features.all_vertices[k]] = list.boxes[k];
     for (const int vertex : features.vertices) {
@@ -162,7 +171,7 @@ void CandidateLists::set_ways(const ClothMove& move) {
         return;
     }
     for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = (move.to[i] - move.from[i]).norm();
-    for (std::size_t i = 0; i < lists_.size(); ++i) {
+    for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
         for (const int vertex : vertices_of(i)) cluster_way_[i] = std::max(cluster_way_[i], way_[vertex]);
     }
 }
@@ -171,24 +180,24 @@ void CandidateLists::set_ways(const ClothMove& move) {
 /// away costs one pass over its vertices.
 bool CandidateLists::is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version) {
     const auto stays = [&] {
-        const auto count = 3 * static_cast<long>(anchor_.size());
+        const auto count = 3 * static_cast<long>(memory_.anchor.size());
         const auto way = [&](std::span<const Vec3> x) {
-            return std::sqrt(3.0) * pack_kernels().largest_difference(x[0].data(), anchor_[0].data(), count);
+            return std::sqrt(3.0) * pack_kernels().largest_difference(x[0].data(), memory_.anchor[0].data(), count);
         };
-        return way(move.from) < room_ && (move.to.data() == move.from.data() || way(move.to) < room_);
+        return way(move.from) < memory_.room && (move.to.data() == move.from.data() || way(move.to) < memory_.room);
     };
     if (way_.empty()) return true;
-    if (!empty_) return false;
-    if (room_version_ == version && room_ > 0.0 && stays()) return true;
+    if (!memory_.empty) return false;
+    if (memory_.room_version == version && memory_.room > 0.0 && stays()) return true;
     if (move.to.data() == move.from.data()) return false;
     Box cloth;
     for (const Vec3& x : move.from) cloth.add(x);
-    room_ = 1e300;
-    for (const auto& obstacle : obstacles) room_ = std::min(room_, cloth.gap(obstacle->whole_box()));
-    room_ -= *std::max_element(thickness_.begin(), thickness_.end());
-    room_version_ = version;
-    anchor_.assign(move.from.begin(), move.from.end());
-    return room_ > 0.0 && stays();
+    memory_.room = 1e300;
+    for (const auto& obstacle : obstacles) memory_.room = std::min(memory_.room, cloth.gap(obstacle->whole_box()));
+    memory_.room -= *std::max_element(thickness_.begin(), thickness_.end());
+    memory_.room_version = version;
+    memory_.anchor.assign(move.from.begin(), move.from.end());
+    return memory_.room > 0.0 && stays();
 }
 
 double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
@@ -198,11 +207,11 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) 
     set_ways(move);
     dirty_.clear();
     held_.clear();
-    for (std::size_t i = 0; i < lists_.size(); ++i) {
+    for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
         if (covers(i, move, version)) continue;
         dirty_.push_back(i);
         keep_held(i, obstacles);
-        lists_[i].version = version;
+        memory_.lists[i].version = version;
     }
     if (dirty_.empty()) return 1.0;
     double share = 1.0;
@@ -216,7 +225,8 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) 
     }
     if (share < 1.0) set_ways(move);
     mark_held(obstacles);
-    empty_ = std::all_of(lists_.begin(), lists_.end(), [](const ClusterList& list) { return list.features.empty(); });
+    memory_.empty =
+        std::all_of(memory_.lists.begin(), memory_.lists.end(), [](const ClusterList& list) { return list.features.empty(); });
     return share;
 }
 
@@ -224,7 +234,7 @@ void CandidateLists::empty_dirty(const ClothMove& move) {
     listed_ = 0;
     asked_.clear();
     for (const std::size_t i : dirty_) {
-        ClusterList& list = lists_[i];
+        ClusterList& list = memory_.lists[i];
         list.features.clear();
         list.packs.clear();
         list.holds = false;
@@ -254,12 +264,12 @@ bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, 
             if (listed_ > most) return false;
         }
     }
-    for (const std::size_t i : dirty_) set_least(lists_[i]);
+    for (const std::size_t i : dirty_) set_least(memory_.lists[i]);
     return true;
 }
 
 void CandidateLists::keep_held(std::size_t cluster, const Obstacles& obstacles) {
-    const ClusterList& list = lists_[cluster];
+    const ClusterList& list = memory_.lists[cluster];
     if (!list.holds) return;
     for (std::size_t i = 0; i < list.packs.size(); ++i) {
         if (list.packs.at[i].held == 0) continue;
@@ -274,7 +284,7 @@ void CandidateLists::keep_held(std::size_t cluster, const Obstacles& obstacles) 
 /// What was a contact in a list stays one in the list that replaces it.
 void CandidateLists::mark_held(const Obstacles& obstacles) {
     for (const auto& [cluster, held] : held_) {
-        ClusterList& list = lists_[cluster];
+        ClusterList& list = memory_.lists[cluster];
         const int place = obstacles[held.obstacle]->packs().place_of[static_cast<int>(held.kind)][held.feature];
         for (std::size_t f = 0; f < list.features.size(); ++f) {
             const ContactPair& pair = list.features[f];
@@ -299,20 +309,20 @@ void CandidateLists::hold(ClusterList& list, std::size_t feature, int place) con
 void CandidateLists::advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles) {
     double way = 0.0;
     for (const auto& obstacle : obstacles) way = std::max(way, obstacle->longest_way());
-    way *= std::abs(fraction - seen_fraction_);
+    way *= std::abs(fraction - memory_.seen_fraction);
     double most = 0.0;
     for (std::size_t i = 0; i < moved_.size(); ++i) {
-        moved_[i] = (positions[i] - seen_[i]).squaredNorm();
+        moved_[i] = (positions[i] - memory_.seen[i]).squaredNorm();
         most = std::max(most, moved_[i]);
     }
-    seen_fraction_ = fraction;
+    memory_.seen_fraction = fraction;
     if (most == 0.0 && way == 0.0) return;
-    for (std::size_t i = 0; i < lists_.size(); ++i) {
+    for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
         double square = 0.0;
         for (const int vertex : vertices_of(i)) square = std::max(square, moved_[vertex]);
-        lists_[i].travel += std::sqrt(square) + way;
+        memory_.lists[i].travel += std::sqrt(square) + way;
     }
-    std::copy(positions.begin(), positions.end(), seen_.begin());
+    std::copy(positions.begin(), positions.end(), memory_.seen.begin());
 }
 
 }  // namespace percale

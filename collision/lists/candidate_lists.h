@@ -10,7 +10,6 @@
 #include "geometry/cloth_clusters.h"
 #include "lists/contact_pair.h"
 #include "obstacle/obstacle.h"
-#include "percale/saved_state.h"
 
 namespace percale {
 
@@ -48,6 +47,10 @@ struct ListedPacks {
     void hold(std::size_t i, unsigned lane, double thickness);
 };
 
+/// Versions of lists that were read from bytes, where the obstacles' own are not known: good for the obstacles where they are, or
+/// for no place.
+constexpr int good_version = 0, no_version = -1;
+
 /// All packs of obstacle features that can come closer to a cluster than the thickness while its vertices stay in their boxes.
 struct ClusterList {
     std::vector<Box> boxes;             // one for each of the cluster's vertices (ClothCluster::all_vertices)
@@ -59,18 +62,22 @@ struct ClusterList {
     double quiet_until = 0.0;    // least ListedPacks::wake
     double inside_until = -1.0;  // m, travel up to which all vertices are surely in their boxes
     bool holds = false;          // some lane is held
-    int version = -1;            // of the obstacles' motion it was built for
+    int version = no_version;    // of the obstacles' motion it was built for
 };
 
 /// Tells all poses that the obstacles have had so far from any others.
 int total_version(const Obstacles& obstacles);
 
-/// Tells cloth and obstacles from others, wherever they are.
-std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vector<double>& vertex_thickness,
-                         const Obstacles& obstacles);
-
-/// Poses of the obstacles at the start and the end of a step, as they were saved. Throws SceneError for those of another size.
-std::vector<std::array<Pose, 2>> restored_poses(const Obstacles& obstacles, StateReader& state);
+/// What lists remember from call to call. Later answers depend on nothing else but the cloth and the obstacles.
+struct ListsMemory {
+    std::vector<ClusterList> lists;  // of each cluster
+    std::vector<Vec3> seen;          // m, positions at the last advance
+    double seen_fraction = 0.0;
+    std::vector<Vec3> anchor;       // m, positions from which nothing is in reach before some vertex has gone `room`
+    double room = 0.0;              // m
+    int room_version = no_version;  // of the obstacles' motion
+    bool empty = true;              // nothing is near any cluster
+};
 
 /// Verlet lists: candidates of all cloth, rebuilt only where the cloth left its boxes or an obstacle moves.
 class CandidateLists {
@@ -78,13 +85,12 @@ public:
     CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
                    std::span<const Vec3> positions);
 
-    /// Everything that later calls depend on; with the obstacles as they are now.
-    void save(const Obstacles& obstacles, StateWriter& state) const;
-    /// Lists as they were saved, of the same cloth and obstacles. Throws SceneError for what is none of these. Obstacles may
-    /// still be elsewhere, but must be where they were when `settle` is called, which is before anything else.
-    static CandidateLists restored(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
-                                   const Obstacles& obstacles, StateReader& state);
+    /// Lists that go on from what others of the same cloth remember, with their clusters. `settle` is called before all else.
+    CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, ClothClusters clusters,
+                   ListsMemory memory);
+    /// Gives lists with good_version the version of the obstacles, which are where they were.
     void settle(const Obstacles& obstacles);
+    const ListsMemory& memory() const { return memory_; }
 
     /// Makes every list good for all states between two, and moves the lists' time to `move.from`. A move so long that its lists
     /// would not fit into memory is covered in part: returns the share of it, from its start, that the lists are good for.
@@ -94,9 +100,9 @@ public:
     void advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles);
 
     /// Nothing is near any cluster.
-    bool empty() const { return empty_; }
+    bool empty() const { return memory_.empty; }
     std::span<const ClothCluster> clusters() const { return clusters_.clusters; }
-    std::span<ClusterList> lists() { return lists_; }
+    std::span<ClusterList> lists() { return memory_.lists; }
     /// m, how far each vertex goes in the move that was covered last, and the farthest of a cluster.
     std::span<const double> ways() const { return way_; }
     double cluster_way(std::size_t cluster) const { return cluster_way_[cluster]; }
@@ -104,9 +110,6 @@ public:
     static void set_least(ClusterList& list);
 
 private:
-    CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, std::span<const Vec3> positions,
-                   ClothClusters clusters);
-    void check(const Obstacles& obstacles, const StateReader& state) const;
     std::span<const int> vertices_of(std::size_t cluster) const {
         return std::span(vertices_).subspan(vertex_start_[cluster], vertex_start_[cluster + 1] - vertex_start_[cluster]);
     }
@@ -127,8 +130,7 @@ private:
     std::vector<double> thickness_;
     ClothClusters clusters_;
     std::vector<int> vertex_start_, vertices_;  // all vertices of each cluster, one after the other
-    std::vector<ClusterList> lists_;
-    std::vector<Vec3> seen_;                 // positions at the last advance
+    ListsMemory memory_;
     std::vector<double> way_, cluster_way_;  // m
     std::vector<double> moved_;              // m^2, since the last advance
     std::vector<Box> vertex_boxes_;          // valid while a cluster is built
@@ -138,12 +140,7 @@ private:
     std::vector<std::pair<std::size_t, ContactPair>> held_;  // of the lists being replaced, with their clusters
     IdLists found_;
     std::vector<Vec3> shortened_;  // the end of the part of a long move that is covered
-    double seen_fraction_ = 0.0;
-    std::vector<Vec3> anchor_;  // positions from which nothing is in reach before some vertex has gone `room_`
-    double room_ = 0.0;         // m
-    int room_version_ = -1;     // of the obstacles' motion
-    bool empty_ = true;
-    long listed_ = 0;  // packs, while lists are built
+    long listed_ = 0;              // packs, while lists are built
 };
 
 }  // namespace percale

@@ -1,6 +1,6 @@
-#include <algorithm>
+#include "lists/candidate_state.h"
 
-#include "lists/candidate_lists.h"
+#include <algorithm>
 
 namespace percale {
 
@@ -36,8 +36,6 @@ void exchange(Archive& archive, Value& list) {
 }
 
 namespace {
-
-constexpr int settled_later = 0;  // version of lists that are good for the obstacles' poses
 
 /// Whether an order holds every number below `count` once.
 bool is_permutation_of(std::span<const int> order, std::size_t count) {
@@ -79,6 +77,26 @@ bool has_good_packs(const ClusterList& list, const Obstacles& obstacles) {
     return true;
 }
 
+bool holds_a_contact(const ClusterList& list) {
+    return std::any_of(list.packs.at.begin(), list.packs.at.end(), [](const ListedPack& pack) { return pack.held != 0; });
+}
+
+void check(const ListsMemory& memory, const ClothClusters& clusters, const Obstacles& obstacles, const StateReader& state) {
+    state.demand(memory.anchor.empty() || memory.anchor.size() == memory.seen.size(), "a wrong number of vertices");
+    state.demand(!memory.anchor.empty() || memory.room_version != good_version, "room about nothing");
+    for (std::size_t cluster = 0; cluster < memory.lists.size(); ++cluster) {
+        const ClusterList& list = memory.lists[cluster];
+        state.demand(list.boxes.empty() ? list.features.empty() && list.version != good_version
+                                        : list.boxes.size() == clusters.clusters[cluster].all_vertices.size(),
+                     "a wrong number of boxes");
+        for (const ContactPair& feature : list.features) {
+            state.demand(is_good(feature, memory.seen.size(), obstacles), "a feature that there is not");
+        }
+        state.demand(are_in_order(list), "packs of no feature");
+        state.demand(has_good_packs(list, obstacles), "a pack that there is not");
+    }
+}
+
 }  // namespace
 
 std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vector<double>& vertex_thickness,
@@ -102,61 +120,37 @@ std::vector<std::array<Pose, 2>> restored_poses(const Obstacles& obstacles, Stat
     return poses;
 }
 
-void CandidateLists::save(const Obstacles& obstacles, StateWriter& state) const {
+void save(const CandidateLists& candidates, const Obstacles& obstacles, StateWriter& state) {
+    const ListsMemory& memory = candidates.memory();
     const int version = total_version(obstacles);
     std::vector<int> order;
-    for (const ClothCluster& cluster : clusters_.clusters) {
+    for (const ClothCluster& cluster : candidates.clusters()) {
         order.insert(order.end(), cluster.triangles.begin(), cluster.triangles.end());
     }
-    std::vector<ClusterList> lists = lists_;
-    for (ClusterList& list : lists) list.version = list.version == version ? settled_later : -1;
-    state(order, lists, seen_, seen_fraction_, anchor_, room_, room_version_ == version, empty_);
+    std::vector<ClusterList> lists = memory.lists;
+    for (ClusterList& list : lists) list.version = list.version == version ? good_version : no_version;
+    state(order, lists, memory.seen, memory.seen_fraction, memory.anchor, memory.room, memory.room_version == version,
+          memory.empty);
 }
 
-CandidateLists CandidateLists::restored(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
-                                        const Obstacles& obstacles, StateReader& state) {
+CandidateLists restored_lists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
+                              const Obstacles& obstacles, StateReader& state) {
     std::vector<int> order;
-    std::vector<ClusterList> saved;
-    std::vector<Vec3> seen;
-    state(order, saved, seen);
+    ListsMemory memory;
+    state(order, memory.lists, memory.seen);
     state.demand(is_permutation_of(order, triangles.size()), "no order of the triangles");
-    state.demand(seen.size() == vertex_thickness.size(), "a wrong number of vertices");
-    CandidateLists lists(triangles, vertex_thickness, seen, make_clusters(triangles, seen.size(), order));
-    state.demand(saved.size() == lists.lists_.size(), "a wrong number of lists");
-    for (std::size_t i = 0; i < saved.size(); ++i) saved[i].thickness = lists.lists_[i].thickness;
-    lists.lists_ = std::move(saved);
+    state.demand(memory.seen.size() == vertex_thickness.size(), "a wrong number of vertices");
+    ClothClusters clusters = make_clusters(triangles, memory.seen.size(), order);
+    state.demand(memory.lists.size() == clusters.clusters.size(), "a wrong number of lists");
     bool room_is_known = false;
-    state(lists.seen_fraction_, lists.anchor_, lists.room_, room_is_known, lists.empty_);
-    lists.room_version_ = room_is_known ? settled_later : -1;
-    lists.check(obstacles, state);
-    for (ClusterList& list : lists.lists_) {
-        set_least(list);
-        list.holds =
-            std::any_of(list.packs.at.begin(), list.packs.at.end(), [](const ListedPack& pack) { return pack.held != 0; });
+    state(memory.seen_fraction, memory.anchor, memory.room, room_is_known, memory.empty);
+    memory.room_version = room_is_known ? good_version : no_version;
+    check(memory, clusters, obstacles, state);
+    for (ClusterList& list : memory.lists) {
+        CandidateLists::set_least(list);
+        list.holds = holds_a_contact(list);
     }
-    return lists;
-}
-
-void CandidateLists::settle(const Obstacles& obstacles) {
-    const int version = total_version(obstacles);
-    for (ClusterList& list : lists_) list.version = list.version == settled_later ? version : -1;
-    room_version_ = room_version_ == settled_later ? version : -1;
-}
-
-void CandidateLists::check(const Obstacles& obstacles, const StateReader& state) const {
-    state.demand(anchor_.empty() || anchor_.size() == seen_.size(), "a wrong number of vertices");
-    state.demand(!anchor_.empty() || room_version_ != settled_later, "room about nothing");
-    for (std::size_t cluster = 0; cluster < lists_.size(); ++cluster) {
-        const ClusterList& list = lists_[cluster];
-        state.demand(list.boxes.empty() ? list.features.empty() && list.version != settled_later
-                                        : list.boxes.size() == vertices_of(cluster).size(),
-                     "a wrong number of boxes");
-        for (const ContactPair& feature : list.features) {
-            state.demand(is_good(feature, seen_.size(), obstacles), "a feature that there is not");
-        }
-        state.demand(are_in_order(list), "packs of no feature");
-        state.demand(has_good_packs(list, obstacles), "a pack that there is not");
-    }
+    return {triangles, vertex_thickness, std::move(clusters), std::move(memory)};
 }
 
 }  // namespace percale

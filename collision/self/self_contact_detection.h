@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "self/self_contact_lists.h"
+#include "percale/contact.h"
+#include "self/self_contact_state.h"
 
 namespace percale {
 
@@ -23,9 +24,9 @@ public:
     /// Appends rows; returns the smallest distance of those, m, or infinity.
     double add_rows(std::span<const Vec3> positions, ContactRows& rows);
 
-    /// As those of SelfContactLists.
-    void save(StateWriter& state) const { lists_.save(state); }
-    void restore(StateReader& state) { lists_.restore(state); }
+    /// As those of self_contact_state.h.
+    void save(StateWriter& state) const { percale::save(lists_, state); }
+    void restore(StateReader& state) { percale::restore(lists_, state); }
 
 private:
     double cut(const SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe);

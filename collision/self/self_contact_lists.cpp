@@ -23,9 +23,7 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
       cloth_(cloth.cloth.begin(), cloth.cloth.end()),
       rest_(cloth.rest.begin(), cloth.rest.end()),
       surface_(make_cloth_surface(triangles, vertex_thickness.size())),
-      start_(rest_),
-      way_(rest_.size(), Vec3::Zero()),
-      seen_(rest_) {
+      memory_{.start = rest_, .way = std::vector<Vec3>(rest_.size(), Vec3::Zero()), .seen = rest_, .lists = {}, .pairs = {}} {
     for (int v = 0; v < static_cast<int>(cloth_.size()); ++v) {
         if (cloth_[v] >= 0) vertices_.push_back(v);
     }
@@ -59,15 +57,15 @@ void SelfContactLists::add_clusters(std::span<const int> triangles, std::span<co
 }
 
 double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3> to) {
-    if (made_) {
-        set_motion(seen_, from);
-        for (SelfList& list : lists_) list.travel += shrink(list);
+    if (memory_.made) {
+        set_motion(memory_.seen, from);
+        for (SelfList& list : memory_.lists) list.travel += shrink(list);
     }
-    std::copy(from.begin(), from.end(), seen_.begin());
-    if (made_ && holds(from) && holds(to)) return 1.0;
-    made_ = true;
+    std::copy(from.begin(), from.end(), memory_.seen.begin());
+    if (memory_.made && holds(from) && holds(to)) return 1.0;
+    memory_.made = true;
     double share = 1.0;
-    old_pairs_ = pairs_;
+    old_pairs_ = memory_.pairs;
     std::span<const Vec3> end = to;
     while (!rebuild(from, end, share < least_share)) {
         share *= 0.5;
@@ -87,16 +85,16 @@ Vec3 SelfContactLists::mean_motion(std::span<const Vec3> from, std::span<const V
 
 /// Whether a state is start + s way + t + e; s and t by least squares.
 bool SelfContactLists::holds(std::span<const Vec3> positions) const {
-    const Vec3 mean = mean_motion(start_, positions);
+    const Vec3 mean = mean_motion(memory_.start, positions);
     double along = 0.0, length = 0.0;
     for (const int v : vertices_) {
-        along += way_[v].dot(positions[v] - start_[v] - mean);
-        length += way_[v].squaredNorm();
+        along += memory_.way[v].dot(positions[v] - memory_.start[v] - mean);
+        length += memory_.way[v].squaredNorm();
     }
     const double s = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
     return std::all_of(vertices_.begin(), vertices_.end(), [&](int v) {
         const double skin = skin_share * thickness_[v];
-        return (positions[v] - start_[v] - mean - s * way_[v]).squaredNorm() <= skin * skin;
+        return (positions[v] - memory_.start[v] - mean - s * memory_.way[v]).squaredNorm() <= skin * skin;
     });
 }
 
@@ -120,8 +118,8 @@ double SelfContactLists::shrink(const SelfList& list) const {
 void SelfContactLists::set_boxes() {
     for (const int v : vertices_) {
         vertex_boxes_[v] = Box{};
-        vertex_boxes_[v].add(start_[v]);
-        vertex_boxes_[v].add(start_[v] + way_[v]);
+        vertex_boxes_[v].add(memory_.start[v]);
+        vertex_boxes_[v].add(memory_.start[v] + memory_.way[v]);
     }
     const auto box_of = [&](const auto& vertices) {
         Box box;
@@ -141,20 +139,20 @@ bool SelfContactLists::rebuild(std::span<const Vec3> from, std::span<const Vec3>
     const long most = whatever_it_takes ? std::numeric_limits<long>::max() : 4000000L + 300L * static_cast<long>(rest_.size());
     const Vec3 mean = mean_motion(from, to);
     for (const int v : vertices_) {
-        start_[v] = from[v];
-        way_[v] = to[v] - from[v] - mean;
+        memory_.start[v] = from[v];
+        memory_.way[v] = to[v] - from[v] - mean;
     }
     set_motion(from, to);
     set_boxes();
     tree_.refit(cluster_boxes_);
     tree_.find_pairs(cluster_pairs_);
     considered_ = 0;
-    lists_.clear();
-    pairs_.clear();
+    memory_.lists.clear();
+    memory_.pairs.clear();
     for (const auto& [a, b] : cluster_pairs_) {
-        SelfList list{.first = a, .second = b, .begin = pairs_.size()};
+        SelfList list{.first = a, .second = b, .begin = memory_.pairs.size()};
         fill_list(list, from);
-        if (list.end > list.begin) lists_.push_back(list);
+        if (list.end > list.begin) memory_.lists.push_back(list);
         if (considered_ > most) return false;
     }
     return true;
@@ -170,7 +168,7 @@ void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
     pair_vertices(near_first_, near_second_, {room, limit}, from);
     if (!one) pair_vertices(near_second_, near_first_, {room, limit}, from);
     pair_edges(one, {room, limit}, from);
-    list.end = pairs_.size();
+    list.end = memory_.pairs.size();
     list.least_reach = infinity;
     for (const SelfPair& pair : pairs(list)) {
         list.least_reach = std::min(list.least_reach, pair.reach);
@@ -232,7 +230,7 @@ void SelfContactLists::consider(SelfPair pair, double room, std::span<const Vec3
     if (cloth_[pair.vertex[0]] == cloth_[pair.vertex[3]]) {
         pair.thickness = std::min(pair.thickness, share_of_rest * self_distance(pair, rest_));
     }
-    if (pair.reach < pair.thickness + room) pairs_.push_back(pair);
+    if (pair.reach < pair.thickness + room) memory_.pairs.push_back(pair);
 }
 
 /// What was a contact in the lists being replaced stays one.
@@ -240,7 +238,7 @@ void SelfContactLists::take_over_zones() {
     std::vector<SelfPair>& old = old_pairs_;
     std::erase_if(old, [](const SelfPair& pair) { return pair.zone == 0.0; });
     std::sort(old.begin(), old.end(), comes_before);
-    for (SelfPair& pair : pairs_) {
+    for (SelfPair& pair : memory_.pairs) {
         const auto found = std::lower_bound(old.begin(), old.end(), pair, comes_before);
         if (found != old.end() && !comes_before(pair, *found)) pair.zone = found->zone;
     }

@@ -6,7 +6,6 @@
 
 #include "geometry/cloth_clusters.h"
 #include "percale/contact.h"
-#include "percale/saved_state.h"
 #include "self/cluster_tree.h"
 #include "self/self_pair.h"
 
@@ -19,6 +18,15 @@ struct SelfList {
     double travel = 0.0;             // m, bound of how much any distance of it has shrunk since the lists were made
     double least_reach = 0.0;        // least SelfPair::reach
     double thickness = 0.0;          // m, largest of its pairs
+};
+
+/// What lists remember from call to call. Later answers depend on nothing else but the cloth.
+struct SelfListsMemory {
+    std::vector<Vec3> start, way;  // m, what the lists hold for
+    std::vector<Vec3> seen;        // m, positions of the last cover
+    std::vector<SelfList> lists;
+    std::vector<SelfPair> pairs;
+    bool made = false;
 };
 
 /// Candidate pairs of cloth against cloth. They hold for the states start + s way + t + e, with s from 0 to 1 and t the same for
@@ -37,14 +45,16 @@ public:
     /// m, bound of how much distances of the list can shrink on the straight way last given to set_motion.
     double shrink(const SelfList& list) const;
 
-    /// Everything that later calls depend on.
-    void save(StateWriter& state) const;
-    /// The same of another object for the same cloth. Throws SceneError, and is then of no use, for what is none of these.
-    void restore(StateReader& state);
+    const SelfListsMemory& memory() const { return memory_; }
+    /// Goes on from what other lists of the same cloth remember.
+    void set_memory(SelfListsMemory memory) { memory_ = std::move(memory); }
 
-    std::span<SelfList> lists() { return lists_; }
-    std::span<SelfPair> pairs(const SelfList& list) { return std::span(pairs_).subspan(list.begin, list.end - list.begin); }
+    std::span<SelfList> lists() { return memory_.lists; }
+    std::span<SelfPair> pairs(const SelfList& list) {
+        return std::span(memory_.pairs).subspan(list.begin, list.end - list.begin);
+    }
     const ClothSurface& surface() const { return surface_; }
+    std::size_t cluster_count() const { return clusters_.size(); }
 
 private:
     struct Cluster {
@@ -59,7 +69,6 @@ private:
     };
 
     void add_clusters(std::span<const int> triangles, std::span<const Vec3> rest);
-    void check(const StateReader& state) const;
     bool holds(std::span<const Vec3> positions) const;
     bool rebuild(std::span<const Vec3> from, std::span<const Vec3> to, bool whatever_it_takes);
     void set_boxes();
@@ -81,17 +90,14 @@ private:
     ClothSurface surface_;
     std::vector<Cluster> clusters_;
     ClusterTree tree_;
-    std::vector<int> vertices_;                                                    // that meet cloth
-    std::vector<Vec3> start_, way_;                                                // m, what the lists hold for
-    std::vector<Vec3> seen_;                                                       // positions of the last cover
+    std::vector<int> vertices_;  // that meet cloth
+    SelfListsMemory memory_;
     std::vector<Box> vertex_boxes_, edge_boxes_, triangle_boxes_, cluster_boxes_;  // m, during the move
     std::vector<std::pair<int, int>> cluster_pairs_;
-    std::vector<SelfList> lists_;
-    std::vector<SelfPair> pairs_, old_pairs_;
+    std::vector<SelfPair> old_pairs_;
     std::vector<Vec3> shortened_;
     Near near_first_, near_second_;
     long considered_ = 0;
-    bool made_ = false;
 };
 
 }  // namespace percale

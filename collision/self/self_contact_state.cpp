@@ -1,6 +1,6 @@
-#include <algorithm>
+#include "self/self_contact_state.h"
 
-#include "self/self_contact_lists.h"
+#include <algorithm>
 
 namespace percale {
 
@@ -40,27 +40,34 @@ bool is_good(const SelfPair& pair, const ClothSurface& surface) {
     return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
-}  // namespace
-
-void SelfContactLists::save(StateWriter& state) const { state(start_, way_, seen_, lists_, pairs_, made_); }
-
-void SelfContactLists::restore(StateReader& state) {
-    state(start_, way_, seen_, lists_, pairs_, made_);
-    check(state);
-}
-
-void SelfContactLists::check(const StateReader& state) const {
-    for (const auto* positions : {&start_, &way_, &seen_}) {
-        state.demand(positions->size() == rest_.size(), "a wrong number of vertices");
+void check(const SelfListsMemory& memory, const SelfContactLists& lists, const StateReader& state) {
+    const std::size_t vertices = lists.memory().seen.size();
+    for (const auto* positions : {&memory.start, &memory.way, &memory.seen}) {
+        state.demand(positions->size() == vertices, "a wrong number of vertices");
     }
     std::size_t next = 0;
-    for (const SelfList& list : lists_) {
-        state.demand(below(list.first, clusters_.size()) && below(list.second, clusters_.size()), "a cluster that there is not");
-        state.demand(list.begin == next && list.begin < list.end && list.end <= pairs_.size(), "pairs that there are not");
+    for (const SelfList& list : memory.lists) {
+        state.demand(below(list.first, lists.cluster_count()) && below(list.second, lists.cluster_count()),
+                     "a cluster that there is not");
+        state.demand(list.begin == next && list.begin < list.end && list.end <= memory.pairs.size(), "pairs that there are not");
         next = list.end;
     }
-    state.demand(next == pairs_.size(), "pairs of no list");
-    for (const SelfPair& pair : pairs_) state.demand(is_good(pair, surface_), "a pair that there is not");
+    state.demand(next == memory.pairs.size(), "pairs of no list");
+    for (const SelfPair& pair : memory.pairs) state.demand(is_good(pair, lists.surface()), "a pair that there is not");
+}
+
+}  // namespace
+
+void save(const SelfContactLists& lists, StateWriter& state) {
+    const SelfListsMemory& memory = lists.memory();
+    state(memory.start, memory.way, memory.seen, memory.lists, memory.pairs, memory.made);
+}
+
+void restore(SelfContactLists& lists, StateReader& state) {
+    SelfListsMemory memory;
+    state(memory.start, memory.way, memory.seen, memory.lists, memory.pairs, memory.made);
+    check(memory, lists, state);
+    lists.set_memory(std::move(memory));
 }
 
 }  // namespace percale

@@ -46,6 +46,17 @@ std::string target_of(const std::string& file) {
 
 }  // namespace
 
+std::string without_part_suffix(std::string file) {
+    if (file.ends_with(part_suffix)) file.resize(file.size() - std::string_view(part_suffix).size());
+    return file;
+}
+
+std::string whole_or_part(const std::string& file) {
+    const std::string part = file + part_suffix;
+    std::error_code error;
+    return std::filesystem::symlink_status(part, error).type() == std::filesystem::file_type::regular ? part : file;
+}
+
 WholeFile::WholeFile(const std::string& file) : file_(target_of(file)), temporary_(file_ + part_suffix) {
     errno = 0;
     out_.open(temporary_, std::ios::binary | std::ios::trunc);
@@ -66,7 +77,7 @@ WholeFile::WholeFile(const std::string& file, const std::string& source, std::ui
     if (!error) fs::resize_file(temporary_, bytes, error);
     if (error) throw SceneError(file_ + ": cannot be written: " + error.message());
     errno = 0;
-    out_.open(temporary_, std::ios::binary | std::ios::app);
+    out_.open(temporary_, std::ios::binary | std::ios::in | std::ios::out | std::ios::ate);
     if (!out_) refuse(file_);
 }
 
@@ -82,6 +93,7 @@ void WholeFile::check() {
 
 std::uint64_t WholeFile::sync() {
     if (out_) errno = 0;  // else it still says why writing failed
+    out_.seekp(0, std::ios::end);
     out_.flush();
     check();
     sync_path(temporary_, file_);

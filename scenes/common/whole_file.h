@@ -13,6 +13,12 @@ namespace percale::scenes {
 /// What the temporary name of a file that is being written ends in.
 constexpr const char* part_suffix = ".part";
 
+/// The name of a file, whole or not.
+std::string without_part_suffix(std::string file);
+
+/// Where a file that was not made whole can be gone on with: its temporary name if a regular file has that, else its own.
+std::string whole_or_part(const std::string& file);
+
 /// A file that is either whole or absent: written under a temporary name beside the wanted one and renamed by `commit`.
 /// Without `commit` nothing is left but after `leave`. A symbolic link is followed. Throws SceneError naming the file if it
 /// cannot be written or if something that is not a regular file has that name.
@@ -20,7 +26,7 @@ class WholeFile {
 public:
     explicit WholeFile(const std::string& file);
     /// Goes on after the first `bytes` of `source`, which is copied unless it is this file's own temporary one. Throws SceneError
-    /// if it has fewer.
+    /// if it has fewer. What is there may be overwritten (seekp).
     WholeFile(const std::string& file, const std::string& source, std::uint64_t bytes);
     ~WholeFile();
     WholeFile(const WholeFile&) = delete;
@@ -29,7 +35,7 @@ public:
     std::ostream& out() { return out_; }
     /// Throws SceneError if something that was written until now could not be.
     void check();
-    /// Brings what was written until now to the disk; returns how many bytes that is.
+    /// Brings what was written until now to the disk; returns how long the file is, bytes.
     std::uint64_t sync();
     /// The file is not whole, but what is there of it stays under the temporary name.
     void leave() { kept_ = true; }

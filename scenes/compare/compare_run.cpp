@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/text.h"
+#include "frames/frame_formats.h"
 #include "percale/error.h"
 #include "run/vertex_selection.h"
 
@@ -132,7 +133,7 @@ VariantRun run_built(BuiltScene& built, const std::function<bool()>& stop_asked)
 }  // namespace
 
 void leave_only_steps(Scene& scene) {
-    scene.output.frames = FrameFormat::none;
+    scene.output.frames = no_frames;
     scene.output.fps = 1e-9;
     scene.expectations.clear();
 }

@@ -6,6 +6,7 @@
 #include "common/text.h"
 #include "doctor/doctor_mesh.h"
 #include "format/scene_file.h"
+#include "frames/frame_formats.h"
 #include "percale/error.h"
 #include "run/motion_parts.h"
 #include "run/obstacle_motion.h"
@@ -300,7 +301,7 @@ std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan
     for (const TriangleMesh& mesh : built.cloth_meshes)
         frame += bytes_a_vertex * static_cast<double>(mesh.vertices.size()) +
                  bytes_a_triangle * static_cast<double>(mesh.triangles.size());
-    const double disk = scene.output.frames == FrameFormat::none ? 0.0 : frame * scene.duration * scene.output.fps;
+    const double disk = scene.output.frames == no_frames ? 0.0 : frame * scene.duration * scene.output.fps;
     if (disk > much_disk)
         warn("much_output", "its frames will take about " + short_number(1e-9 * disk) + " GB on disk",
              "lower output.fps, or set output.frames = \"none\"");

@@ -11,7 +11,7 @@ namespace percale::scenes {
 
 using nlohmann::json;
 
-constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 1, .words = "checkpoint"};
+constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 2, .words = "checkpoint"};
 
 template <class Archive, OfType<RunTotals> Value>
 void exchange(Archive& archive, Value& totals) {
@@ -54,10 +54,15 @@ void exchange(Archive& archive, Value& frame) {
     archive(frame.index, frame.time, frame.cloths, frame.obstacles, frame.check, frame.meeting);
 }
 
+template <class Archive, OfType<GrownFile> Value>
+void exchange(Archive& archive, Value& file) {
+    archive(file.name, file.bytes);
+}
+
 template <class Archive, OfType<Checkpoint> Value>
 void exchange(Archive& archive, Value& checkpoint) {
     archive(checkpoint.settings, checkpoint.certify_steps, checkpoint.replay_hash, checkpoint.run, checkpoint.folder.frames,
-            checkpoint.folder.step_bytes);
+            checkpoint.folder.step_bytes, checkpoint.folder.grown);
 }
 
 namespace {

@@ -1,10 +1,13 @@
 #pragma once
 
-#include <map>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "common/whole_file.h"
+#include "format/scene.h"
+#include "frames/frame_folder.h"
+#include "frames/frame_formats.h"
 #include "run/run_scene.h"
 
 namespace percale::scenes {
@@ -19,32 +22,35 @@ struct FrameRecord {
     std::vector<std::string> meeting;  // those of `cloths` that meet each other (self_contact)
 };
 
-/// Writes FOLDER/frames/<cloth>_00000.obj and FOLDER/obstacles/<obstacle>_00000.obj, whole or not at all.
+/// Writes the frames of a scene in the format that it names (output.frames) into FOLDER/frames and FOLDER/obstacles, whole or not
+/// at all.
 class FrameWriter {
 public:
     /// Creates nothing yet. Throws SceneError for a name that cannot be part of a file name or that two cloths or two obstacles
-    /// share.
-    FrameWriter(const std::string& folder, const Scene& scene);
+    /// share, and for a word that no format has.
+    FrameWriter(const std::string& folder, const Scene& scene, std::span<const FrameFormat> formats = frame_formats());
 
     /// Throws SceneError naming the file that cannot be written.
     FrameRecord write(const Frame& frame);
-    /// Copies a file from another run's folder.
-    void copy(const std::string& folder, const std::string& name);
-    /// Removes every file written since the construction or the last call of `keep`.
-    void discard();
-    void keep() { written_.clear(); }
-    /// Removes what runs of this scene have left, whole or not, of frames from this number on.
+    /// Completes files that grow over the run. `times`: of all frames, s.
+    void finish(std::span<const double> times);
+    /// The files that are written, for a checkpoint and for what cannot be finished.
+    FrameFolder& files() { return files_; }
+
+    /// Whether a listed file is one that a run writes, in whatever format: never anything above or beside its folder.
+    bool writes(const std::string& name) const;
+    /// Removes what runs of this scene have left, whole or not and in whatever format, of frames from this number on.
     void remove_from(int frame) const;
 
 private:
-    void need_folder(const std::string& name);
-    void write_mesh(const std::string& name, const TriangleMesh& mesh);
+    void remove_from(int frame, const std::string& folder) const;
 
     std::string folder_;
-    std::vector<std::string> cloth_names_, obstacle_names_;
-    std::vector<bool> obstacle_moves_, cloth_meets_;
-    std::vector<std::string> written_;
-    std::map<std::string, OutputFolder> folders_;
+    std::span<const FrameFormat> formats_;
+    FrameCast cast_;
+    std::vector<bool> cloth_meets_;
+    FrameFolder files_;
+    std::unique_ptr<FrameEncoder> encoder_;  // null: no frames are written
 };
 
 }  // namespace percale::scenes

@@ -12,24 +12,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a listed file is one that a run writes: never anything above or beside its folder.
-bool is_frame_file(const fs::path& path) {
-    const std::string parent = path.parent_path().string();
-    return (parent == "frames" || parent == "obstacles") && path.extension() == ".obj";
-}
-
 void remove_file(const fs::path& path) {
     std::error_code error;
     fs::remove(path, error);
     if (error) throw SceneError(path.string() + ": cannot be replaced: " + error.message());
 }
 
-void remove_frame_files(const std::string& folder, const std::vector<std::string>& files) {
-    for (const std::string& file : files)
-        if (is_frame_file(file)) remove_file(fs::path(folder) / file);
+std::vector<std::string> listed_files(const std::vector<FrameRecord>& frames) {
+    std::vector<std::string> all;
+    for (const FrameRecord& frame : frames)
+        for (const auto* files : {&frame.cloths, &frame.obstacles}) all.insert(all.end(), files->begin(), files->end());
+    return all;
 }
 
-void remove_earlier_run(const std::string& folder) {
+void remove_earlier_run(const std::string& folder, const FrameWriter& writer) {
     const fs::path report = fs::path(folder) / "report.json";
     if (!fs::exists(report)) return;
     std::vector<FrameRecord> frames;
@@ -40,10 +36,8 @@ void remove_earlier_run(const std::string& folder) {
     }
     remove_file(report);
     remove_file(fs::path(folder) / "steps.csv");
-    for (const FrameRecord& frame : frames) {
-        remove_frame_files(folder, frame.cloths);
-        remove_frame_files(folder, frame.obstacles);
-    }
+    for (const std::string& file : listed_files(frames))
+        if (writer.writes(file)) remove_file(fs::path(folder) / file);
 }
 
 /// A file that a run was writing when it was killed.
@@ -63,75 +57,64 @@ void remove_killed_run(const std::string& folder, const FrameWriter& writer) {
     for (const char* name : {"steps.csv", "report.json", checkpoint_name}) remove_leftover(folder, name);
 }
 
-/// The steps of a run that was stopped, or of one that was killed.
-std::string step_file(const std::string& folder) {
-    const std::string whole = folder + "/steps.csv", part = whole + part_suffix;
-    return is_leftover(part) ? part : whole;
-}
-
-/// All files of frames in a folder. Throws SceneError unless all are there.
-std::vector<std::string> files_of(const std::vector<FrameRecord>& frames, const std::string& folder) {
-    std::vector<std::string> all;
-    for (const FrameRecord& frame : frames) {
-        for (const auto* files : {&frame.cloths, &frame.obstacles}) all.insert(all.end(), files->begin(), files->end());
-    }
-    for (const std::string& file : all) {
-        if (!is_frame_file(file)) throw SceneError(file + ": is no frame of a run");
+/// The files of frames that belong to a state, but for those that grow. Throws SceneError unless all are there.
+std::vector<std::string> files_of(const FolderState& state, const std::string& folder, const FrameWriter& writer) {
+    std::vector<std::string> files = listed_files(state.frames);
+    for (const GrownFile& file : state.grown) files.push_back(file.name);
+    for (const std::string& file : files)
+        if (!writer.writes(file)) throw SceneError(file + ": is no frame of a run");
+    for (const GrownFile& file : state.grown) std::erase(files, file.name);
+    for (const std::string& file : files)
         if (!fs::exists(fs::path(folder) / file))
             throw SceneError(folder + "/" + file + ": is missing, and the run cannot be resumed without it");
-    }
-    return all;
+    return files;
 }
 
 }  // namespace
 
-RunFolder::RunFolder(const std::string& folder, const Scene& scene, bool with_state_hash)
-    : folder_(folder),
-      with_frames_(scene.output.frames != FrameFormat::none),
-      with_state_hash_(with_state_hash),
-      writer_(folder, scene) {}
+RunFolder::RunFolder(const std::string& folder, const Scene& scene, bool with_state_hash, std::span<const FrameFormat> formats)
+    : folder_(folder), with_state_hash_(with_state_hash), writer_(folder, scene, formats) {}
 
 RunFolder::~RunFolder() {
     if (finished_) return;
-    writer_.discard();
+    writer_.files().discard();
     if (resumable_ && steps_) steps_->leave();
     if (steps_written_ && !resumable_) std::remove((folder_ + "/steps.csv").c_str());
 }
 
 void RunFolder::begin() {
     made_.emplace(folder_);
-    remove_earlier_run(folder_);
+    remove_earlier_run(folder_, writer_);
     remove_killed_run(folder_, writer_);
     remove_file(fs::path(folder_) / checkpoint_name);
     steps_.emplace(folder_ + "/steps.csv");
 }
 
 void RunFolder::begin_from(const FolderState& state, const std::string& other) {
-    const std::vector<std::string> files = files_of(state.frames, other);
+    const std::vector<std::string> files = files_of(state, other, writer_);
     made_.emplace(folder_);
     std::error_code error;
     const bool here = fs::equivalent(folder_, other, error);
-    steps_.emplace(folder_ + "/steps.csv", step_file(other), state.step_bytes);
+    steps_.emplace(folder_ + "/steps.csv", whole_or_part(other + "/steps.csv"), state.step_bytes);
     resumable_ = here;
     for (const std::string& file : files) {
-        if (!here) writer_.copy(other, file);
+        if (!here) writer_.files().copy(other, file);
     }
+    for (const GrownFile& file : state.grown) writer_.files().go_on(other, file, here);
     for (const char* name : {"report.json", "steps.csv"}) remove_file(fs::path(folder_) / name);
     for (const char* name : {"report.json", checkpoint_name}) remove_leftover(folder_, name);
     writer_.remove_from(static_cast<int>(state.frames.size()));
     frames_ = state.frames;
 }
 
-FolderState RunFolder::state() { return {frames_, steps_->sync()}; }
+FolderState RunFolder::state() { return {frames_, steps_->sync(), writer_.files().sync()}; }
 
 void RunFolder::keep() {
-    writer_.keep();
+    writer_.files().keep();
     resumable_ = true;
 }
 
-void RunFolder::add(const Frame& frame) {
-    frames_.push_back(with_frames_ ? writer_.write(frame) : FrameRecord{frame.index, frame.time, {}, {}, frame.check, {}});
-}
+void RunFolder::add(const Frame& frame) { frames_.push_back(writer_.write(frame)); }
 
 void RunFolder::add(const StepReport& report, const Simulation& simulation) {
     steps_->add(report, with_state_hash_ ? std::optional(simulation.state_hash()) : std::nullopt);
@@ -140,6 +123,9 @@ void RunFolder::add(const StepReport& report, const Simulation& simulation) {
 void RunFolder::finish(const BuiltScene& built, const RunResult& result, std::span<const ExpectationResult> expectations) {
     steps_->finish();
     steps_written_ = true;
+    std::vector<double> times;
+    for (const FrameRecord& frame : frames_) times.push_back(frame.time);
+    writer_.finish(times);
     write_whole_file(folder_ + "/report.json", run_report_text(built, result, frames_, expectations));
     finished_ = true;
 }

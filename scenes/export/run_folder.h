@@ -16,6 +16,7 @@ namespace percale::scenes {
 struct FolderState {
     std::vector<FrameRecord> frames;
     std::uint64_t step_bytes = 0;  // of steps.csv
+    std::vector<GrownFile> grown;  // files that show several frames
 };
 
 /// The name of the checkpoint in a run's folder.
@@ -26,7 +27,8 @@ constexpr const char* checkpoint_name = "checkpoint.percale";
 class RunFolder {
 public:
     /// Creates nothing yet. Throws SceneError where a name of the scene cannot be part of a file name.
-    RunFolder(const std::string& folder, const Scene& scene, bool with_state_hash);
+    RunFolder(const std::string& folder, const Scene& scene, bool with_state_hash,
+              std::span<const FrameFormat> formats = frame_formats());
 
     ~RunFolder();
     RunFolder(const RunFolder&) = delete;
@@ -38,7 +40,7 @@ public:
     /// Goes on where another run left its folder, which may be this one; frames and steps are copied from others. Throws
     /// SceneError if what belongs to the state is not there.
     void begin_from(const FolderState& state, const std::string& other);
-    /// Brings all steps to the disk.
+    /// Brings all steps and frames to the disk.
     FolderState state();
     /// A checkpoint holds what `state` told last.
     void keep();
@@ -48,7 +50,7 @@ public:
 
 private:
     std::string folder_;
-    bool with_frames_, with_state_hash_;
+    bool with_state_hash_;
     std::optional<OutputFolder> made_;
     FrameWriter writer_;
     std::optional<StepTable> steps_;

@@ -158,7 +158,7 @@ std::string settings_text(const Scene& scene) {
     for (const SeamSpec& seam : scene.seams) json["seam"].push_back(seam_object(seam));
     json["event"] = ordered_json::array();
     for (const EventSpec& event : scene.events) json["event"].push_back(event_object(event));
-    json["output"] = {{"frames", scene.output.frames == FrameFormat::obj ? "obj" : "none"}, {"fps", scene.output.fps}};
+    json["output"] = {{"frames", scene.output.frames}, {"fps", scene.output.fps}};
     return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 

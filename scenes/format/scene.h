@@ -130,10 +130,8 @@ struct Expectation {
     SourcePlace place;
 };
 
-enum class FrameFormat { none, obj };
-
 struct OutputSpec {
-    FrameFormat frames = FrameFormat::obj;
+    std::string frames = "obj";  // a word of frame_words()
     double fps = 30.0;
 };
 

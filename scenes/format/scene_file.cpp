@@ -108,8 +108,7 @@ void read_list(const TomlNode& document, std::string_view key, Part (*read)(cons
 }
 
 void read_output(const TomlNode& document, OutputSpec& output) {
-    if (const TomlNode* frames = find_value(document, "output.frames"))
-        output.frames = static_cast<FrameFormat>(choice_index(find_scene_key("output.frames")->choices, frames->text));
+    read_value(document, "output.frames", output.frames);
     read_value(document, "output.fps", output.fps);
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/text.h"
 #include "format/expectations.h"
+#include "frames/frame_formats.h"
 #include "percale/fabric_presets.h"
 #include "percale/options.h"
 
@@ -101,12 +102,13 @@ void add_top(Keys& keys) {
 }
 
 void add_step(Keys& keys) {
+    const Scene defaults;
     keys.push_back(table_key("step", "How the simulation steps."));
-    for (const auto& option : step_options()) keys.push_back(option_key("step", option, Scene{}.step));
+    for (const auto& option : step_options()) keys.push_back(option_key("step", option, defaults.step));
     SceneKey detector = word_key("step.detector", {detector_words.begin(), detector_words.end()},
                                  "Which tree finds obstacle triangles near the cloth; all find the same contacts; none refuses "
                                  "obstacles.");
-    detector.default_text = word_of(Scene{}.detector);
+    detector.default_text = word_of(defaults.detector);
     keys.push_back(std::move(detector));
 }
 
@@ -290,8 +292,8 @@ void add_expect(Keys& keys) {
 void add_output(Keys& keys) {
     const OutputSpec defaults;
     keys.push_back(table_key("output", "What is written."));
-    SceneKey frames = word_key("output.frames", {"none", "obj"}, "Format of the frames.");
-    frames.default_text = frames.choices.at(static_cast<std::size_t>(defaults.frames));
+    SceneKey frames = word_key("output.frames", frame_words(), "Format of the frames; " + frame_words_meaning() + ".");
+    frames.default_text = defaults.frames;
     keys.push_back(std::move(frames));
     keys.push_back(with_default(number_key("output.fps", "1/s", 0.01, 1e5, "Frames per second of simulated time."),
                                 number_text(defaults.fps)));

@@ -10,9 +10,21 @@
 #include "common/text.h"
 #include "format/expectations.h"
 #include "format/lacking.h"
+#include "frames/frame_formats.h"
 #include "percale/error.h"
 
 namespace percale::program {
+
+namespace {
+
+/// "a, b or c".
+std::string alternatives(std::vector<std::string> words) {
+    const std::string last = words.back();
+    words.pop_back();
+    return words.empty() ? last : scenes::joined(words) + " or " + last;
+}
+
+}  // namespace
 
 void add_scene_options(CLI::App& command, CommonOptions& options) {
     command.add_option("--set", options.set, "Override one key of the scene file; may be given several times")
@@ -25,7 +37,8 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
     add_scene_options(command, options);
     command.add_option("--threads", options.threads, "Threads of the simulation (step.threads)")->type_name("N");
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
-    command.add_option("--frames", options.frames, "Format of the frames: none or obj")->type_name("FORMAT");
+    command.add_option("--frames", options.frames, "Format of the frames: " + alternatives(scenes::frame_words()))
+        ->type_name("FORMAT");
     command.add_option("--fps", options.fps, "Output frames per simulated second (default 30)")->type_name("F");
     command.add_flag("--certify-steps", options.certify_steps,
                      "Certify the state after every step, not only output frames; fails where one is not clear");
@@ -36,10 +49,11 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
 namespace {
 
 void check_frame_format(const std::string& format) {
-    const std::vector<std::string> here = {"none", "obj"};
+    const std::vector<std::string> here = scenes::frame_words();
     if (format.empty() || std::find(here.begin(), here.end(), format) != here.end()) return;
     if (scenes::lacks_choice("output.frames", format))
-        throw SceneError("--frames " + format + ": this build lacks the frame format '" + format + "'; it has none and obj");
+        throw SceneError("--frames " + format + ": this build lacks the frame format '" + format + "'; it has " +
+                         alternatives(here));
     throw SceneError("--frames " + format + ": no such frame format" + scenes::suggestion(format, here));
 }
 

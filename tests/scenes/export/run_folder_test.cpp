@@ -1,7 +1,11 @@
 #include "export/run_folder.h"
 
+#include <algorithm>
+
 #include "format/scene_file.h"
+#include "frames/obj_frames.h"
 #include "percale/error.h"
+#include "tests/scenes/frames/tally_frames.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
@@ -172,4 +176,113 @@ TEST_CASE("a state that lists files elsewhere is refused") {
     const BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml"));
     RunFolder resumed(folder.path("new"), built.scene, false);
     CHECK_THROWS_WITH(resumed.begin_from(state, folder.path("left")), Catch::Contains("is no frame of a run"));
+}
+
+namespace {
+
+const std::vector<FrameFormat>& two_formats() {
+    static const std::vector<FrameFormat> formats = {obj_frames(), tally_frames()};
+    return formats;
+}
+
+struct Left {
+    RunState run;
+    FolderState folder;
+};
+
+/// A run with a format for the whole run, from its start or from where another one was left in the folder `other`. Until 0.04 s
+/// and then killed where `left` is given.
+void run_tally(const std::string& path, Left* left = nullptr, const Left* from = nullptr, const std::string& other = "") {
+    BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml"));
+    built.scene.output.frames = "tally";
+    RunFolder folder(path, built.scene, false, two_formats());
+    RunHooks hooks;
+    hooks.begin = [&] { from ? folder.begin_from(from->folder, other) : folder.begin(); };
+    hooks.frame = [&](const Frame& frame) { folder.add(frame); };
+    hooks.step = [&](const StepReport& report, const Simulation& simulation) { folder.add(report, simulation); };
+    if (left) {
+        hooks.checkpoint = [&](const RunState& state) {
+            if (left->run.steps_made > 0) return;
+            *left = {state, folder.state()};
+            folder.keep();
+        };
+    }
+    const RunResult result =
+        run_scene(built, hooks, {.checkpoint_every = left ? 0.04 : 0.0, .from = from ? &from->run : nullptr});
+    if (!left) folder.finish(built, result, {});
+}
+
+void run_obj(const std::string& path) {
+    const BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml"));
+    RunFolder folder(path, built.scene, false, two_formats());
+    folder.begin();
+    folder.add(Frame{.index = 0, .time = 0.0, .cloths = built.cloth_meshes, .obstacles = {}, .check = {}});
+    folder.finish(built, {}, {});
+}
+
+}  // namespace
+
+TEST_CASE("a format may have one file for all frames, which is whole at the end of the run") {
+    const TestFolder folder;
+    run_tally(folder.path());
+    const std::string tally = folder.read(tally_file);
+    CHECK(tally.starts_with("00006\n0 0 "));
+    CHECK(std::count(tally.begin(), tally.end(), '\n') == 7);
+    CHECK(folder.file_count() == 3);
+    for (const FrameRecord& frame : read_frame_records(folder.path()))
+        CHECK(frame.cloths == std::vector<std::string>{tally_file});
+}
+
+TEST_CASE("a run with one file for all frames that is gone on with ends with the same bytes, here or elsewhere") {
+    const TestFolder folder;
+    run_tally(folder.path("plain"));
+    for (const std::string name : {"new", "left"}) {
+        Left left;
+        run_tally(folder.path("left"), &left);
+        REQUIRE(left.folder.frames.size() == 3);
+        REQUIRE(left.folder.grown.size() == 1);
+        CHECK(std::filesystem::file_size(folder.path(std::string("left/") + tally_file + ".part")) > left.folder.grown[0].bytes);
+        run_tally(folder.path(name), nullptr, &left, folder.path("left"));
+        CHECK(folder.read(name + "/" + tally_file) == folder.read(std::string("plain/") + tally_file));
+        CHECK(folder.read(name + "/steps.csv") == folder.read("plain/steps.csv"));
+        CHECK(folder.holds(std::string("left/") + tally_file + ".part") == (name == "new"));
+        // Of a run that was finished since the checkpoint, too.
+        run_tally(folder.path("again"), nullptr, &left, folder.path(name));
+        CHECK(folder.read(std::string("again/") + tally_file) == folder.read(std::string("plain/") + tally_file));
+    }
+}
+
+TEST_CASE("a state that lists a grown file elsewhere is refused") {
+    const TestFolder folder;
+    Left left;
+    run_tally(folder.path("left"), &left);
+    left.folder.grown[0].name = "../all.tally";
+    CHECK_THROWS_WITH(run_tally(folder.path("new"), nullptr, &left, folder.path("left")),
+                      Catch::Contains("is no frame of a run"));
+}
+
+TEST_CASE("a run in another format leaves nothing of the one before, finished or killed") {
+    const TestFolder folder;
+    run_tally(folder.path());
+    run_obj(folder.path());
+    CHECK_FALSE(folder.holds(tally_file));
+    CHECK(folder.holds("frames/sheet_00000.obj"));
+    run_tally(folder.path());
+    CHECK_FALSE(folder.holds("frames/sheet_00000.obj"));
+    CHECK(folder.file_count() == 3);
+    Left left;
+    run_tally(folder.path(), &left);
+    CHECK(folder.holds(std::string(tally_file) + ".part"));
+    run_obj(folder.path());
+    CHECK_FALSE(folder.holds(std::string(tally_file) + ".part"));
+    CHECK(folder.file_count() == 3);
+}
+
+TEST_CASE("a word that no format has is refused with those that there are") {
+    const TestFolder folder;
+    Scene scene = parse_scene(falling_sheet(), "test.toml");
+    scene.output.frames = "tally";
+    CHECK_THROWS_WITH(RunFolder(folder.path(), scene, false), Catch::Contains("'tally'; valid: none, obj"));
+    CHECK_NOTHROW(RunFolder(folder.path(), scene, false, two_formats()));
+    CHECK(folder.file_count() == 0);
 }

@@ -1,0 +1,33 @@
+#include "scenes/frames/frame_formats.h"
+
+#include <set>
+
+#include "tests/support/catch.h"
+
+using namespace percale::scenes;
+
+TEST_CASE("every format has a word, a sentence and endings of its own, and makes an encoder that knows its files") {
+    std::set<std::string> words = {no_frames}, endings;
+    for (const FrameFormat& format : frame_formats()) {
+        CAPTURE(format.word);
+        CHECK(words.insert(format.word).second);
+        CHECK_FALSE(format.sentence.empty());
+        REQUIRE_FALSE(format.endings.empty());
+        for (const std::string& ending : format.endings) {
+            CHECK(ending.starts_with("."));
+            CHECK(ending.size() > 1);
+            CHECK(endings.insert(ending).second);
+        }
+        const auto encoder = format.make({.cloths = {"sheet"}, .obstacles = {}, .obstacle_moves = {}});
+        REQUIRE(encoder != nullptr);
+        CHECK(encoder->first_frame_of("frames/notes.txt") == -1);
+    }
+}
+
+TEST_CASE("the words of scene files are none and those of the formats, each explained") {
+    const std::vector<std::string> words = frame_words();
+    REQUIRE(words.size() == frame_formats().size() + 1);
+    CHECK(words.front() == no_frames);
+    for (std::size_t i = 1; i < words.size(); ++i) CHECK(words[i] == frame_formats()[i - 1].word);
+    for (const std::string& word : words) CHECK(frame_words_meaning().find(word + ": ") != std::string::npos);
+}
