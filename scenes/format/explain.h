@@ -10,7 +10,7 @@ namespace percale::scenes {
 /// nearest. The topic "presets" lists the fabrics of fabric_presets.h with their numbers and sources.
 void explain(std::ostream& out, const std::string& topic = "");
 
-/// The same for README.md: one Markdown table for the top of the file and one for each of its tables.
+/// The same for scenes/scene_keys.md: one Markdown table for the top of the file and one for each of its tables.
 std::string key_tables_markdown();
 
 }  // namespace percale::scenes

@@ -2,12 +2,14 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
 #include <thread>
 
 #include "scenes/common/whole_file.h"
+#include "tests/bench/figure_table.h"
 
 namespace percale::test {
 namespace {
@@ -30,14 +32,36 @@ std::string compiler() {
 #endif
 }
 
-void measure_into(const std::string& file, const std::string& program, const std::function<Figures()>& measure) {
-    std::optional<scenes::WholeFile> whole;
-    if (!file.empty()) whole.emplace(file);  // before hours of measuring
-    Figures report{{"program", program}, {"machine", machine_description()}};
-    report["figures"] = measure();
+/// Files that are asked for; empty: none.
+struct WantedFiles {
+    std::string json, table;
+};
+
+/// The command line as a user types it: the program without its folder.
+std::string command_line(int argc, char** argv) {
+    std::string text = std::filesystem::path(argv[0]).filename().string();
+    for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
+    return text;
+}
+
+/// The file is begun before hours of measuring, so that one that cannot be written is known at once.
+void begin(std::optional<scenes::WholeFile>& whole, const std::string& file) {
+    if (!file.empty()) whole.emplace(file);
+}
+
+void finish(std::optional<scenes::WholeFile>& whole, const std::string& text) {
     if (!whole) return;
-    whole->out() << report.dump(2) << '\n';
+    whole->out() << text;
     whole->commit();
+}
+
+void measure_into(const WantedFiles& files, Figures report, const std::function<Figures()>& measure) {
+    std::optional<scenes::WholeFile> json, table;
+    begin(json, files.json);
+    begin(table, files.table);
+    report["figures"] = measure();
+    finish(json, report.dump(2) + '\n');
+    finish(table, figure_table(report));
 }
 
 }  // namespace
@@ -55,11 +79,14 @@ Figures machine_description() {
 }
 
 int run_bench(CLI::App& app, int argc, char** argv, const std::function<Figures()>& measure) {
-    std::string file;
-    app.add_option("--json", file, "also write machine and figures to this file");
+    WantedFiles files;
+    app.add_option("--json", files.json, "also write machine and figures to this file");
+    app.add_option("-o", files.table, "also write the figures as a Markdown table to this file");
     try {
         app.parse(argc, argv);
-        measure_into(file, app.get_name(), measure);
+        measure_into(files,
+                     {{"program", app.get_name()}, {"command", command_line(argc, argv)}, {"machine", machine_description()}},
+                     measure);
         return 0;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;

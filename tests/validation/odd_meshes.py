@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Puts odd and broken meshes through the program: odd_meshes.py PERCALE FOLDER [NAME...]
+"""Puts odd and broken meshes through the program: odd_meshes.py PERCALE FOLDER [NAME...] [-o FILE]
 
 FOLDER holds them, as .ci/fetch_meshes.sh leaves them; without it nothing is tested (exit code 77). Each file goes through `doctor`, and
 through `run` as cloth over a ball and as obstacle under a sheet. Allowed is an answer: exit code 0, 1 or 2, and one line on the standard
 error where run refuses. Not allowed are a crash, an internal error, more than SECONDS of CPU time, or more memory than BASE_MB and
 MULTIPLE times the file (address space, and measured peak). A mesh that doctor finds no error in must not be refused by run.
-NAMEs pick files by part of their path. Prints a table by format; exit code 1 if anything was not allowed.
+NAMEs pick files by part of their path. Prints a table by format and with -o also writes it as a file; exit code 1 if anything was not
+allowed.
 """
+import argparse
 import json
 import os
 import resource
@@ -144,12 +146,16 @@ class Row:
                 f'| {obstacle[0]}, {obstacle[1]}, {obstacle[2]} | {self.seconds:.1f} | {self.peak / 1e6:.0f} |')
 
 
-def main(program, folder, names):
-    files = sorted(file for file in Path(folder).rglob('*') if file.is_file()) if Path(folder).is_dir() else []
-    files = [file for file in files if not names or any(name in str(file) for name in names)]
-    if not files:
-        print(f'odd_meshes: no files in {folder}; .ci/fetch_meshes.sh puts them there')
-        return SKIPPED
+HEAD = ('| package, format | files | with errors | as cloth: ran, failed, refused | as obstacle | most CPU s | most MB |\n'
+        '|---|---|---|---|---|---|---|\n')
+
+
+def table_of(rows):
+    return HEAD + ''.join(row.text(f'{package}, {suffix or "none"}') + '\n' for (package, suffix), row in sorted(rows.items()))
+
+
+def examine_all(program, files, folder):
+    """Rows by package and format, and how much was not allowed, which is printed."""
     rows, wrong = defaultdict(Row), 0
     with tempfile.TemporaryDirectory() as scratch:
         for file in files:
@@ -158,15 +164,29 @@ def main(program, folder, names):
             for complaint in complaints:
                 wrong += 1
                 print(f'{file}: {complaint}', flush=True)
-    print('| package, format | files | with errors | as cloth: ran, failed, refused | as obstacle | most CPU s | most MB |')
-    print('|---|---|---|---|---|---|---|')
-    for (package, suffix), row in sorted(rows.items()):
-        print(row.text(f'{package}, {suffix or "none"}'))
-    print(f'{len(files)} files, {wrong} wrong')
+    return rows, wrong
+
+
+def main():
+    parser = argparse.ArgumentParser(description='Puts odd and broken meshes through the program.')
+    parser.add_argument('program')
+    parser.add_argument('folder')
+    parser.add_argument('names', nargs='*', help='parts of paths (default: all files)')
+    parser.add_argument('-o', dest='table', help='also write the table to this file')
+    wish = parser.parse_args()
+    found = sorted(file for file in Path(wish.folder).rglob('*') if file.is_file()) if Path(wish.folder).is_dir() else []
+    files = [file for file in found if not wish.names or any(name in str(file) for name in wish.names)]
+    if not files:
+        print(f'odd_meshes: no files in {wish.folder}; .ci/fetch_meshes.sh puts them there')
+        return SKIPPED
+    rows, wrong = examine_all(wish.program, files, wish.folder)
+    total = f'{len(files)} files, {wrong} wrong'
+    print(table_of(rows) + total)
+    if wish.table:
+        command = ' '.join(['tests/validation/odd_meshes.py', *sys.argv[1:]])
+        Path(wish.table).write_text(f'Written by `{command}`.\n\n{table_of(rows)}\n{total}\n')
     return 1 if wrong else 0
 
 
 if __name__ == '__main__':
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    sys.exit(main(sys.argv[1], sys.argv[2], sys.argv[3:]))
+    sys.exit(main())

@@ -1,6 +1,5 @@
 #include "scenes/format/explain.h"
 
-#include <fstream>
 #include <sstream>
 
 #include "percale/fabric_presets.h"
@@ -19,13 +18,6 @@ std::string explained(const std::string& topic = "") {
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-std::string file_text(const std::string& file) {
-    std::ifstream in(file);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
 
 }  // namespace
 
@@ -94,7 +86,7 @@ TEST_CASE("an unknown topic is an error with the nearest") {
     CHECK(contains(error_of([] { explained("."); }), "no topic '.'"));
 }
 
-TEST_CASE("the tables for the README have a row for every key that is no heading") {
+TEST_CASE("the tables of keys have a row for every key that is no heading") {
     const std::string text = key_tables_markdown();
     std::size_t rows = 0, position = 0;
     while ((position = text.find("\n| `", position)) != std::string::npos) {
@@ -107,13 +99,4 @@ TEST_CASE("the tables for the README have a row for every key that is no heading
         headings += table && !contains(key.path, ".") ? 1 : 0;
     }
     CHECK(rows + headings == scene_keys().size());
-}
-
-TEST_CASE("the README's tables of keys are the generated ones") {
-    const std::string readme = file_text(PERCALE_DATA_DIR "/../scenes/README.md");
-    const std::string first = "a test compares. -->\n\n", last = "\n<!-- End of the generated tables. -->";
-    const std::size_t begin = readme.find(first), end = readme.find(last);
-    REQUIRE(begin != std::string::npos);
-    REQUIRE(end != std::string::npos);
-    CHECK(readme.substr(begin + first.size(), end - begin - first.size()) == key_tables_markdown());
 }

@@ -6,7 +6,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-// What happens where the system does not do what it is asked: the table of faults in tests/README.md.
+// What happens where the system does not do what it is asked: the table of faults in scenes/export/README.md.
 using namespace percale::program::test;
 using percale::scenes::test::falling_sheet;
 using percale::scenes::test::sheet_on_box;
