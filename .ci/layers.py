@@ -22,7 +22,8 @@ CODE_SUFFIXES = ('.cpp', '.h', '.inl')
 
 # Which part may include which, by folder. `public` = engine's public headers, `public_collision` = collision's.
 PUBLIC = {'public', 'public_collision'}
-ENGINE_PARTS = ['support', 'kernels', 'model', 'forces', 'solve', 'step']
+ENGINE_PARTS = ['support', 'kernels', 'mesh', 'model', 'forces', 'contact', 'schemes', 'linear', 'plan', 'solve', 'span', 'checks',
+                'step', 'start', 'state']
 MAY_INCLUDE = {
     'public': {'public'},
     'public_collision': PUBLIC,

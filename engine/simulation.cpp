@@ -10,7 +10,7 @@
 #include "schemes/schemes.h"
 #include "state/saved_world.h"
 #include "step/measure.h"
-#include "step/start_check.h"
+#include "start/start_check.h"
 #include "step/step.h"
 #include "support/hash.h"
 #include "support/stage_timer.h"

@@ -25,8 +25,8 @@ double at_contact(const ContactRows& rows, std::size_t row, Value value) {
 
 /// 1/dt^2 for the share of the masses: of this step where the obstacle comes or goes by a fifth of the thickness or more.
 double inverse_square_dt(const ContactRows& rows, std::size_t row, const ContactStep& step) {
-    const double way = std::abs(rows.direction[row].dot(rows.obstacle_displacement[row])) / (0.2 * rows.thickness[row]);
-    const double share = std::min(way, 1.0), longer = std::max(step.dt, step.stiffness_dt);
+    const double displacement = std::abs(rows.direction[row].dot(rows.obstacle_displacement[row])) / (0.2 * rows.thickness[row]);
+    const double share = std::min(displacement, 1.0), longer = std::max(step.dt, step.stiffness_dt);
     return share / (step.dt * step.dt) + (1.0 - share) / (longer * longer);
 }
 

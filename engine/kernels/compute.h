@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernels.h"
+#include "kernel_choice.h"
 #include "support/thread_pool.h"
 
 namespace percale {

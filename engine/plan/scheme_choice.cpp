@@ -28,17 +28,17 @@ std::string rough_number(double value) {
 
 /// y = -Jq x by central differences of all elastic forces, for |x| = 1.
 void multiply_shapes(const StepScene& scene, const ClothState& state, const Vectors& x, Vectors& y) {
-    const double way = 1e-5 * scene.model.springs.rest_length.front();
+    const double reach = 1e-5 * scene.model.springs.rest_length.front();
     ElasticSpace space;
     ClothState moved = state;
-    add_scaled(moved.positions, -way, x);
+    add_scaled(moved.positions, -reach, x);
     evaluate_elastic(scene.compute, scene.model, moved, space);
     y = space.forces.total;
-    add_scaled(moved.positions, 2.0 * way, x);
+    add_scaled(moved.positions, 2.0 * reach, x);
     evaluate_elastic(scene.compute, scene.model, moved, space);
     add_scaled(y, -1.0, space.forces.total);
     for (auto* axis : {&y.x, &y.y, &y.z}) {
-        for (double& value : *axis) value *= 0.5 / way;
+        for (double& value : *axis) value *= 0.5 / reach;
     }
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "percale/simulation.h"
+#include "percale/report.h"
 #include "step/world.h"
 
 namespace percale {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "failure.h"
+#include "span/advance.h"
 #include "schemes/schemes.h"
 
 namespace percale {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "checked_terms.h"
+#include "checks/checked_terms.h"
 #include "measure.h"
 #include "motion.h"
 #include "plan/planning.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rest_detection.h"
-#include "span.h"
+#include "span/span.h"
 #include "support/thread_pool.h"
 
 namespace percale {

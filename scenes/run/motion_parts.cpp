@@ -10,7 +10,7 @@ namespace percale::scenes {
 namespace {
 
 constexpr double largest_turn = std::numbers::pi / 12.0;  // rad, in one part
-constexpr double largest_way = 4.0;                       // thicknesses, in one part
+constexpr double largest_displacement = 4.0;                       // thicknesses, in one part
 constexpr double most_motion_parts = 1e5;                 // what moves still farther in a part may block the cloth
 constexpr double part_rounding = 1e-9;                    // of a part
 
@@ -39,7 +39,7 @@ struct Extent {
 /// A cloth during the coming step, if it went on as it moves.
 struct ClothAhead {
     Extent extent;
-    Vec3 way = Vec3::Zero();  // m, mean over the vertices
+    Vec3 displacement = Vec3::Zero();  // m, mean over the vertices
     double thickness = 0.0;   // m
 };
 
@@ -51,9 +51,9 @@ ClothAhead cloth_ahead(const BuiltScene& built, std::size_t cloth, double dt) {
     for (std::size_t i = 0; i < positions.size(); ++i) {
         ahead.extent.add(positions[i], ahead.thickness);
         ahead.extent.add(positions[i] + dt * velocities[i], ahead.thickness);
-        ahead.way += dt * velocities[i];
+        ahead.displacement += dt * velocities[i];
     }
-    ahead.way /= static_cast<double>(positions.size());
+    ahead.displacement /= static_cast<double>(positions.size());
     return ahead;
 }
 
@@ -65,7 +65,7 @@ double reach_of(const BuiltScene& built, std::size_t obstacle) {
 }
 
 /// Parts that an obstacle's translation asks for, not rounded.
-double parts_of_way(const BuiltScene& built, std::size_t obstacle, double path, double dt) {
+double parts_of_displacement(const BuiltScene& built, std::size_t obstacle, double path, double dt) {
     const ObstacleSpec& spec = built.scene.obstacles[obstacle];
     const double now = built.simulation.time();
     const Vec3 start = obstacle_pose_at(spec, now).translation, end = obstacle_pose_at(spec, now + dt).translation;
@@ -75,8 +75,8 @@ double parts_of_way(const BuiltScene& built, std::size_t obstacle, double path, 
     double parts = 0.0;
     for (std::size_t i = 0; i < built.cloths.size(); ++i) {
         const ClothAhead cloth = cloth_ahead(built, i, dt);
-        const double relative = path - (end - start).norm() + (end - start - cloth.way).norm();
-        if (swept.overlaps(cloth.extent)) parts = std::max(parts, relative / (largest_way * cloth.thickness));
+        const double relative = path - (end - start).norm() + (end - start - cloth.displacement).norm();
+        if (swept.overlaps(cloth.extent)) parts = std::max(parts, relative / (largest_displacement * cloth.thickness));
     }
     return parts;
 }
@@ -109,7 +109,7 @@ int motion_parts(const BuiltScene& built, double dt) {
     for (std::size_t i = 0; i < built.obstacles.size(); ++i) {
         const MotionAmount amount = motion_between(built.scene.obstacles[i], now, now + dt);
         parts = std::max(parts, amount.angle / largest_turn);
-        if (amount.path > 0.0) parts = std::max(parts, parts_of_way(built, i, amount.path, dt));
+        if (amount.path > 0.0) parts = std::max(parts, parts_of_displacement(built, i, amount.path, dt));
     }
     return static_cast<int>(std::ceil(std::min(parts, most_motion_parts) - part_rounding));
 }

@@ -224,8 +224,8 @@ public:
     double next(double now) {
         ++made_;
         if (!scene_.step.adaptive) return made_ >= count_.steps ? count_.last_dt : scene_.step.time_step;
-        const double way = next_stop(scene_, now) - now;
-        const double length = way / std::max(1.0, std::ceil(way / scene_.step.time_step - 1e-9));
+        const double left = next_stop(scene_, now) - now;
+        const double length = left / std::max(1.0, std::ceil(left / scene_.step.time_step - 1e-9));
         // The same length in every bit as before: another one would be a change of the scene.
         if (std::abs(length - length_) > 1e-9 * length) length_ = length;
         return length_;

@@ -4,10 +4,10 @@
 #include <tuple>
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_pairs.h"
-#include "tests/support/collision_random.h"
-#include "tests/support/collision_scenes.h"
-#include "tests/support/collision_truth.h"
+#include "tests/support/collision/pairs.h"
+#include "tests/support/random.h"
+#include "tests/support/collision/scenes.h"
+#include "tests/support/collision/truth.h"
 
 using namespace percale;
 using namespace percale::test;

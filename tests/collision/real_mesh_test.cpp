@@ -2,11 +2,11 @@
 
 #include "collision/detector.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_backends.h"
-#include "tests/support/collision_off.h"
-#include "tests/support/collision_random.h"
-#include "tests/support/collision_shapes.h"
-#include "tests/support/collision_steps.h"
+#include "tests/support/collision/backends.h"
+#include "tests/support/collision/off.h"
+#include "tests/support/random.h"
+#include "tests/support/collision/shapes.h"
+#include "tests/support/collision/steps.h"
 
 using namespace percale;
 using namespace percale::test;

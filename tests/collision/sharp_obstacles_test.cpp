@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_shapes.h"
+#include "tests/support/collision/shapes.h"
 #include "tests/support/stepped_scene.h"
 
 using namespace percale;

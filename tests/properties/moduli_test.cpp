@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/laws.h"
-#include "tests/support/membrane_cases.h"
+#include "tests/support/forces/membrane_cases.h"
 
 namespace percale::test {
 namespace {

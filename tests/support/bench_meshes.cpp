@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "tests/support/collision_random.h"
+#include "tests/support/random.h"
 
 namespace percale::test {
 namespace {

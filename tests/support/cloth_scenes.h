@@ -12,10 +12,11 @@
 #include "engine/plan/step_plan.h"
 #include "engine/solve/explicit_update.h"
 #include "engine/solve/newton.h"
+#include "engine/span/advance.h"
 #include "engine/step/motion.h"
 #include "engine/step/world.h"
 #include "percale/percale.h"
-#include "tests/support/collision_random.h"
+#include "tests/support/random.h"
 
 namespace percale::test {
 

@@ -10,7 +10,7 @@
 #include "scenes/run/obstacle_motion.h"
 #include "scenes/shapes/spikes.h"
 #include "tests/support/bench_meshes.h"
-#include "tests/support/collision_shapes.h"
+#include "tests/support/collision/shapes.h"
 #include "tests/support/real_meshes.h"
 
 namespace percale::test {

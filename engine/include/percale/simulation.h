@@ -35,15 +35,6 @@ struct SeamSettings {
     std::string name = "seam";  // for messages
 };
 
-/// What was done to a cloth that started through, inside or touching an obstacle.
-struct StartMove {
-    int cloth = -1;
-    int obstacle = -1;
-    std::string cloth_name = {}, obstacle_name = {};
-    int vertices_moved = 0;     // by more than a tenth of the thickness
-    double largest_move = 0.0;  // m
-};
-
 /// Cloth, obstacles and their motion in time. Wrong arguments throw SceneError from the call that was wrong; a step never
 /// throws for numerical trouble but returns a status. One thread at a time per simulation; simulations are independent.
 class Simulation {

@@ -1,7 +1,7 @@
 #include "collision/bullet/bullet_tree.h"
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_trees.h"
+#include "tests/support/collision/trees.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_shapes.h"
+#include "tests/support/collision/shapes.h"
 
 using namespace percale;
 using namespace percale::test;

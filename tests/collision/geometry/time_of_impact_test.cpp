@@ -5,8 +5,8 @@
 #include <string>
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_random.h"
-#include "tests/support/collision_truth.h"
+#include "tests/support/random.h"
+#include "tests/support/collision/truth.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -3,7 +3,7 @@
 #include "collision/lists/candidate_lists.h"
 #include "percale/error.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_scenes.h"
+#include "tests/support/collision/scenes.h"
 #include "tests/support/saved_bytes.h"
 
 using namespace percale;

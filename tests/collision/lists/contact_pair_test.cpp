@@ -5,11 +5,11 @@
 
 #include "percale/certify.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_backends.h"
-#include "tests/support/collision_pairs.h"
-#include "tests/support/collision_random.h"
-#include "tests/support/collision_shapes.h"
-#include "tests/support/collision_truth.h"
+#include "tests/support/collision/backends.h"
+#include "tests/support/collision/pairs.h"
+#include "tests/support/random.h"
+#include "tests/support/collision/shapes.h"
+#include "tests/support/collision/truth.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -6,10 +6,10 @@
 
 #include "collision/brute_force/brute_force_tree.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_pairs.h"
-#include "tests/support/collision_random.h"
-#include "tests/support/collision_shapes.h"
-#include "tests/support/collision_trees.h"
+#include "tests/support/collision/pairs.h"
+#include "tests/support/random.h"
+#include "tests/support/collision/shapes.h"
+#include "tests/support/collision/trees.h"
 
 using namespace percale;
 using namespace percale::test;

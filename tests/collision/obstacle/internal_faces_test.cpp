@@ -7,8 +7,8 @@
 #include "collision/obstacle/obstacle_surface.h"
 #include "percale/certify.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_off.h"
-#include "tests/support/collision_shapes.h"
+#include "tests/support/collision/off.h"
+#include "tests/support/collision/shapes.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_backends.h"
-#include "tests/support/collision_random.h"
-#include "tests/support/collision_shapes.h"
-#include "tests/support/collision_trees.h"
+#include "tests/support/collision/backends.h"
+#include "tests/support/random.h"
+#include "tests/support/collision/shapes.h"
+#include "tests/support/collision/trees.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_random.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -1,7 +1,7 @@
 #include "collision/self/cluster_tree.h"
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_random.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

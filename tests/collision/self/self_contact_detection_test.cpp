@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_backends.h"
-#include "tests/support/collision_cloths.h"
-#include "tests/support/collision_steps.h"
+#include "tests/support/collision/backends.h"
+#include "tests/support/collision/cloths.h"
+#include "tests/support/collision/steps.h"
 
 using namespace percale;
 using namespace percale::test;

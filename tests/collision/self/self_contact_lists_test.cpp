@@ -4,8 +4,8 @@
 #include <map>
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_cloths.h"
-#include "tests/support/collision_steps.h"
+#include "tests/support/collision/cloths.h"
+#include "tests/support/collision/steps.h"
 
 using namespace percale;
 using namespace percale::test;

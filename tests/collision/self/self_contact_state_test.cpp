@@ -3,8 +3,8 @@
 #include "collision/self/self_contact_detection.h"
 #include "percale/error.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_cloths.h"
-#include "tests/support/collision_steps.h"
+#include "tests/support/collision/cloths.h"
+#include "tests/support/collision/steps.h"
 #include "tests/support/saved_bytes.h"
 
 using namespace percale;

@@ -5,7 +5,7 @@
 #include "percale/detectors.h"
 #include "percale/simulation.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_shapes.h"
+#include "tests/support/collision/shapes.h"
 
 using namespace percale;
 using namespace percale::test;

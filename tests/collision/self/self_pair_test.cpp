@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "tests/support/catch.h"
-#include "tests/support/collision_shapes.h"
-#include "tests/support/collision_truth.h"
+#include "tests/support/collision/shapes.h"
+#include "tests/support/collision/truth.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -5,8 +5,8 @@
 
 #include "percale/error.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_off.h"
-#include "tests/support/collision_shapes.h"
+#include "tests/support/collision/off.h"
+#include "tests/support/collision/shapes.h"
 #include "tests/support/stepped_scene.h"
 
 // Starts in conflict with obstacles, through the whole of a simulation.

@@ -8,9 +8,9 @@
 #include "collision/untangle/untangle_spread.h"
 #include "percale/certify.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_off.h"
-#include "tests/support/collision_random.h"
-#include "tests/support/collision_shapes.h"
+#include "tests/support/collision/off.h"
+#include "tests/support/random.h"
+#include "tests/support/collision/shapes.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -6,7 +6,7 @@
 #include "engine/linear/linear_solver.h"
 #include "engine/support/thread_pool.h"
 #include "tests/support/catch.h"
-#include "tests/support/membrane_cases.h"
+#include "tests/support/forces/membrane_cases.h"
 
 namespace percale::test {
 namespace {

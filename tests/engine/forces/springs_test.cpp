@@ -5,7 +5,7 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
-#include "tests/support/spring_jacobians.h"
+#include "tests/support/forces/spring_jacobians.h"
 
 namespace percale::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "tests/support/catch.h"
-#include "tests/support/kernel_cases.h"
+#include "tests/support/forces/kernel_cases.h"
 
 namespace percale::test {
 namespace {

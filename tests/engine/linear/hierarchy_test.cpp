@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "tests/support/catch.h"
-#include "tests/support/spring_graphs.h"
+#include "tests/support/forces/spring_graphs.h"
 
 namespace percale::test {
 namespace {

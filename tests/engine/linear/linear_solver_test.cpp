@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "tests/support/catch.h"
-#include "tests/support/sheet_system.h"
+#include "tests/support/forces/sheet_system.h"
 
 namespace percale::test {
 namespace {

@@ -7,7 +7,7 @@
 #include "engine/linear/multigrid_solve.h"
 #include "tests/support/catch.h"
 #include "tests/support/dense_system.h"
-#include "tests/support/sheet_system.h"
+#include "tests/support/forces/sheet_system.h"
 
 namespace percale::test {
 namespace {

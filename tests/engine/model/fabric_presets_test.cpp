@@ -6,7 +6,7 @@
 #include <set>
 
 #include "tests/support/catch.h"
-#include "tests/support/membrane_cases.h"
+#include "tests/support/forces/membrane_cases.h"
 
 namespace percale::test {
 

@@ -1,7 +1,7 @@
 #include "engine/model/membrane_entries.h"
 
 #include "tests/support/catch.h"
-#include "tests/support/membrane_cases.h"
+#include "tests/support/forces/membrane_cases.h"
 
 namespace percale::test {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "tests/support/catch.h"
-#include "tests/support/membrane_cases.h"
+#include "tests/support/forces/membrane_cases.h"
 
 namespace percale::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "percale/percale.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_backends.h"
+#include "tests/support/collision/backends.h"
 #include "tests/support/laws.h"
 
 using namespace percale;

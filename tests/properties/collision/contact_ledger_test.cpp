@@ -2,7 +2,7 @@
 
 #include "percale/percale.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_backends.h"
+#include "tests/support/collision/backends.h"
 #include "tests/support/laws.h"
 
 // The energy ledger on meshes, whose contacts change from step to step.

@@ -3,8 +3,8 @@
 #include "percale/detectors.h"
 #include "percale/simulation.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_backends.h"
-#include "tests/support/collision_shapes.h"
+#include "tests/support/collision/backends.h"
+#include "tests/support/collision/shapes.h"
 #include "tests/support/resumable.h"
 
 // Runs with obstacles and cloth against cloth, saved on their way and resumed, on every tree.

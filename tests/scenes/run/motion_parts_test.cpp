@@ -6,7 +6,7 @@
 #include "scenes/format/scene_file.h"
 #include "scenes/run/obstacle_motion.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_random.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::scenes;

@@ -4,7 +4,7 @@
 #include "scenes/run/scene_build.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
-#include "tests/support/collision_shapes.h"
+#include "tests/support/collision/shapes.h"
 
 using namespace percale;
 using namespace percale::scenes;

@@ -1,8 +1,8 @@
-#include "engine/step/explicit_span.h"
+#include "engine/span/explicit_span.h"
 
 #include <cmath>
 
-#include "engine/step/state_forces.h"
+#include "engine/span/state_forces.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 

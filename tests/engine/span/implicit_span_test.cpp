@@ -1,4 +1,4 @@
-#include "engine/step/implicit_span.h"
+#include "engine/span/implicit_span.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "engine/step/derivative_check.h"
+#include "engine/checks/derivative_check.h"
 
 #include <cmath>
 

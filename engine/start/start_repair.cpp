@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "forces/springs.h"
-#include "step.h"
+#include "step/step.h"
 
 namespace percale {
 namespace {
@@ -88,11 +88,11 @@ std::vector<StartMove> moves_of(const World& world, const ClothRange& cloth, std
     const auto first = std::find_if(own.begin(), own.end(), [](int obstacle) { return obstacle >= 0; });
     if (first == own.end()) return moves;
     for (int v = cloth.first; v < cloth.first + cloth.count; ++v) {
-        const double way = (world.state.cloth.points[v] - before[v]).norm();
-        if (way <= seen_part * world.scene.model.thickness[v]) continue;
+        const double displacement = (world.state.cloth.points[v] - before[v]).norm();
+        if (displacement <= seen_part * world.scene.model.thickness[v]) continue;
         StartMove& move = move_out_of(cause[v] >= 0 ? cause[v] : *first, moves);
         ++move.vertices_moved;
-        move.largest_move = std::max(move.largest_move, way);
+        move.largest_move = std::max(move.largest_move, displacement);
     }
     return moves;
 }

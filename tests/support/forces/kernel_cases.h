@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "tests/support/kernel_problem.h"
+#include "tests/support/forces/kernel_problem.h"
 
 namespace percale::test {
 

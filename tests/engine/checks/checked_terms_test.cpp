@@ -1,11 +1,11 @@
-#include "engine/step/checked_terms.h"
+#include "engine/checks/checked_terms.h"
 
 #include <algorithm>
 
 #include "engine/plan/planning.h"
 #include "engine/step/step.h"
 #include "tests/support/catch.h"
-#include "tests/support/membrane_cases.h"
+#include "tests/support/forces/membrane_cases.h"
 #include "tests/support/plane_scenes.h"
 
 namespace percale::test {

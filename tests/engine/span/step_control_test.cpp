@@ -1,4 +1,4 @@
-#include "engine/step/step_control.h"
+#include "engine/span/step_control.h"
 
 #include <cmath>
 #include <limits>

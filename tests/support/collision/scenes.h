@@ -3,9 +3,9 @@
 #include <limits>
 #include <vector>
 
-#include "tests/support/collision_backends.h"
-#include "tests/support/collision_shapes.h"
-#include "tests/support/collision_steps.h"
+#include "tests/support/collision/backends.h"
+#include "tests/support/collision/shapes.h"
+#include "tests/support/collision/steps.h"
 
 // A sheet and obstacles that detectors are tried on.
 namespace percale::test {

@@ -1,4 +1,4 @@
-#include "engine/step/targets.h"
+#include "engine/span/targets.h"
 
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"

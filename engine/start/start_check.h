@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "percale/simulation.h"
-#include "world.h"
+#include "percale/report.h"
+#include "step/world.h"
 
 namespace percale {
 

@@ -1,4 +1,4 @@
-#include "engine/step/start_check.h"
+#include "engine/start/start_check.h"
 
 #include <memory>
 

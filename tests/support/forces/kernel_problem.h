@@ -7,7 +7,7 @@
 #include "engine/kernels/kernels.h"
 #include "engine/model/vectors.h"
 #include "engine/support/aligned.h"
-#include "tests/support/collision_random.h"
+#include "tests/support/random.h"
 
 namespace percale::test {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "derivative_check.h"
-#include "span.h"
+#include "span/span.h"
 
 namespace percale {
 

@@ -9,7 +9,7 @@
 #include "percale/certify.h"
 #include "percale/contact.h"
 #include "percale/mesh.h"
-#include "tests/support/collision_random.h"
+#include "tests/support/random.h"
 
 namespace percale::test {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "percale/simulation.h"
-#include "world.h"
+#include "percale/report.h"
+#include "step/world.h"
 
 namespace percale {
 

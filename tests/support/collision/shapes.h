@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "percale/mesh.h"
-#include "tests/support/collision_random.h"
+#include "tests/support/random.h"
 
 namespace percale::test {
 

@@ -1,4 +1,4 @@
-#include "engine/step/ledger.h"
+#include "engine/span/ledger.h"
 
 #include <cmath>
 

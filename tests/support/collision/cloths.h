@@ -6,7 +6,7 @@
 
 #include "percale/certify.h"
 #include "percale/contact.h"
-#include "tests/support/collision_shapes.h"
+#include "tests/support/collision/shapes.h"
 
 namespace percale::test {
 

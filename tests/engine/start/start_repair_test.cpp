@@ -1,4 +1,4 @@
-#include "engine/step/start_repair.h"
+#include "engine/start/start_repair.h"
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include "engine/kernels/kernels.h"
+#include "engine/kernels/kernel_choice.h"
 
 #include <cstdlib>
 #include <string>

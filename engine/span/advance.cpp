@@ -1,4 +1,4 @@
-#include "span.h"
+#include "advance.h"
 
 #include "explicit_span.h"
 #include "implicit_span.h"
