@@ -236,8 +236,8 @@ private:
     StepState& end_;
     SpanResult result_;
     const ClothState* middle_ = nullptr;  // between two stages
-    double seam_place_ = 1.0;     // of the span, whose rest lengths the coming stage has
-    double obstacle_work_ = 0.0;  // J
+    double seam_place_ = 1.0;             // of the span, whose rest lengths the coming stage has
+    double obstacle_work_ = 0.0;          // J
 };
 
 }  // namespace

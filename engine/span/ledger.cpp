@@ -96,8 +96,8 @@ private:
     StepEnergy& flows_;
 };
 
-/// Where an implicit scheme takes the forces of its stages, in the order of stage_weights, but for rest lengths. The air of a stage
-/// is that of its beginning.
+/// Where an implicit scheme takes the forces of its stages, in the order of stage_weights, but for rest lengths. The air of a
+/// stage is that of its beginning.
 std::array<ForcePlace, 3> stage_places(const SpanStates& states, const StagePoint& last) {
     const ClothState& start = states.start.cloth;
     const ClothState& middle = states.middle ? *states.middle : start;

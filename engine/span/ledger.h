@@ -9,7 +9,7 @@ struct SpanStates {
     const StepState& start;
     StepState& end;
     const ClothState* middle = nullptr;  // between two stages; null: one stage
-    double obstacle_work = 0.0;  // J, by the contacts of the stages
+    double obstacle_work = 0.0;          // J, by the contacts of the stages
 };
 
 /// What became of energy in a span of length dt from (q_n, v_n) to (q, v), by a scheme that gives free vertices the momentum dt

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "failure.h"
-#include "span/advance.h"
 #include "schemes/schemes.h"
+#include "span/advance.h"
 
 namespace percale {
 namespace {

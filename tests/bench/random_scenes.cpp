@@ -5,7 +5,7 @@
 
 #include "tests/bench/bench_report.h"
 #include "tests/support/cpu_time.h"
-#include "tests/support/random_scenes.h"
+#include "tests/support/collision/random_scenes.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "tests/support/random_scenes.h"
+#include "tests/support/collision/random_scenes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,91 @@
+#include "engine/solve/direction.h"
+
+#include <cmath>
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+/// A crumpled sheet at the first point of a stage.
+struct FirstPoint {
+    SolverScene scene = solver_scene(make_grid(1.0, 1.0, 5, 5), sheet_fabric(), {.linear_solver = LinearSolver::direct});
+    ContactMemory memory;
+    std::unique_ptr<ImplicitStage> stage;
+    std::unique_ptr<StageEquations> equations;
+
+    explicit FirstPoint(NewtonOptions options = {}, int pinned = -1) {
+        Random random(8);
+        for (int i = 0; i < 25; ++i) scene.state.positions.add(i, random.point(0.03));
+        for (int i = 0; i < 25; ++i) scene.state.velocities.set(i, random.point(1.0));
+        if (pinned >= 0) scene.pin(pinned);
+        scene.before = scene.state;
+        scene.targets = scene.state.positions;
+        set_euler_base(scene.before, scene.settings.time_step, scene.base);
+        options.predict = false;
+        stage = std::make_unique<ImplicitStage>(ImplicitStage{
+            .scene = scene, .base = scene.base, .start = scene.before, .targets = scene.targets, .options = options});
+        equations = std::make_unique<StageEquations>(*stage, memory, scene.newton, scene.stages);
+        equations->evaluate(scene.newton.current);
+    }
+    const Vectors& residual() const { return scene.newton.current.residual; }
+    const Vectors& direction() const { return scene.newton.direction; }
+};
+
+}  // namespace
+
+TEST_CASE("The Newton direction solves A dv = -r on free vertices and leaves prescribed ones") {
+    FirstPoint point({}, 12);
+    const Direction found = newton_direction(*point.equations, {.relative_residual = 1e-12});
+    CHECK(found.exact);
+    CHECK(point.direction().at(12) == Vec3::Zero());
+    Vectors product;
+    AlignedVector<double> points;
+    multiply(point.scene.newton.solver.matrix, point.direction(), points, product);
+    double largest = 0.0;
+    for (int i = 0; i < 25; ++i) largest = std::max(largest, point.residual().at(i).norm());
+    for (int i = 0; i < 25; ++i) CHECK((product.at(i) + point.residual().at(i)).norm() < 1e-7 * largest);
+}
+
+TEST_CASE("Along the Newton direction the objective falls") {
+    FirstPoint point;
+    newton_direction(*point.equations, {.relative_residual = 1e-8});
+    CHECK(dot(compute, point.residual(), point.direction()) < 0.0);
+    point.equations->aim(0.1);
+    point.equations->evaluate(point.scene.newton.trial);
+    CHECK(point.scene.newton.trial.objective < point.scene.newton.current.objective);
+}
+
+TEST_CASE("Without Jacobians the direction is the residual over the mass") {
+    FirstPoint point({.jacobians = false});
+    newton_direction(*point.equations, {});
+    for (int i = 0; i < 25; ++i) CHECK(point.direction().at(i) == -point.residual().at(i) / point.scene.model.mass[i]);
+}
+
+TEST_CASE("A cloth that nothing holds gets its whole momentum, however loosely the system is solved") {
+    FirstPoint point;
+    newton_direction(*point.equations, {.relative_residual = 0.3, .most_iterations = 2});
+    Vec3 left = Vec3::Zero(), all = Vec3::Zero();
+    for (int i = 0; i < 25; ++i) {
+        left += point.scene.model.mass[i] * point.direction().at(i) + point.residual().at(i);
+        all += point.residual().at(i);
+    }
+    CHECK(left.norm() < 1e-12 * all.norm());
+}
+
+TEST_CASE("A prescribed vertex on its way heads for its target") {
+    FirstPoint point({}, 4);
+    point.scene.plan.pins_move = true;
+    point.scene.newton.current.fraction = 0.5;
+    point.scene.targets.set(4, point.scene.before.positions.at(4) + Vec3(0.02, 0.0, 0.0));
+    newton_direction(*point.equations, {.relative_residual = 1e-8});
+    CHECK((point.direction().at(4) - Vec3(0.02 * 60.0, 0.0, 0.0)).norm() < 1e-12);
+}
+
+TEST_CASE("Block Jacobi gives no estimate of the next change") {
+    FirstPoint point;
+    CHECK_FALSE(estimate_direction(*point.equations));
+}
+
+}  // namespace percale::test

@@ -1,0 +1,61 @@
+#include "engine/step/failure.h"
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+/// Nine vertices, the fifth pinned and not where it should be, near two obstacles that push against each other.
+struct Stuck {
+    World world = make_world(cloth_model(make_grid(1.0, 1.0, 3, 3), sheet_fabric()), make_grid(1.0, 1.0, 3, 3).vertices, {});
+    StepReport report;
+
+    Stuck() {
+        world.scene.script.obstacles = {{"floor", {}, {}}, {"press", {}, {}}};
+        world.scene.script.free[4] = 0.0;
+        StagePoint& last = world.work.newton.current;
+        last.positions = world.state.cloth.positions;
+        world.work.targets = world.state.cloth.positions;
+        world.work.targets.add(4, Vec3(0, 0.1, 0));
+        last.rows.obstacle = {0, 1, 1};
+        last.rows.direction = {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 1, 0)};
+        last.rows.distance = {1e-3, 2e-3, 1.5e-3};
+        last.rows.vertex.resize(3);
+    }
+    void tell(SpanEnd end) { tell_failure(world.scene, end, world.work, report); }
+};
+
+}  // namespace
+
+TEST_CASE("A pin that is left behind is named with the nearest obstacle and the one that pushes against it") {
+    Stuck stuck;
+    stuck.world.scene.plan.pins_move = true;
+    stuck.tell(SpanEnd::blocked);
+    CHECK(stuck.report.status == StepStatus::pin_blocked);
+    CHECK(stuck.report.blocked_cloth == 0);
+    CHECK(stuck.report.blocked_vertex == 4);
+    CHECK(stuck.report.blocked_name == "cloth");
+    CHECK(stuck.report.blocking_name == "floor");
+    CHECK(stuck.report.second_obstacle == 1);
+    CHECK(stuck.report.second_name == "press");
+}
+
+TEST_CASE("Obstacles that move are too fast, and cloth in the way is called cloth") {
+    Stuck stuck;
+    stuck.world.scene.plan.obstacles_move = true;
+    stuck.world.work.newton.current.rows.obstacle = {-1, 1, 1};
+    stuck.tell(SpanEnd::not_converged);
+    CHECK(stuck.report.status == StepStatus::obstacle_too_fast);
+    CHECK(stuck.report.blocking_name == "cloth");
+    CHECK(stuck.report.second_name == "press");
+}
+
+TEST_CASE("Of what is not finite nothing is named") {
+    Stuck stuck;
+    stuck.tell(SpanEnd::not_finite);
+    CHECK(stuck.report.status == StepStatus::not_finite);
+    CHECK(stuck.report.blocking_name.empty());
+}
+
+}  // namespace percale::test
