@@ -43,6 +43,10 @@ void put_counts(ordered_json& json, const RunTotals& totals) {
     json["simulated_s"] = totals.simulated_s;
     json["steps"] = totals.steps;
     json["rejected_steps"] = totals.rejected_steps;
+    json["halvings"] = {{"not_converged", totals.dropped.not_converged},
+                        {"blocked", totals.dropped.blocked},
+                        {"not_finite", totals.dropped.not_finite},
+                        {"inexact", totals.dropped.inexact}};
     json["sleeping_steps"] = totals.sleeping_steps;
     json["smallest_step_s"] = totals.smallest_step_s;
     json["largest_step_s"] = totals.largest_step_s;

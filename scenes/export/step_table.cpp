@@ -1,5 +1,6 @@
 #include "export/step_table.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 
@@ -16,7 +17,7 @@ std::string hexadecimal(std::uint64_t value) {
 }  // namespace
 
 std::string step_table_header() {
-    return "time,dt,newton,linear,residual,contacts,smallest_distance,energy,status,contact_hash,state_hash";
+    return "time,dt,newton,linear,residual,contacts,smallest_distance,energy,status,contact_hash,state_hash,dropped";
 }
 
 std::string step_table_line(const StepReport& report, std::optional<std::uint64_t> state_hash) {
@@ -24,7 +25,9 @@ std::string step_table_line(const StepReport& report, std::optional<std::uint64_
     std::snprintf(text, sizeof text, "%.17g,%.17g,%d,%d,%.17g,%d,%.17g,%.17g,%s,", report.time, report.dt,
                   report.newton_iterations, report.linear_iterations, report.residual, report.contacts, report.smallest_distance,
                   report.energy.total(), status_word(report.status));
-    return text + hexadecimal(report.contact_hash) + "," + (state_hash ? hexadecimal(*state_hash) : "");
+    std::string dropped = report.dropped.text();
+    std::replace(dropped.begin(), dropped.end(), ',', ';');
+    return text + hexadecimal(report.contact_hash) + "," + (state_hash ? hexadecimal(*state_hash) : "") + "," + dropped;
 }
 
 StepTable::StepTable(const std::string& file) : file_(file) { file_.out() << step_table_header() << '\n'; }

@@ -30,6 +30,7 @@ struct RunOptions {
     std::string scene, folder;
     std::string checkpoint;  // s of simulated time between two checkpoints; "" = none are written
     std::string resume;      // checkpoint to go on from; "" = from the start
+    bool verbose = false;
 };
 
 /// s; 0 where no checkpoints are asked for.
@@ -131,7 +132,7 @@ int run(RunOptions options) {
     BuiltScene built = built_scene(options, from ? &*from : nullptr);
     RunFolder folder(options.folder, built.scene, options.common.replay_hash);
     const StopSignals signals;
-    ProgressBar bar(!options.common.quiet, built.scene.duration);
+    ProgressBar bar(!options.common.quiet && !options.verbose, built.scene.duration);
     RunHooks hooks;
     hooks.begin = [&] {
         from ? folder.begin_from(from->folder, folder_of(options.resume)) : folder.begin();
@@ -140,6 +141,7 @@ int run(RunOptions options) {
     hooks.frame = [&](const Frame& frame) { folder.add(frame); };
     hooks.step = [&](const StepReport& report, const Simulation& simulation) {
         folder.add(report, simulation);
+        if (options.verbose) std::printf("%s\n", report.explanation().c_str());
         bar.show(simulation.time());
     };
     hooks.stop_asked = [&] { return signals.asked(); };
@@ -166,6 +168,10 @@ void add_run_command(CLI::App& program, Action& action) {
     command->add_option("SCENE", options->scene, "Scene file (TOML)")->required();
     command->add_option("-o", options->folder, "Output folder (default: the scene's name)")->type_name("DIR");
     add_common_options(*command, options->common);
+    command
+        ->add_flag("--verbose", options->verbose,
+                   "Print a line for every step: its figures, and why spans of it were redone shorter")
+        ->excludes("--quiet");
     command
         ->add_option("--checkpoint", options->checkpoint,
                      "Every so many simulated seconds, and when stopped, write DIR/checkpoint.percale to resume from")

@@ -139,6 +139,7 @@ void add_cost(RunTotals& totals, const StepReport& report) {
     totals.newton_iterations += report.newton_iterations;
     totals.linear_iterations += report.linear_iterations;
     totals.rejected_steps += report.halvings + report.rejected;
+    totals.dropped += report.dropped;
     if (report.linear_solver != LinearSolver::automatic) totals.linear_solver = report.linear_solver;
     totals.contacts_most = std::max(totals.contacts_most, report.contacts);
     totals.contact_stiffness = std::max(totals.contact_stiffness, report.contact_stiffness);

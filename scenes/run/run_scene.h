@@ -28,6 +28,7 @@ struct Frame {
 struct RunTotals {
     int steps = 0;           // accepted
     int rejected_steps = 0;  // steps that were redone as shorter ones
+    DroppedSpans dropped;    // why they were redone
     int sleeping_steps = 0;  // in which all cloth was at rest: not solved
     double simulated_s = 0.0;
     double smallest_step_s =

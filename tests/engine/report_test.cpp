@@ -26,6 +26,7 @@ StepReport report_of(StepStatus status) {
     report.newton_iterations = 7;
     report.linear_iterations = 83;
     report.halvings = 2;
+    report.dropped = {.not_converged = 1, .blocked = 1};
     report.residual = 0.03125;
     report.smallest_fraction = 0.0625;
     return report;
@@ -62,7 +63,8 @@ TEST_CASE("A step is good unless pins, obstacles or infinities stopped it") {
 TEST_CASE("An explanation has the status and the figures") {
     for (const StepStatus status : all_statuses) {
         const std::string text = report_of(status).explanation();
-        CHECK(mentions(text, {status_word(status), "0.1 s", "7 Newton", "83 linear", "0.03125", "2 halvings"}));
+        CHECK(mentions(
+            text, {status_word(status), "0.1 s", "7 Newton", "83 linear", "0.03125", "2 halvings: 1 not converged, 1 blocked"}));
         // A failed step's time is that of its start.
         CHECK(mentions(text, {report_of(status).ok() ? "t = 0.4 s" : "t = 0.5 s"}));
     }
@@ -106,6 +108,17 @@ TEST_CASE("Explaining prints the explanation as one line") {
 TEST_CASE("Total energy leaves work out") {
     const StepEnergy energy{.kinetic = 1.0, .gravity = 2.0, .elastic = 4.0, .contact = 8.0, .work = 16.0};
     CHECK(energy.total() == 15.0);
+}
+
+TEST_CASE("Dropped spans are counted by what became of them and told in words") {
+    DroppedSpans dropped;
+    CHECK(dropped.text().empty());
+    for (const SpanEnd end : {SpanEnd::blocked, SpanEnd::solved, SpanEnd::inexact, SpanEnd::inexact, SpanEnd::not_finite})
+        dropped.add(end);
+    CHECK(dropped.total() == 4);
+    CHECK(dropped.text() == "1 blocked, 1 not finite, 2 not exact enough");
+    dropped += {.not_converged = 3};
+    CHECK(dropped == DroppedSpans{.not_converged = 3, .blocked = 1, .not_finite = 1, .inexact = 2});
 }
 
 }  // namespace percale::test

@@ -50,6 +50,8 @@ TEST_CASE("A step that does not converge is redone in halves and says so") {
     CAPTURE(report.residual, report.halvings);
     CHECK(report.status == StepStatus::halved);
     CHECK(report.halvings > 0);
+    CHECK(report.dropped.not_converged == report.halvings);
+    CHECK(report.dropped.total() == report.halvings);
     CHECK(report.smallest_dt < world.scene.settings.time_step);
     CHECK(world.state.cloth.positions.at(0) == world.scene.script.pin_targets.at(0));
     const double parts = world.scene.settings.time_step / report.smallest_dt;
@@ -83,6 +85,7 @@ TEST_CASE("A pin that is pulled through a plane is blocked and named, with the p
     pin(world, 9, Vec3(0, -0.03, 0));
     const StepReport report = solve(world);
     CHECK(report.status == StepStatus::pin_blocked);
+    CHECK(report.dropped.blocked > 0);
     CHECK(report.blocked_cloth == 0);
     CHECK(report.blocked_vertex == 9);
     CHECK(report.blocked_name == "cloth");

@@ -41,6 +41,7 @@ TEST_CASE("a report holds every entry that users may rely on") {
                             "simulated_s",
                             "steps",
                             "rejected_steps",
+                            "halvings",
                             "sleeping_steps",
                             "smallest_step_s",
                             "largest_step_s",

@@ -45,7 +45,14 @@ StepReport example() {
 
 TEST_CASE("the columns of a step table are those of the contract") {
     CHECK(step_table_header() ==
-          "time,dt,newton,linear,residual,contacts,smallest_distance,energy,status,contact_hash,state_hash");
+          "time,dt,newton,linear,residual,contacts,smallest_distance,energy,status,contact_hash,state_hash,dropped");
+}
+
+TEST_CASE("the last column says in words why spans were redone, without a comma") {
+    StepReport report = example();
+    CHECK(cells(step_table_line(report, 0x1u)).back().empty());
+    report.dropped = {.not_converged = 2, .blocked = 1};
+    CHECK(cells(step_table_line(report, 0x1u)).back() == "2 not converged; 1 blocked");
 }
 
 TEST_CASE("every number of a step reads back as the same bits") {
