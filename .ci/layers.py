@@ -34,7 +34,7 @@ MAY_INCLUDE = {
     'outside': PUBLIC | {'outside'},
 }
 # The rooms of scenes/, each of which may include itself and the rooms before it.
-SCENES_ROOMS = ['common', 'report', 'shapes', 'meshes', 'frames', 'format', 'run', 'export', 'doctor', 'compare', 'stress', 'program']
+SCENES_ROOMS = ['common', 'report', 'shapes', 'meshes', 'frames', 'fields', 'format', 'run', 'export', 'doctor', 'compare', 'stress', 'program']
 # Header prefixes of other projects and the folders that may see them.
 OTHERS = [
     (r'fcl/', ('collision/fcl/', 'tests/collision/')),
