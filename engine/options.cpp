@@ -1,10 +1,12 @@
 #include "percale/options.h"
 
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 #include <string>
 
 #include "percale/error.h"
+#include "percale/saved_state.h"
 
 namespace percale {
 namespace {
@@ -46,6 +48,7 @@ constexpr Option<Fabric> fabric_list[] = {
      .sentence = "Constant of each spring along rows and columns of a grid, or along each edge of a free mesh.",
      .lowest = 0.0,
      .highest = 1e9,
+     .required = true,
      .number = [](Fabric& f) { return &f.springs.structural; }},
     {.key = "springs.shear",
      .unit = "N/m",
@@ -178,6 +181,7 @@ constexpr Option<StepSettings> step_list[] = {
      .sentence = "Threads of one simulation, worth it from about ten thousand vertices; results are the same for any number.",
      .lowest = 1,
      .highest = 64,
+     .changes_steps = false,
      .integer = [](StepSettings& s) { return &s.threads; }},
     {.key = "damping_form",
      .unit = "",
@@ -198,6 +202,7 @@ constexpr Option<StepSettings> step_list[] = {
      .sentence = "Cloth that starts through, inside or touching an obstacle: repair = it is moved out first, and the report says "
                  "what moved how far; refuse = it is an error.",
      .choices = start_words,
+     .changes_steps = false,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.start); },
      .set_choice = [](StepSettings& s, int i) { s.start = static_cast<StartRule>(i); }},
     {.key = "skip",
@@ -215,15 +220,16 @@ constexpr Option<StepSettings> step_list[] = {
      .sentence =
          "Whether every force but friction and projected contact is compared with its energy and its matrix by differences after "
          "each step, which fails where they do not fit; slow.",
+     .changes_steps = false,
      .flag = [](StepSettings& s) { return &s.check_derivatives; }},
 };
 
 void check_number(std::string_view owner, std::string_view key, std::string_view unit, double value, double low, double high) {
     if (std::isfinite(value) && value >= low && value <= high) return;
     std::ostringstream text;
-    text << owner << ": " << key << " = " << value << (unit.empty() ? "" : " ") << unit << " is outside the allowed range " << low
-         << " ... " << high;
-    throw SceneError(text.str());
+    text << key << " = " << value << (unit.empty() ? "" : " ") << unit << " is outside the allowed range " << low << " ... "
+         << high;
+    throw SceneError(std::string(owner), text.str());
 }
 
 template <class Owner>
@@ -250,29 +256,52 @@ bool same(const SpringConstants& a, const SpringConstants& b) {
 void check_exclusions(const Fabric& fabric, const std::string& name) {
     const Fabric defaults;
     const bool own_springs = !same(fabric.springs, defaults.springs) && !same(fabric.springs, {.structural = 0.0});
-    if (fabric.has_moduli() && own_springs) throw SceneError(name + ": springs and stretch_stiffness exclude each other");
+    if (fabric.has_moduli() && own_springs) throw SceneError(name, "springs and stretch_stiffness exclude each other");
     if (fabric.bend_stiffness && !fabric.has_moduli() && fabric.springs.bend != 0.0) {
-        throw SceneError(name + ": springs.bend and bend_stiffness exclude each other");
+        throw SceneError(name, "springs.bend and bend_stiffness exclude each other");
     }
     const bool own_damping = fabric.spring_damping != defaults.spring_damping && fabric.spring_damping != 0.0;
-    if (fabric.damping_time && own_damping) throw SceneError(name + ": spring_damping and damping_time exclude each other");
+    if (fabric.damping_time && own_damping) throw SceneError(name, "spring_damping and damping_time exclude each other");
 }
 
 void check_moduli(const Fabric& fabric, const std::string& name) {
     if (!fabric.has_moduli()) {
-        if (fabric.shear_stiffness) throw SceneError(name + ": shear_stiffness needs stretch_stiffness");
-        if (fabric.poisson_ratio != 0.0) throw SceneError(name + ": poisson_ratio needs stretch_stiffness");
+        if (fabric.shear_stiffness) throw SceneError(name, "shear_stiffness needs stretch_stiffness");
+        if (fabric.poisson_ratio != 0.0) throw SceneError(name, "poisson_ratio needs stretch_stiffness");
         return;
     }
     if (fabric.membrane != Membrane::van_gelder) return;
-    const std::string only = name + ": membrane = van_gelder is isotropic, ";
+    const std::string only = "membrane = van_gelder is isotropic, ";
     const auto [warp, weft] = *fabric.stretch_stiffness;
-    if (warp != weft) throw SceneError(only + "stretch_stiffness must be the same along warp and weft");
-    if (fabric.shear_stiffness) throw SceneError(only + "it takes no shear_stiffness");
-    if (fabric.poisson_ratio != 0.0) throw SceneError(only + "it takes no poisson_ratio: the mesh decides it");
+    if (warp != weft) throw SceneError(name, only + "stretch_stiffness must be the same along warp and weft");
+    if (fabric.shear_stiffness) throw SceneError(name, only + "it takes no shear_stiffness");
+    if (fabric.poisson_ratio != 0.0) throw SceneError(name, only + "it takes no poisson_ratio: the mesh decides it");
 }
 
 }  // namespace
+
+std::uint64_t options_hash(const StepSettings& settings) {
+    StepSettings of = settings;  // the list names fields that may be written
+    StateWriter writer;
+    const auto put = [&](auto field) {
+        if (field) writer(*field(of));
+    };
+    for (const Option<StepSettings>& option : step_list) {
+        if (!option.changes_steps) continue;
+        if (option.automatic) {
+            writer(*option.automatic(of));
+            continue;
+        }
+        put(option.number);
+        put(option.integer);
+        put(option.flag);
+        put(option.number_or_auto);
+        put(option.optional_number);
+        put(option.optional_pair);
+        if (option.get_choice) writer(option.get_choice(of));
+    }
+    return checksum(writer.take());
+}
 
 std::span<const Option<Fabric>> fabric_options() { return fabric_list; }
 std::span<const Option<StepSettings>> step_options() { return step_list; }

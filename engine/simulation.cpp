@@ -27,13 +27,13 @@ std::string number_text(double value) {
 void check_pose(const Pose& pose, const std::string& name) {
     const Rotation& q = pose.rotation;
     const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    if (!pose.translation.allFinite()) throw SceneError(name + ": the translation of its pose is not finite");
+    if (!pose.translation.allFinite()) throw SceneError(name, "the translation of its pose is not finite");
     if (!(std::abs(norm - 1.0) <= 1e-6)) {
-        throw SceneError(name + ": the rotation of its pose has length " + number_text(norm) +
-                         ", a rotation is a unit quaternion (w, x, y, z)");
+        throw SceneError(
+            name, "the rotation of its pose has length " + number_text(norm) + ", a rotation is a unit quaternion (w, x, y, z)");
     }
     if (!(pose.scale > 0.0) || !std::isfinite(pose.scale)) {
-        throw SceneError(name + ": the scale of its pose is " + number_text(pose.scale) + ", it must be above 0");
+        throw SceneError(name, "the scale of its pose is " + number_text(pose.scale) + ", it must be above 0");
     }
 }
 
@@ -85,14 +85,14 @@ struct Simulation::Implementation {
     int vertex(ClothId id, int index) const {
         const ClothRange& range = cloth(id);
         if (index >= 0 && index < range.count) return range.index_of(index);
-        throw SceneError(range.name + ": there is no vertex " + std::to_string(index) + ", vertices are 0 ... " +
-                         std::to_string(range.count - 1));
+        throw SceneError(range.name, "there is no vertex " + std::to_string(index) + ", vertices are 0 ... " +
+                                         std::to_string(range.count - 1));
     }
 
     int pinned_vertex(ClothId id, int index, const char* call) const {
         const int at = vertex(id, index);
         if (world.scene.script.free[at] == 0.0) return at;
-        throw SceneError(cloth(id).name + ": " + call + " of vertex " + std::to_string(index) + ", which is not pinned");
+        throw SceneError(cloth(id).name, std::string(call) + " of vertex " + std::to_string(index) + ", which is not pinned");
     }
 
     void change(const StepSettings& settings) {
@@ -179,7 +179,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     World& world = implementation_->world;
     check_pose(pose, name);
     if (fabric.self_contact && !world.scene.detector) {
-        throw SceneError(name + ": self_contact needs a contact detector, give one to the simulation");
+        throw SceneError(name, "self_contact needs a contact detector, give one to the simulation");
     }
     TriangleMesh rest = mesh;
     rest.vertices = transform(normalised(pose), mesh.vertices);
@@ -224,10 +224,10 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
 ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, const ObstacleSettings& settings) {
     World& world = implementation_->world;
     if (!world.scene.detector)
-        throw SceneError(settings.name + ": an obstacle needs a contact detector, give one to the simulation");
+        throw SceneError(settings.name, "an obstacle needs a contact detector, give one to the simulation");
     if (!(settings.friction >= 0.0 && settings.friction <= 10.0)) {
-        throw SceneError(settings.name + ": friction = " + number_text(settings.friction) +
-                         " is outside the allowed range 0 ... 10");
+        throw SceneError(settings.name,
+                         "friction = " + number_text(settings.friction) + " is outside the allowed range 0 ... 10");
     }
     check_pose(pose, settings.name);
     check_mesh(mesh, settings.name, false);
@@ -266,7 +266,7 @@ void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
     ObstacleState& state = implementation_->obstacle(obstacle);
     check_pose(end, state.name);
     if (end.scale != state.start.scale) {
-        throw SceneError(state.name + ": the scale of an obstacle cannot change, it is " + number_text(state.start.scale));
+        throw SceneError(state.name, "the scale of an obstacle cannot change, it is " + number_text(state.start.scale));
     }
     state.end = normalised(end);
     if (state.end != state.start) wake(implementation_->world.rest);
@@ -291,13 +291,13 @@ void Simulation::add_seam(ClothId first, ClothId second, std::span<const std::ar
     World& world = implementation_->world;
     check_range(settings.over, 0.0, 1e6, settings.name + ": over", "s");
     check_range(settings.stiffness, 1e-3, 1e9, settings.name + ": stiffness", "N/m");
-    if (vertices.empty()) throw SceneError(settings.name + ": no vertices, a seam joins at least one pair");
+    if (vertices.empty()) throw SceneError(settings.name, "no vertices, a seam joins at least one pair");
     std::vector<std::array<int, 2>> pairs;
     for (const auto& [one, other] : vertices) {
         pairs.push_back({implementation_->vertex(first, one), implementation_->vertex(second, other)});
         if (pairs.back()[0] != pairs.back()[1]) continue;
-        throw SceneError(settings.name + ": vertex " + std::to_string(one) + " of " + implementation_->cloth(first).name +
-                         " is sewn to itself");
+        throw SceneError(settings.name,
+                         "vertex " + std::to_string(one) + " of " + implementation_->cloth(first).name + " is sewn to itself");
     }
     ClothModel model = world.scene.model;
     Seam seam{.length = {}, .from = world.state.time, .over = settings.over};
@@ -321,8 +321,8 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     World& world = implementation_->world;
     const ClothRange& range = implementation_->cloth(cloth);
     if (static_cast<int>(positions.size()) != range.count) {
-        throw SceneError(range.name + ": set_positions got " + std::to_string(positions.size()) + " positions for " +
-                         std::to_string(range.count) + " vertices");
+        throw SceneError(range.name, "set_positions got " + std::to_string(positions.size()) + " positions for " +
+                                         std::to_string(range.count) + " vertices");
     }
     for (int i = 0; i < range.count; ++i) check_finite(positions[i], range.name + ": position " + std::to_string(i));
     for (int i = 0; i < range.count; ++i) {
@@ -343,8 +343,8 @@ void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities)
     World& world = implementation_->world;
     const ClothRange& range = implementation_->cloth(cloth);
     if (static_cast<int>(velocities.size()) != range.count) {
-        throw SceneError(range.name + ": set_velocities got " + std::to_string(velocities.size()) + " velocities for " +
-                         std::to_string(range.count) + " vertices");
+        throw SceneError(range.name, "set_velocities got " + std::to_string(velocities.size()) + " velocities for " +
+                                         std::to_string(range.count) + " vertices");
     }
     for (int i = 0; i < range.count; ++i) check_finite(velocities[i], range.name + ": velocity " + std::to_string(i));
     for (int i = 0; i < range.count; ++i) {

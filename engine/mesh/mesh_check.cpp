@@ -18,7 +18,7 @@ std::string triangle_text(int index, const Triangle& t) {
 void check_vertices(const TriangleMesh& mesh, const std::string& name) {
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         if (mesh.vertices[i].allFinite()) continue;
-        throw SceneError(name + ": vertex " + std::to_string(i) + " is not finite");
+        throw SceneError(name, "vertex " + std::to_string(i) + " is not finite");
     }
 }
 
@@ -27,8 +27,8 @@ void check_indices(const TriangleMesh& mesh, const std::string& name) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         for (const int vertex : mesh.triangles[i]) {
             if (vertex >= 0 && vertex < count) continue;
-            throw SceneError(name + ": " + triangle_text(static_cast<int>(i), mesh.triangles[i]) + " uses vertex " +
-                             std::to_string(vertex) + ", allowed are 0 ... " + std::to_string(count - 1));
+            throw SceneError(name, triangle_text(static_cast<int>(i), mesh.triangles[i]) + " uses vertex " +
+                                       std::to_string(vertex) + ", allowed are 0 ... " + std::to_string(count - 1));
         }
     }
 }
@@ -48,11 +48,11 @@ void check_triangles(const TriangleMesh& mesh, const std::string& name) {
         std::sort(sorted.begin(), sorted.end());
         const auto [entry, added] = seen.try_emplace(sorted, index);
         if (!added) {
-            throw SceneError(name + ": " + triangle_text(index, mesh.triangles[i]) + " repeats triangle " +
-                             std::to_string(entry->second));
+            throw SceneError(name,
+                             triangle_text(index, mesh.triangles[i]) + " repeats triangle " + std::to_string(entry->second));
         }
         if (!has_area(mesh, mesh.triangles[i])) {
-            throw SceneError(name + ": " + triangle_text(index, mesh.triangles[i]) + " has no area");
+            throw SceneError(name, triangle_text(index, mesh.triangles[i]) + " has no area");
         }
     }
 }
@@ -63,8 +63,8 @@ void check_edges(const TriangleMesh& mesh, const std::string& name) {
         for (int k = 0; k < 3; ++k) {
             const auto edge = std::minmax(t[k], t[(k + 1) % 3]);
             if (++uses[edge] < 3) continue;
-            throw SceneError(name + ": edge (" + std::to_string(edge.first) + ", " + std::to_string(edge.second) +
-                             ") belongs to more than two triangles (non-manifold); split the mesh there");
+            throw SceneError(name, "edge (" + std::to_string(edge.first) + ", " + std::to_string(edge.second) +
+                                       ") belongs to more than two triangles (non-manifold); split the mesh there");
         }
     }
 }
@@ -76,13 +76,13 @@ void check_used(const TriangleMesh& mesh, const std::string& name) {
     }
     const auto unused = std::find(used.begin(), used.end(), false);
     if (unused == used.end()) return;
-    throw SceneError(name + ": vertex " + std::to_string(unused - used.begin()) + " belongs to no triangle, so it has no mass");
+    throw SceneError(name, "vertex " + std::to_string(unused - used.begin()) + " belongs to no triangle, so it has no mass");
 }
 
 }  // namespace
 
 void check_mesh(const TriangleMesh& mesh, const std::string& name, bool for_cloth) {
-    if (mesh.triangles.empty()) throw SceneError(name + ": the mesh has no triangles");
+    if (mesh.triangles.empty()) throw SceneError(name, "the mesh has no triangles");
     check_vertices(mesh, name);
     check_indices(mesh, name);
     if (!for_cloth) return;
@@ -91,8 +91,8 @@ void check_mesh(const TriangleMesh& mesh, const std::string& name, bool for_clot
     check_used(mesh, name);
     const long grid = static_cast<long>(mesh.grid_columns) * mesh.grid_rows;
     if (mesh.is_grid() && grid != static_cast<long>(mesh.vertices.size())) {
-        throw SceneError(name + ": says it is a grid of " + std::to_string(grid) + " vertices, but has " +
-                         std::to_string(mesh.vertices.size()));
+        throw SceneError(
+            name, "says it is a grid of " + std::to_string(grid) + " vertices, but has " + std::to_string(mesh.vertices.size()));
     }
 }
 

@@ -74,9 +74,9 @@ EdgeStiffness edge_stiffness(const TriangleMesh& mesh, const std::vector<MeshEdg
 void check_frame(const TriangleMesh& mesh, const Fabric& fabric, const std::string& name) {
     if (mesh.is_grid() || is_isotropic(fabric)) return;
     throw SceneError(
-        name + ": warp and weft differ, or shear_stiffness is not that of isotropic cloth (" +
-        std::to_string(isotropic_shear(fabric)) +
-        " N/m), but a free mesh does not say where warp is; give two equal numbers and that shear_stiffness or none");
+        name, "warp and weft differ, or shear_stiffness is not that of isotropic cloth (" +
+                  std::to_string(isotropic_shear(fabric)) +
+                  " N/m), but a free mesh does not say where warp is; give two equal numbers and that shear_stiffness or none");
 }
 
 SpringKind kind_of(const TriangleMesh& mesh, const MeshEdge& edge) {

@@ -22,8 +22,8 @@ public:
         if (stiffness == 0.0) return;
         const double length = (rest_.vertices[a] - rest_.vertices[b]).norm();
         if (!(length > 0.0)) {
-            throw SceneError(name_ + ": vertices " + std::to_string(a) + " and " + std::to_string(b) +
-                             " are joined by a spring but lie at the same place");
+            throw SceneError(name_, "vertices " + std::to_string(a) + " and " + std::to_string(b) +
+                                        " are joined by a spring but lie at the same place");
         }
         network_.first.push_back(first_vertex_ + a);
         network_.second.push_back(first_vertex_ + b);
@@ -87,13 +87,14 @@ void rearrange(std::vector<T>& list, int from, const std::vector<int>& number) {
 void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex,
                     const std::string& name) {
     if (!rest.is_grid() && fabric.springs.shear != 0.0) {
-        throw SceneError(name + ": springs.shear = " + std::to_string(fabric.springs.shear) +
-                         " N/m, but a free mesh has no shear springs; its edges already resist shear, leave springs.shear out");
+        throw SceneError(
+            name, "springs.shear = " + std::to_string(fabric.springs.shear) +
+                      " N/m, but a free mesh has no shear springs; its edges already resist shear, leave springs.shear out");
     }
     const int before = network.size();
     SpringWriter writer(network, rest, fabric, first_vertex, name);
     rest.is_grid() ? add_grid(writer, rest) : add_free(writer, rest);
-    if (network.size() == before) throw SceneError(name + ": the fabric has no springs; springs.structural must be above 0 N/m");
+    if (network.size() == before) throw SceneError(name, "the fabric has no springs; springs.structural must be above 0 N/m");
 }
 
 void append_pair(int first, int second, SpringNetwork& network) {

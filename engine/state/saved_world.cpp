@@ -201,17 +201,8 @@ std::uint64_t obstacles_hash(const World& world) {
     return checksum(writer.take());
 }
 
-/// Of those settings that change what steps do, whatever the state.
-std::uint64_t settings_hash(const StepSettings& s) {
-    StateWriter writer;
-    writer(s.adaptive, s.tolerance, static_cast<int>(s.scheme), s.newton_tolerance, s.newton_iterations);
-    writer(static_cast<int>(s.linear_solver), static_cast<int>(s.contact_response), static_cast<int>(s.damping_form));
-    writer(static_cast<int>(s.measure), s.skip, s.air_density);
-    return checksum(writer.take());
-}
-
 Identity identity_of(const World& world) {
-    return {cloth_hash(world.scene.model), obstacles_hash(world), settings_hash(world.scene.settings)};
+    return {cloth_hash(world.scene.model), obstacles_hash(world), options_hash(world.scene.settings)};
 }
 
 SavedWorld state_of(const World& world) {

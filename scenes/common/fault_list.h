@@ -1,9 +1,8 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "percale/error.h"
+#include "common/scene_file_error.h"
 
 namespace percale::scenes {
 
@@ -19,12 +18,14 @@ public:
         if (!keep_) return check();
         try {
             check();
+        } catch (const SceneFileError& error) {
+            found.push_back(error);
         } catch (const SceneError& error) {
-            messages.emplace_back(error.what());
+            found.push_back(SceneFileError({}, error.what()));
         }
     }
 
-    std::vector<std::string> messages;  // in the order in which they were found
+    std::vector<SceneFileError> found;  // in the order in which they were found
 
 private:
     bool keep_;

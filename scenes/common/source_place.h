@@ -4,7 +4,7 @@
 
 namespace percale::scenes {
 
-/// Where in a file something was said, for messages; line 0 = unknown.
+/// Where in a file something was said, for messages; line or column 0 = unknown.
 struct SourcePlace {
     std::string file;
     int line = 0;

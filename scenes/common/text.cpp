@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "percale/error.h"
-
 namespace percale::scenes {
 
 std::string number_text(double value) {
@@ -33,16 +31,6 @@ std::string nearness_text(double smallest_distance) {
     char text[64];
     std::snprintf(text, sizeof text, "smallest distance %.3g m", smallest_distance);
     return text;
-}
-
-std::string place_text(const SourcePlace& place) {
-    if (place.line <= 0) return place.file;
-    return place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
-}
-
-void fail_at(const SourcePlace& place, const std::string& what) {
-    const std::string where = place_text(place);
-    throw SceneError(where.empty() ? what : where + ": " + what);
 }
 
 std::string joined(std::span<const std::string> words) {

@@ -3,9 +3,7 @@
 #include <span>
 #include <string>
 
-#include "common/source_place.h"
-
-// How places and numbers are written in messages and tables.
+// How numbers and words are written in messages and tables.
 namespace percale::scenes {
 
 /// The shortest text that reads back as the same number: 0.3, 1e-6, inf.
@@ -19,12 +17,6 @@ std::string counted(long count, const std::string& what);
 
 /// "smallest distance 0.0032 m", or "never near" where it is infinite.
 std::string nearness_text(double smallest_distance);
-
-/// "file:line:column", or only the file where the line is unknown.
-std::string place_text(const SourcePlace& place);
-
-/// Throws SceneError "place: what".
-[[noreturn]] void fail_at(const SourcePlace& place, const std::string& what);
 
 /// "a, b, c".
 std::string joined(std::span<const std::string> words);

@@ -34,7 +34,7 @@ std::vector<Finding> examine_mesh_file(const std::string& file, std::optional<Me
             found.insert(found.end(), more.begin(), more.end());
         }
     } catch (const SceneError& error) {
-        found.push_back(refusal("unreadable", error.what(), file,
+        found.push_back(refusal("unreadable", error, file,
                                 "export the mesh again, as OBJ, OFF, PLY or STL, with triangles and finite coordinates"));
     }
     return found;

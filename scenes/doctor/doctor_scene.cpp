@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene_file_error.h"
 #include "common/text.h"
 #include "doctor/doctor_mesh.h"
 #include "format/scene_file.h"
@@ -246,11 +247,11 @@ void try_to_build(const Scene& scene, std::vector<Finding>& found) {
         examine_built(scene, found);
     } catch (const StartRefused& error) {
         found.push_back(
-            refusal("start", error.what(), scene.file,
+            refusal("start", error, scene.file,
                     "move what is named apart by pose.translation, or in the mesh; `percale run` leaves the triangles "
                     "concerned in OUTPUT_start.obj"));
     } catch (const SceneError& error) {
-        found.push_back(refusal("refused", error.what(), scene.file, see_keys));
+        found.push_back(refusal("refused", error, scene.file, see_keys));
     }
 }
 
@@ -310,9 +311,9 @@ std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan
 
 std::vector<Finding> examine_scene_file(const std::string& file, std::span<const Override> overrides) {
     std::vector<Finding> found;
-    for (const std::string& message : scene_faults(file, overrides)) {
-        if (message.starts_with("--")) throw SceneError(message);  // an override, which is not the file's fault
-        found.push_back(refusal("refused", message, file, see_keys));
+    for (const SceneFileError& fault : scene_faults(file, overrides)) {
+        if (fault.place().file != file) throw fault;  // an override, which is not the file's fault
+        found.push_back(refusal("refused", fault, file, see_keys));
     }
     if (found.empty()) return examine_scene(load_scene(file, overrides));
     found.push_back(not_looked_at(file, "what tables say together, names, meshes, start, scheme and cost"));

@@ -1,5 +1,7 @@
 #include "doctor/finding.h"
 
+#include "common/scene_file_error.h"
+
 namespace percale::scenes {
 
 const char* severity_word(Severity severity) {
@@ -9,13 +11,14 @@ const char* severity_word(Severity severity) {
 
 const char* role_word(MeshRole role) { return role == MeshRole::cloth ? "cloth" : "obstacle"; }
 
-Finding refusal(const std::string& kind, const std::string& message, const std::string& file, const std::string& fix) {
-    Finding finding{.severity = Severity::error, .kind = kind, .place = file, .what = message, .fix = fix};
-    const std::size_t end = message.starts_with(file + ":") ? message.find(": ", file.size()) : std::string::npos;
-    if (end == std::string::npos) return finding;
-    finding.place = message.substr(0, end);
-    finding.what = message.substr(end + 2);
-    return finding;
+Finding refusal(const std::string& kind, const SceneError& error, const std::string& file, const std::string& fix) {
+    const auto* placed = dynamic_cast<const SceneFileError*>(&error);
+    const bool inside = (placed != nullptr ? placed->place().file : error.subject()) == file;
+    return {.severity = Severity::error,
+            .kind = kind,
+            .place = inside ? error.subject() : file,
+            .what = inside ? error.reason() : error.what(),
+            .fix = fix};
 }
 
 }  // namespace percale::scenes

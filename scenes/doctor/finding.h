@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "percale/error.h"
+
 namespace percale::scenes {
 
 enum class Severity {
@@ -27,7 +29,7 @@ struct Finding {
     std::vector<int> elements = {};     // the first of them: vertices, triangles, or vertices of edges two by two
 };
 
-/// An error whose message begins with its place in the file ("file:3:5: what"), which is taken off it.
-Finding refusal(const std::string& kind, const std::string& message, const std::string& file, const std::string& fix);
+/// An error as a finding: at its place, where that is in the file; else at the file, with all that it says.
+Finding refusal(const std::string& kind, const SceneError& error, const std::string& file, const std::string& fix);
 
 }  // namespace percale::scenes

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/scene_file_error.h"
 #include "common/whole_file.h"
 #include "export/run_settings.h"
 #include "percale/error.h"
@@ -111,7 +112,7 @@ void write_checkpoint(const std::string& file, const Checkpoint& checkpoint) {
 
 Checkpoint read_checkpoint(const std::string& file) {
     const std::vector<std::byte> bytes = read_bytes(file);
-    try {
+    return at_place({.file = file}, "", [&] {
         StateReader reader(unsealed(checkpoint_seal, bytes));
         Checkpoint checkpoint;
         reader(checkpoint);
@@ -119,9 +120,7 @@ Checkpoint read_checkpoint(const std::string& file) {
         reader.demand(checkpoint.run.steps_made > 0 && checkpoint.run.next_frame >= 0, "a run that has not begun");
         reader.demand(json::accept(checkpoint.settings), "settings that are none");
         return checkpoint;
-    } catch (const SceneError& error) {
-        throw SceneError(file + ": " + error.what());
-    }
+    });
 }
 
 void check_same_run(const std::string& file, const Checkpoint& checkpoint, const Scene& scene, bool certify_steps,

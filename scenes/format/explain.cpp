@@ -5,7 +5,7 @@
 
 #include "common/nearest_name.h"
 #include "common/text.h"
-#include "format/scene_keys.h"
+#include "format/scene_table.h"
 #include "percale/error.h"
 #include "percale/fabric_presets.h"
 #include "percale/options.h"

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "common/nearest_name.h"
+#include "common/scene_file_error.h"
 #include "common/text.h"
 
 namespace percale::scenes {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "fields/toml_document.h"
 #include "format/override.h"
-#include "format/toml_document.h"
 
 namespace percale::scenes {
 

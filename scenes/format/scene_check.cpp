@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "common/nearest_name.h"
+#include "common/scene_file_error.h"
 #include "common/text.h"
-#include "format/scene_keys.h"
+#include "format/scene_table.h"
 
 namespace percale::scenes {
 namespace {

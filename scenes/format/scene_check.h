@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/fault_list.h"
-#include "format/toml_document.h"
+#include "fields/toml_document.h"
 
 namespace percale::scenes {
 

@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "common/scene_file_error.h"
 #include "format/override.h"
 #include "format/scene.h"
 
 namespace percale::scenes {
 
 /// Reads a TOML scene file, overrides applied before anything is checked. Throws SceneError with "file:line:column: what",
-/// the allowed range or the nearest valid key. Keys and ranges: scene_keys.h.
+/// the allowed range or the nearest valid key. Keys and ranges: tables/.
 Scene load_scene(const std::string& file, std::span<const Override> overrides = {});
 
 /// The same from text; `name` stands for the file in messages and relative paths are relative to its folder.
@@ -22,6 +23,6 @@ using SceneSource = std::function<Scene(std::span<const Override>)>;
 
 /// What load_scene has against a file, one kind at a time: all faults of keys and values; where there are none, those of whole
 /// tables; where there are none, those of names by which tables call each other.
-std::vector<std::string> scene_faults(const std::string& file, std::span<const Override> overrides = {});
+std::vector<SceneFileError> scene_faults(const std::string& file, std::span<const Override> overrides = {});
 
 }  // namespace percale::scenes

@@ -43,14 +43,14 @@ void check_format(const std::string& file, const std::string& format) {
     static const std::vector<std::string> read = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".dae", ".fbx",
                                                   ".3ds", ".amf", ".x3d", ".dxf", ".lwo",  ".ase", ".x"};
     if (std::find(read.begin(), read.end(), format) != read.end()) return;
-    throw SceneError(file + ": is of no format that is read: " + joined(read));
+    throw SceneError(file, "is of no format that is read: " + joined(read));
 }
 
 void check_mesh_file(const std::string& file) {
     std::error_code status;
-    if (!std::filesystem::exists(file, status)) throw SceneError(file + ": no such file");
-    if (!std::filesystem::is_regular_file(file, status)) throw SceneError(file + ": not a file");
-    if (std::filesystem::file_size(file, status) == 0) throw SceneError(file + ": no vertices: the file is empty");
+    if (!std::filesystem::exists(file, status)) throw SceneError(file, "no such file");
+    if (!std::filesystem::is_regular_file(file, status)) throw SceneError(file, "not a file");
+    if (std::filesystem::file_size(file, status) == 0) throw SceneError(file, "no vertices: the file is empty");
 }
 
 using Reader = TriangleMesh (*)(std::istream&, const std::string&);
@@ -65,7 +65,7 @@ Reader own_reader(const std::string& format) {
 TriangleMesh read_with(Reader read, const std::string& file) {
     errno = 0;
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw SceneError(file + ": cannot be read: " + std::strerror(errno));
+    if (!in) throw SceneError(file, std::string("cannot be read: ") + std::strerror(errno));
     return read(in, file);
 }
 
@@ -74,7 +74,7 @@ void check_finite(const Point& x, std::size_t vertex, const std::string& file) {
     constexpr const char* names[] = {"x", "y", "z"};
     for (int axis = 0; axis < 3; ++axis)
         if (!std::isfinite(x[axis]))
-            throw SceneError(file + ": vertex " + std::to_string(vertex) + ": coordinate " + names[axis] + " is not finite");
+            throw SceneError(file, "vertex " + std::to_string(vertex) + ": coordinate " + names[axis] + " is not finite");
 }
 
 /// Fans a face from its first corner; points and lines give nothing. assimp's own way to triangles follows indices that are out
@@ -83,8 +83,8 @@ void append_face(const aiMesh& part, unsigned number, std::size_t first, const s
     const std::span<const unsigned> indices(part.mFaces[number].mIndices, part.mFaces[number].mNumIndices);
     for (const unsigned index : indices) {
         if (index < part.mNumVertices) continue;
-        throw SceneError(file + ": face " + std::to_string(number) + ": vertex index " + std::to_string(index) +
-                         " is out of range 0 ... " + std::to_string(static_cast<long>(part.mNumVertices) - 1));
+        throw SceneError(file, "face " + std::to_string(number) + ": vertex index " + std::to_string(index) +
+                                   " is out of range 0 ... " + std::to_string(static_cast<long>(part.mNumVertices) - 1));
     }
     const auto corner = [&](std::size_t k) { return static_cast<int>(first + indices[k]); };
     for (std::size_t k = 2; k < indices.size(); ++k) mesh.triangles.push_back({corner(0), corner(k - 1), corner(k)});
@@ -95,7 +95,7 @@ void append(const aiMesh& part, const aiMatrix4x4& to_world, const std::string& 
     if ((part.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)) == 0) return;
     const std::size_t first = mesh.vertices.size();
     if (first + part.mNumVertices > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw SceneError(file + ": more vertices than an index can name");
+        throw SceneError(file, "more vertices than an index can name");
     for (unsigned k = 0; k < part.mNumVertices; ++k) {
         check_finite(part.mVertices[k], first + k, file);
         const aiVector3D x = to_world * part.mVertices[k];
@@ -117,7 +117,7 @@ void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& pa
     const aiMatrix4x4 to_world = parent * node.mTransformation;
     for (unsigned k = 0; k < node.mNumMeshes; ++k) append(*scene.mMeshes[node.mMeshes[k]], to_world, file, mesh);
     if (mesh.vertices.size() > most)
-        throw SceneError(file + ": copies of its parts come to more than " + std::to_string(most) + " vertices; leave some out");
+        throw SceneError(file, "copies of its parts come to more than " + std::to_string(most) + " vertices; leave some out");
     for (unsigned k = 0; k < node.mNumChildren; ++k) append_node(scene, *node.mChildren[k], to_world, file, most, mesh);
 }
 
@@ -151,10 +151,10 @@ TriangleMesh read_with_assimp(const std::string& file) {
     try {
         scene = importer.ReadFile(file, 0);
     } catch (const std::exception& error) {
-        throw SceneError(file + ": cannot be imported: " + error.what());
+        throw SceneError(file, std::string("cannot be imported: ") + error.what());
     }
-    if (scene == nullptr) throw SceneError(file + ": cannot be imported: " + importer.GetErrorString());
-    if (scene->mRootNode == nullptr) throw SceneError(file + ": no vertices");
+    if (scene == nullptr) throw SceneError(file, std::string("cannot be imported: ") + importer.GetErrorString());
+    if (scene->mRootNode == nullptr) throw SceneError(file, "no vertices");
     TriangleMesh mesh;
     append_node(*scene, *scene->mRootNode, aiMatrix4x4(), file, most_vertices(*scene), mesh);
     return mesh;
@@ -169,14 +169,14 @@ std::string extension_of(const std::string& file) {
 }
 
 TriangleMesh import_mesh(const std::string& file, double unit) {
-    if (!std::isfinite(unit) || unit <= 0.0) throw SceneError(file + ": unit is " + std::to_string(unit) + ", must be above 0");
+    if (!std::isfinite(unit) || unit <= 0.0) throw SceneError(file, "unit is " + std::to_string(unit) + ", must be above 0");
     check_mesh_file(file);
     const std::string format = format_of(file);
     check_format(file, format);
     if (format == ".stl") check_stl_header(file);
     const Reader own = own_reader(format);
     TriangleMesh mesh = own != nullptr ? read_with(own, file) : read_with_assimp(file);
-    if (mesh.triangles.empty()) throw SceneError(file + ": no triangles");
+    if (mesh.triangles.empty()) throw SceneError(file, "no triangles");
     for (std::size_t k = 0; k < mesh.vertices.size(); ++k) check_finite(mesh.vertices[k] *= unit, k, file);
     return own != nullptr ? mesh : weld(mesh);
 }

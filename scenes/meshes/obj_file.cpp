@@ -41,10 +41,11 @@ Vec3 read_vertex(std::string_view line, const TextPlace& place) {
         numbers[count] = to_double(word, place, names[std::min<std::size_t>(count, 3)]);
         ++count;
     }
-    if (count < 3) fail_at(place, std::string(names[count]) + " is missing");
-    if (count > 7) fail_at(place, "a vertex has 3 coordinates, at most a weight and a colour after them, not 8 numbers or more");
+    if (count < 3) fail_at_line(place, std::string(names[count]) + " is missing");
+    if (count > 7)
+        fail_at_line(place, "a vertex has 3 coordinates, at most a weight and a colour after them, not 8 numbers or more");
     const bool weighted = count == 4 || count == 7;
-    if (weighted && numbers[3] != 1.0) fail_at(place, "a vertex weight other than 1 is not supported");
+    if (weighted && numbers[3] != 1.0) fail_at_line(place, "a vertex weight other than 1 is not supported");
     return {numbers[0], numbers[1], numbers[2]};
 }
 
@@ -64,14 +65,14 @@ void read_face(std::string_view line, const TextPlace& place, std::size_t vertex
     const std::size_t start = faces.corners.size();
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
         const long long index = read_corner(word, place);
-        if (index == 0) fail_at(place, "vertex index 0: indices start at 1 (or at -1, backwards)");
+        if (index == 0) fail_at_line(place, "vertex index 0: indices start at 1 (or at -1, backwards)");
         if (index < -static_cast<long long>(vertex_count))
-            fail_at(place, "vertex index " + std::to_string(index) + " reaches before the first of " +
-                               std::to_string(vertex_count) + " vertices read so far");
+            fail_at_line(place, "vertex index " + std::to_string(index) + " reaches before the first of " +
+                                    std::to_string(vertex_count) + " vertices read so far");
         faces.corners.push_back(index > 0 ? index - 1 : static_cast<long long>(vertex_count) + index);
     }
     const std::size_t count = faces.corners.size() - start;
-    if (count < 3) fail_at(place, "a face needs 3 corners or more, this one has " + std::to_string(count));
+    if (count < 3) fail_at_line(place, "a face needs 3 corners or more, this one has " + std::to_string(count));
     faces.ends.push_back(faces.corners.size());
     faces.lines.push_back(place.line);
 }
@@ -84,8 +85,8 @@ std::vector<Triangle> fan(const FaceList& faces, std::size_t vertex_count, const
     for (std::size_t face = 0; face < faces.ends.size(); ++face) {
         for (std::size_t k = start; k < faces.ends[face]; ++k)
             if (faces.corners[k] >= static_cast<long long>(vertex_count))
-                fail_at(TextPlace{name, faces.lines[face]}, "vertex index " + std::to_string(faces.corners[k] + 1) +
-                                                                " is out of range 1 ... " + std::to_string(vertex_count));
+                fail_at_line({name, faces.lines[face]}, "vertex index " + std::to_string(faces.corners[k] + 1) +
+                                                            " is out of range 1 ... " + std::to_string(vertex_count));
         const auto corner = [&](std::size_t k) { return static_cast<int>(faces.corners[k]); };
         for (std::size_t k = start + 2; k < faces.ends[face]; ++k) triangles.push_back({corner(start), corner(k - 1), corner(k)});
         start = faces.ends[face];
@@ -119,7 +120,7 @@ std::string obj_text(std::span<const Vec3> vertices, std::span<const Triangle> t
 
 TriangleMesh read_obj(std::istream& in, const std::string& name) {
     const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (in.bad()) throw SceneError(name + ": cannot be read");
+    if (in.bad()) throw SceneError(name, "cannot be read");
     TriangleMesh mesh;
     FaceList faces;
     std::size_t line_number = 0;
@@ -131,8 +132,8 @@ TriangleMesh read_obj(std::istream& in, const std::string& name) {
         if (keyword == "v") mesh.vertices.push_back(read_vertex(rest, place));
         if (keyword == "f") read_face(rest, place, mesh.vertices.size(), faces);
     }
-    if (mesh.vertices.empty()) throw SceneError(name + ": no vertices");
-    if (faces.ends.empty()) throw SceneError(name + ": no triangles");
+    if (mesh.vertices.empty()) throw SceneError(name, "no vertices");
+    if (faces.ends.empty()) throw SceneError(name, "no triangles");
     mesh.triangles = fan(faces, mesh.vertices.size(), name);
     return mesh;
 }

@@ -42,44 +42,44 @@ bool is_plain_keyword(std::string_view word) {
 /// The line with the counts: after the keyword, on its line or the next, or the first line where there is no keyword.
 std::string_view counts_line(OffText& text) {
     std::string_view line = next_line(text);
-    if (line.empty()) throw SceneError(text.name + ": no vertices: the file is empty");
+    if (line.empty()) throw SceneError(text.name, "no vertices: the file is empty");
     std::string_view after = line;
     const std::string_view word = next_word(after);
     if (word[0] >= '0' && word[0] <= '9' && !word.ends_with("OFF")) return line;
     if (word.ends_with("4OFF") || word.ends_with("nOFF"))
-        fail_at(text.place(), shown(word) + ": only three-dimensional OFF files are read");
-    if (!is_plain_keyword(word)) fail_at(text.place(), "not an OFF file: it starts with " + shown(word));
+        fail_at_line(text.place(), shown(word) + ": only three-dimensional OFF files are read");
+    if (!is_plain_keyword(word)) fail_at_line(text.place(), "not an OFF file: it starts with " + shown(word));
     std::string_view more = after;
     const std::string_view second = next_word(more);
-    if (second == "BINARY") fail_at(text.place(), "binary OFF files are not read");
+    if (second == "BINARY") fail_at_line(text.place(), "binary OFF files are not read");
     return second.empty() ? next_line(text) : after;
 }
 
 std::size_t read_count(std::string_view& line, const OffText& text, const char* what, std::size_t most) {
     const long long count = to_integer(next_word(line), text.place(), what);
-    if (count < 1) fail_at(text.place(), std::string(what) + " is " + std::to_string(count));
+    if (count < 1) fail_at_line(text.place(), std::string(what) + " is " + std::to_string(count));
     if (static_cast<unsigned long long>(count) > most)
-        fail_at(text.place(), std::string(what) + " is " + std::to_string(count) + ", but the file can hold " +
-                                  std::to_string(most) + " at most");
+        fail_at_line(text.place(), std::string(what) + " is " + std::to_string(count) + ", but the file can hold " +
+                                       std::to_string(most) + " at most");
     return static_cast<std::size_t>(count);
 }
 
 std::string_view element_line(OffText& text, const char* kind, std::size_t done, std::size_t count) {
     const std::string_view line = next_line(text);
     if (line.empty())
-        fail_at(text.place(), "the file ends after " + std::to_string(done) + " of " + std::to_string(count) + " " + kind);
+        fail_at_line(text.place(), "the file ends after " + std::to_string(done) + " of " + std::to_string(count) + " " + kind);
     return line;
 }
 
 void read_face(std::string_view line, const OffText& text, std::size_t vertex_count, std::vector<Triangle>& triangles) {
     const long long corners = to_integer(next_word(line), text.place(), "number of corners");
-    if (corners < 3) fail_at(text.place(), "a face needs 3 corners or more, this one has " + std::to_string(corners));
+    if (corners < 3) fail_at_line(text.place(), "a face needs 3 corners or more, this one has " + std::to_string(corners));
     Triangle fan{};
     for (long long k = 0; k < corners; ++k) {
         const long long index = to_integer(next_word(line), text.place(), "vertex index");
         if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
-            fail_at(text.place(),
-                    "vertex index " + std::to_string(index) + " is out of range 0 ... " + std::to_string(vertex_count - 1));
+            fail_at_line(text.place(),
+                         "vertex index " + std::to_string(index) + " is out of range 0 ... " + std::to_string(vertex_count - 1));
         fan = {k == 0 ? static_cast<int>(index) : fan[0], fan[2], static_cast<int>(index)};
         if (k >= 2) triangles.push_back(fan);
     }
@@ -89,7 +89,7 @@ void read_face(std::string_view line, const OffText& text, std::size_t vertex_co
 
 TriangleMesh read_off(std::istream& in, const std::string& name) {
     const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (in.bad()) throw SceneError(name + ": cannot be read");
+    if (in.bad()) throw SceneError(name, "cannot be read");
     OffText text{name, content};
     std::string_view counts = counts_line(text);
     // The last line may lack its line end.

@@ -61,12 +61,12 @@ PlyType type_of(std::string_view word, const TextPlace& place) {
     if (word == "uint" || word == "uint32") return {unsigned_whole, 4};
     if (word == "float" || word == "float32") return {real, 4};
     if (word == "double" || word == "float64") return {real, 8};
-    fail_at(place, "unknown PLY type " + shown(word));
+    fail_at_line(place, "unknown PLY type " + shown(word));
 }
 
 PlyType whole_type_of(std::string_view word, const TextPlace& place, const char* what) {
     const PlyType type = type_of(word, place);
-    if (type.kind == PlyType::Kind::real) fail_at(place, std::string(what) + " must be of a whole type, not " + shown(word));
+    if (type.kind == PlyType::Kind::real) fail_at_line(place, std::string(what) + " must be of a whole type, not " + shown(word));
     return type;
 }
 
@@ -78,17 +78,17 @@ int role_of(std::string_view element, std::string_view property) {
 
 std::string_view read_name(std::string_view& line, const TextPlace& place, const char* what) {
     const std::string_view name = next_word(line);
-    if (name.empty()) fail_at(place, std::string("the ") + what + " has no name");
+    if (name.empty()) fail_at_line(place, std::string("the ") + what + " has no name");
     return name;
 }
 
 void check_end(std::string_view line, const TextPlace& place) {
     const std::string_view word = next_word(line);
-    if (!word.empty()) fail_at(place, "more than belongs on this line of a PLY header: " + shown(word));
+    if (!word.empty()) fail_at_line(place, "more than belongs on this line of a PLY header: " + shown(word));
 }
 
 void read_property(std::string_view line, const TextPlace& place, PlyHeader& header) {
-    if (header.elements.empty()) fail_at(place, "a property before the first element");
+    if (header.elements.empty()) fail_at_line(place, "a property before the first element");
     PlyElement& element = header.elements.back();
     PlyProperty property;
     std::string_view type = next_word(line);
@@ -101,11 +101,11 @@ void read_property(std::string_view line, const TextPlace& place, PlyHeader& hea
     check_end(line, place);
     property.role = role_of(element.name, name);
     if (property.role != no_role) {
-        if (element.has_role[property.role]) fail_at(place, "a second property " + shown(name));
+        if (element.has_role[property.role]) fail_at_line(place, "a second property " + shown(name));
         element.has_role[property.role] = true;
         const bool is_face = element.name == "face";
         if (is_face != property.is_list())
-            fail_at(place, "property " + shown(name) + (is_face ? " must be a list" : " must be a number, not a list"));
+            fail_at_line(place, "property " + shown(name) + (is_face ? " must be a list" : " must be a number, not a list"));
         if (is_face) whole_type_of(type, place, "a vertex index");
     }
     element.properties.push_back(property);
@@ -114,14 +114,14 @@ void read_property(std::string_view line, const TextPlace& place, PlyHeader& hea
 void read_format(std::string_view line, const TextPlace& place, PlyHeader& header) {
     using enum PlyHeader::Format;
     const std::string_view format = next_word(line);
-    if (header.format != unknown) fail_at(place, "a second format");
+    if (header.format != unknown) fail_at_line(place, "a second format");
     if (format == "ascii") header.format = text;
     if (format == "binary_little_endian") header.format = little_endian;
     if (format == "binary_big_endian") header.format = big_endian;
     if (header.format == unknown)
-        fail_at(place, "unknown PLY format " + shown(format) + ": ascii, binary_little_endian or binary_big_endian");
+        fail_at_line(place, "unknown PLY format " + shown(format) + ": ascii, binary_little_endian or binary_big_endian");
     const std::string_view version = next_word(line);
-    if (version != "1.0") fail_at(place, "unknown PLY version " + shown(version) + ": only 1.0 is read");
+    if (version != "1.0") fail_at_line(place, "unknown PLY version " + shown(version) + ": only 1.0 is read");
     check_end(line, place);
 }
 
@@ -135,25 +135,25 @@ void read_element(std::string_view line, const TextPlace& place, PlyHeader& head
     const std::string_view name = read_name(line, place, "element");
     const long long count = to_integer(next_word(line), place, "element count"), most = std::numeric_limits<int>::max();
     if (count < 0 || count > most)
-        fail_at(place, "element count " + std::to_string(count) + " is out of range 0 ... " + std::to_string(most));
+        fail_at_line(place, "element count " + std::to_string(count) + " is out of range 0 ... " + std::to_string(most));
     check_end(line, place);
     const bool is_known = name == "vertex" || name == "face";
-    if (is_known && find_element(header, name) != nullptr) fail_at(place, "a second element " + shown(name));
+    if (is_known && find_element(header, name) != nullptr) fail_at_line(place, "a second element " + shown(name));
     header.elements.push_back({name, place.line, static_cast<std::size_t>(count)});
 }
 
 /// What must be there for a mesh.
 void check_needed(const PlyHeader& header, const std::string& name) {
     const PlyElement *vertex = find_element(header, "vertex"), *face = find_element(header, "face");
-    if (vertex == nullptr) throw SceneError(name + ": no vertices: the header has no element \"vertex\"");
+    if (vertex == nullptr) throw SceneError(name, "no vertices: the header has no element \"vertex\"");
     for (int axis = 0; axis < 3; ++axis)
         if (!vertex->has_role[axis])
-            fail_at(TextPlace{name, vertex->line}, std::string("element \"vertex\" has no property \"") + "xyz"[axis] + "\"");
-    if (vertex->count == 0) fail_at(TextPlace{name, vertex->line}, "no vertices: their count is 0");
-    if (face == nullptr) throw SceneError(name + ": no triangles: the header has no element \"face\"");
+            fail_at_line({name, vertex->line}, std::string("element \"vertex\" has no property \"") + "xyz"[axis] + "\"");
+    if (vertex->count == 0) fail_at_line({name, vertex->line}, "no vertices: their count is 0");
+    if (face == nullptr) throw SceneError(name, "no triangles: the header has no element \"face\"");
     if (!face->has_role[0])
-        fail_at(TextPlace{name, face->line}, "element \"face\" has no list \"vertex_indices\" or \"vertex_index\"");
-    if (face->count == 0) fail_at(TextPlace{name, face->line}, "no triangles: the count of faces is 0");
+        fail_at_line({name, face->line}, "element \"face\" has no list \"vertex_indices\" or \"vertex_index\"");
+    if (face->count == 0) fail_at_line({name, face->line}, "no triangles: the count of faces is 0");
 }
 
 /// The least that an element takes: in text a digit and a blank for each number, in binary an empty list its length alone.
@@ -171,9 +171,9 @@ void check_counts(const PlyHeader& header, const PlyText& text) {
         const std::size_t each = least_bytes(element, is_text);
         if (each == 0) continue;
         if (element.count > left / each)
-            fail_at(TextPlace{text.name, element.line}, "the header claims " + std::to_string(element.count) + " elements " +
-                                                            shown(element.name) + ", but the file can hold " +
-                                                            std::to_string(left / each) + " at most");
+            fail_at_line({text.name, element.line}, "the header claims " + std::to_string(element.count) + " elements " +
+                                                        shown(element.name) + ", but the file can hold " +
+                                                        std::to_string(left / each) + " at most");
         left -= element.count * each;
     }
 }
@@ -186,22 +186,22 @@ bool read_header_line(std::string_view line, const TextPlace& place, PlyHeader& 
     if (keyword == "property") return read_property(line, place, header), true;
     if (keyword == "format") return read_format(line, place, header), true;
     if (keyword == "element") return read_element(line, place, header), true;
-    fail_at(place, "unknown word in the header of a PLY file: " + shown(keyword));
+    fail_at_line(place, "unknown word in the header of a PLY file: " + shown(keyword));
 }
 
 PlyHeader read_header(PlyText& text) {
     text.line = 1;
     std::string_view first = take_line(text.rest);
     const std::string_view magic = next_word(first);
-    if (magic != "ply") fail_at(text.place(), "not a PLY file: it starts with " + shown(magic));
+    if (magic != "ply") fail_at_line(text.place(), "not a PLY file: it starts with " + shown(magic));
     check_end(first, text.place());
     PlyHeader header;
     for (bool goes_on = true; goes_on;) {
-        if (text.rest.empty()) throw SceneError(text.name + ": not a PLY file: its header has no end");
+        if (text.rest.empty()) throw SceneError(text.name, "not a PLY file: its header has no end");
         ++text.line;
         goes_on = read_header_line(take_line(text.rest), text.place(), header);
     }
-    if (header.format == PlyHeader::Format::unknown) throw SceneError(text.name + ": the header names no format");
+    if (header.format == PlyHeader::Format::unknown) throw SceneError(text.name, "the header names no format");
     check_needed(header, text.name);
     check_counts(header, text);
     return header;
@@ -251,8 +251,8 @@ void PlyBody::end() const {
 }
 
 void PlyBody::fail(const std::string& message) const {
-    if (is_text_) fail_at(text_.place(), message);
-    throw SceneError(text_.name + ": element " + shown(element_) + " " + std::to_string(number_) + ": " + message);
+    if (is_text_) fail_at_line(text_.place(), message);
+    throw SceneError(text_.name, "element " + shown(element_) + " " + std::to_string(number_) + ": " + message);
 }
 
 std::uint64_t PlyBody::bits(std::size_t bytes) {
@@ -337,7 +337,7 @@ void read_elements(PlyBody& body, const PlyElement& element, std::size_t vertex_
 
 TriangleMesh read_ply(std::istream& in, const std::string& name) {
     const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (in.bad()) throw SceneError(name + ": cannot be read");
+    if (in.bad()) throw SceneError(name, "cannot be read");
     PlyText text{name, content};
     const PlyHeader header = read_header(text);
     const std::size_t vertex_count = find_element(header, "vertex")->count;

@@ -15,21 +15,21 @@ namespace percale::scenes {
 void check_stl_header(const std::string& file) {
     errno = 0;
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw SceneError(file + ": cannot be read: " + std::strerror(errno));
+    if (!in) throw SceneError(file, std::string("cannot be read: ") + std::strerror(errno));
     char start[84] = {};
     in.read(start, sizeof start);
     const bool says_solid = std::string_view(start, sizeof start).starts_with("solid");
     if (in.gcount() < static_cast<std::streamsize>(sizeof start)) {
         if (says_solid) return;
-        throw SceneError(file + ": not an STL file: " + std::to_string(in.gcount()) + " bytes are less than its header");
+        throw SceneError(file, "not an STL file: " + std::to_string(in.gcount()) + " bytes are less than its header");
     }
     std::uint32_t count = 0;
     for (int k = 3; k >= 0; --k) count = count << 8 | static_cast<unsigned char>(start[80 + k]);
     in.seekg(0, std::ios::end);
     const std::streamoff most = (in.tellg() - static_cast<std::streamoff>(sizeof start)) / 50;
     if (count > most && !says_solid)
-        throw SceneError(file + ": the header claims " + std::to_string(count) + " triangles, but the file can hold " +
-                         std::to_string(most) + " at most");
+        throw SceneError(file, "the header claims " + std::to_string(count) + " triangles, but the file can hold " +
+                                   std::to_string(most) + " at most");
 }
 
 }  // namespace percale::scenes

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "percale/error.h"
+#include "common/scene_file_error.h"
 
 // The pieces that the readers of text mesh files share.
 namespace percale::scenes {
@@ -18,8 +18,8 @@ struct TextPlace {
     std::size_t line = 0;
 };
 
-[[noreturn]] inline void fail_at(const TextPlace& place, const std::string& message) {
-    throw SceneError(place.name + ":" + std::to_string(place.line) + ": " + message);
+[[noreturn]] inline void fail_at_line(const TextPlace& place, const std::string& message) {
+    throw SceneFileError({.file = place.name, .line = static_cast<int>(place.line)}, message);
 }
 
 /// A word as it may stand in a message: cut to 40 characters, unprintable ones replaced.
@@ -54,10 +54,10 @@ inline double to_double(std::string_view word, const TextPlace& place, const cha
     const char* end = word.data() + word.size();
     double value = 0.0;
     const auto [stop, status] = std::from_chars(word.data() + (plus ? 1 : 0), end, value);
-    if (word.empty()) fail_at(place, std::string(what) + " is missing");
-    if (status == std::errc::result_out_of_range) fail_at(place, std::string(what) + " is beyond a double: " + shown(word));
-    if (status != std::errc() || stop != end) fail_at(place, std::string(what) + " is not a number: " + shown(word));
-    if (!std::isfinite(value)) fail_at(place, std::string(what) + " is not finite: " + shown(word));
+    if (word.empty()) fail_at_line(place, std::string(what) + " is missing");
+    if (status == std::errc::result_out_of_range) fail_at_line(place, std::string(what) + " is beyond a double: " + shown(word));
+    if (status != std::errc() || stop != end) fail_at_line(place, std::string(what) + " is not a number: " + shown(word));
+    if (!std::isfinite(value)) fail_at_line(place, std::string(what) + " is not finite: " + shown(word));
     return value;
 }
 
@@ -66,8 +66,8 @@ inline long long to_integer(std::string_view word, const TextPlace& place, const
     const char* end = word.data() + word.size();
     long long value = 0;
     const auto [stop, status] = std::from_chars(word.data(), end, value);
-    if (word.empty()) fail_at(place, std::string(what) + " is missing");
-    if (status != std::errc() || stop != end) fail_at(place, std::string(what) + " is not a whole number: " + shown(word));
+    if (word.empty()) fail_at_line(place, std::string(what) + " is missing");
+    if (status != std::errc() || stop != end) fail_at_line(place, std::string(what) + " is not a whole number: " + shown(word));
     return value;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "common/scene_file_error.h"
 #include "common/text.h"
 #include "export/checkpoint.h"
 #include "export/run_settings.h"
@@ -77,7 +78,7 @@ BuiltScene built_scene(const RunOptions& options, const Checkpoint* from) {
     } catch (const StartRefused& refused) {
         const std::string file = refused.triangles().triangles.empty() ? "" : leave_picture(options, refused.triangles());
         if (file.empty()) throw;
-        throw SceneError(std::string(refused.what()) + " (the triangles concerned: " + file + ")");
+        fail_at(refused.place(), refused.reason() + " (the triangles concerned: " + file + ")");
     }
 }
 

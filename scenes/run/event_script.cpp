@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "common/scene_file_error.h"
 #include "common/text.h"
 #include "percale/error.h"
 #include "run/vertex_selection.h"
@@ -21,11 +22,9 @@ public:
     }
 
     ScriptedEvent scripted(const EventSpec& event) {
-        try {
-            return {event.time, std::visit([this](const auto& what) { return read(what); }, event.what)};
-        } catch (const SceneError& error) {
-            fail_at(event.place, std::string("event: ") + error.what());
-        }
+        return at_place(event.place, "event: ", [&] {
+            return ScriptedEvent{event.time, std::visit([this](const auto& what) { return read(what); }, event.what)};
+        });
     }
 
 private:

@@ -10,7 +10,7 @@ namespace percale::scenes {
 namespace {
 
 constexpr double largest_turn = std::numbers::pi / 12.0;  // rad, in one part
-constexpr double largest_displacement = 4.0;                       // thicknesses, in one part
+constexpr double largest_displacement = 4.0;              // thicknesses, in one part
 constexpr double most_motion_parts = 1e5;                 // what moves still farther in a part may block the cloth
 constexpr double part_rounding = 1e-9;                    // of a part
 
@@ -40,7 +40,7 @@ struct Extent {
 struct ClothAhead {
     Extent extent;
     Vec3 displacement = Vec3::Zero();  // m, mean over the vertices
-    double thickness = 0.0;   // m
+    double thickness = 0.0;            // m
 };
 
 ClothAhead cloth_ahead(const BuiltScene& built, std::size_t cloth, double dt) {

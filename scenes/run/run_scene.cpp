@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "common/scene_file_error.h"
 #include "common/text.h"
 #include "meshes/mesh_import.h"
 #include "percale/error.h"
@@ -31,11 +32,7 @@ const char* status_word(RunStatus status) {
 namespace {
 
 TriangleMesh reference_mesh(const std::string& file, const Expectation& expectation) {
-    try {
-        return import_mesh(file);
-    } catch (const SceneError& error) {
-        fail_at(expectation.place, std::string("matches: ") + error.what());
-    }
+    return at_place(expectation.place, "matches: ", [&] { return import_mesh(file); });
 }
 
 }  // namespace
@@ -306,12 +303,10 @@ public:
 private:
     void go_on_from(const RunSettings& settings) {
         const RunState& from = *settings.from;
-        try {
+        at_place({.file = settings.from_file}, "", [&] {
             script_.timeline.go_on_from(built_, from.timeline);
             built_.simulation.restore(from.simulation);
-        } catch (const SceneError& error) {
-            throw SceneError(settings.from_file + ": " + error.what());
-        }
+        });
         result_.totals = from.totals;
         result_.measures = from.measures;
         result_.resumed_at = from.resumed_at;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "common/scene_file_error.h"
 #include "common/text.h"
 #include "meshes/mesh_import.h"
 #include "percale/detectors.h"
@@ -15,25 +16,25 @@
 namespace percale::scenes {
 namespace {
 
-// Where a mesh is its own place, its file would be said twice.
-std::string without(const std::string& start, const std::string& what) {
-    return what.starts_with(start) ? what.substr(start.size()) : what;
+/// How messages name a cloth and an obstacle.
+std::string told(const ClothSpec& cloth) { return "cloth '" + cloth.name + "'"; }
+std::string told(const ObstacleSpec& obstacle) { return "obstacle '" + obstacle.name + "'"; }
+
+/// What an error says of a cloth or an obstacle, its name told once. Where a mesh is its own place, its file is not said again.
+template <class Spec>
+std::string told_of(const Spec& spec, const SceneError& error) {
+    if (error.subject() == told(spec)) return error.what();
+    const bool known = error.subject() == spec.name || error.subject() == spec.place.file;
+    return "'" + spec.name + "': " + (known ? error.reason() : error.what());
 }
 
-// The message with the name of its cloth or obstacle in front, in quotes, unless it says that already.
-std::string named(const std::string& name, const std::string& what) {
-    const std::string quoted = "'" + name + "'";
-    if (what.find(quoted) != std::string::npos) return what;
-    return quoted + (what.starts_with(name + ":") ? what.substr(name.size()) : ": " + what);
-}
-
-// Builds a cloth or an obstacle; what is wrong with it is told with its place in the scene file.
+/// Builds a cloth or an obstacle; what is wrong with it is told with its place in the scene file.
 template <class Spec, class Work>
 void at_place_of(const Spec& spec, Work work) {
     try {
         work();
     } catch (const SceneError& error) {
-        fail_at(spec.place, named(spec.name, without(spec.place.file + ": ", error.what())));
+        fail_at(spec.place, told_of(spec, error));
     }
 }
 
@@ -53,8 +54,8 @@ std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {
     std::erase(valid, word_of(Detector::none));
     const std::string lacks = " needs a detector, but step.detector is none; valid: " + joined(valid);
     const ClothSpec* cloth = scene.cloth_that_meets_cloth();
-    if (!scene.obstacles.empty()) fail_at(scene.obstacles[0].place, "obstacle '" + scene.obstacles[0].name + "'" + lacks);
-    fail_at(cloth->place, "cloth '" + cloth->name + "': self_contact" + lacks);
+    if (!scene.obstacles.empty()) fail_at(scene.obstacles[0].place, told(scene.obstacles[0]) + lacks);
+    fail_at(cloth->place, told(*cloth) + ": self_contact" + lacks);
 }
 
 const Fabric& fabric_of(const Scene& scene, const ClothSpec& cloth) {
@@ -65,8 +66,8 @@ const Fabric& fabric_of(const Scene& scene, const ClothSpec& cloth) {
 
 void check_shear(const ClothSpec& cloth, const TriangleMesh& mesh, double shear) {
     if (mesh.is_grid() || shear == 0.0) return;
-    throw SceneError("cloth '" + cloth.name + "': fabric." + cloth.fabric + ".springs.shear = " + number_text(shear) +
-                     " N/m, but a free mesh has no shear springs; it must be 0");
+    throw SceneError(told(cloth), "fabric." + cloth.fabric + ".springs.shear = " + number_text(shear) +
+                                      " N/m, but a free mesh has no shear springs; it must be 0");
 }
 
 /// A preset has a warp, a mesh does not say where: there it is isotropic, which is not silent.
@@ -75,7 +76,7 @@ Fabric fabric_on(BuiltScene& built, const ClothSpec& cloth, const TriangleMesh& 
     if (mesh.is_grid() || !built.scene.preset_moduli.contains(cloth.fabric)) return fabric;
     const Fabric result = isotropic(fabric);
     const auto [warp, weft] = *fabric.stretch_stiffness;
-    built.warnings.push_back("cloth '" + cloth.name + "': a mesh does not say where warp is; instead of stretch_stiffness = [" +
+    built.warnings.push_back(told(cloth) + ": a mesh does not say where warp is; instead of stretch_stiffness = [" +
                              number_text(warp) + ", " + number_text(weft) + "] N/m, fabric." + cloth.fabric + " has " +
                              number_text(result.stretch_stiffness->front()) +
                              " N/m in every direction there, what belongs to its shear_stiffness");
@@ -84,7 +85,7 @@ Fabric fabric_on(BuiltScene& built, const ClothSpec& cloth, const TriangleMesh& 
 
 void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
     TriangleMesh mesh = rest_mesh(built.scene, cloth);
-    check_mesh(mesh, "cloth '" + cloth.name + "'", true);
+    check_mesh(mesh, told(cloth), true);
     const Fabric fabric = fabric_on(built, cloth, mesh);
     check_shear(cloth, mesh, fabric.springs.shear);
     const ClothId id = built.simulation.add_cloth(mesh, fabric, {}, cloth.name);
@@ -93,17 +94,15 @@ void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
 }
 
 void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
-    try {
+    at_place(cloth.pin_place, "pin: ", [&] {
         for (const int vertex : select_vertices(cloth.pin, built.cloth_meshes.back(), cloth.name))
             built.simulation.pin(built.cloths.back(), vertex);
-    } catch (const SceneError& error) {
-        fail_at(cloth.pin_place, std::string("pin: ") + error.what());
-    }
+    });
 }
 
 void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     TriangleMesh mesh = obstacle_mesh(built.scene, obstacle);
-    check_mesh(mesh, "obstacle '" + obstacle.name + "'", false);
+    check_mesh(mesh, told(obstacle), false);
     const ObstacleSettings settings{.friction = obstacle.friction, .name = obstacle.name};
     built.obstacles.push_back(built.simulation.add_obstacle(mesh, obstacle_pose_at(obstacle, 0.0), settings));
     built.obstacle_meshes.push_back(std::move(mesh));
@@ -116,12 +115,10 @@ ClothId cloth_named(const BuiltScene& built, const std::string& name) {
 }
 
 void add_seam(BuiltScene& built, const SeamSpec& seam) {
-    try {
+    at_place(seam.place, "", [&] {
         const ClothId first = cloth_named(built, seam.cloths[0]), second = cloth_named(built, seam.cloths[1]);
         built.simulation.add_seam(first, second, seam.vertices, {.over = seam.over, .stiffness = seam.stiffness});
-    } catch (const SceneError& error) {
-        fail_at(seam.place, error.what());
-    }
+    });
 }
 
 // Cloths have the same numbers in the scene and in the simulation; triangles are counted through all of them.
@@ -133,16 +130,13 @@ const SourcePlace& place_of_triangle(const BuiltScene& built, int triangle) {
 
 // So have obstacles.
 [[noreturn]] void refuse_start(const BuiltScene& built, const StartError& error) {
-    const auto at = [&](const SourcePlace& place) {
-        const std::string where = place_text(place);
-        return (where.empty() ? "" : where + ": ") + error.what();
-    };
-    if (error.fault().between_cloths()) throw StartRefused(at(place_of_triangle(built, error.fault().cloth_triangle)), {});
+    if (error.fault().between_cloths())
+        throw StartRefused(place_of_triangle(built, error.fault().cloth_triangle), error.what(), {});
     const auto number = static_cast<std::size_t>(error.fault().obstacle);
     TriangleMesh obstacle = built.obstacle_meshes.at(number);
     obstacle.vertices =
         transform(built.simulation.obstacle_pose(built.obstacles[number]), std::span<const Vec3>(obstacle.vertices));
-    throw StartRefused(at(built.scene.obstacles.at(number).place), offending_triangles(built.cloth_meshes, obstacle));
+    throw StartRefused(built.scene.obstacles.at(number).place, error.what(), offending_triangles(built.cloth_meshes, obstacle));
 }
 
 void check_start(BuiltScene& built) {

@@ -4,15 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "percale/error.h"
+#include "common/scene_file_error.h"
 #include "percale/simulation.h"
 
 namespace percale::scenes {
 
 /// A scene refused because its cloth starts through or inside an obstacle, with the triangles concerned to look at.
-class StartRefused : public SceneError {
+class StartRefused : public SceneFileError {
 public:
-    StartRefused(const std::string& message, TriangleMesh triangles) : SceneError(message), triangles_(std::move(triangles)) {}
+    StartRefused(const SourcePlace& place, const std::string& what, TriangleMesh triangles)
+        : SceneFileError(place, what), triangles_(std::move(triangles)) {}
     /// World coordinates; of cloth and obstacle in one mesh.
     const TriangleMesh& triangles() const { return triangles_; }
 

@@ -67,7 +67,7 @@ std::vector<int> select_vertices(const VertexSelection& selection, const Triangl
     try {
         return std::visit([&](const auto& which) { return selected(which, mesh); }, selection);
     } catch (const SceneError& error) {
-        throw SceneError("vertices of cloth '" + cloth_name + "': " + error.what());
+        throw SceneError("vertices of cloth '" + cloth_name + "'", error.what());
     }
 }
 

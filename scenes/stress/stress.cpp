@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/scene_file_error.h"
 #include "common/text.h"
 #include "compare/compare.h"
 #include "percale/error.h"

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "engine/forces/total_force.h"
-#include "engine/model/cloth_model.h"
 #include "engine/linear/multigrid.h"
+#include "engine/model/cloth_model.h"
 #include "tests/bench/bench_report.h"
 #include "tests/support/bench_unit.h"
 

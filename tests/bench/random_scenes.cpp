@@ -4,8 +4,8 @@
 #include <map>
 
 #include "tests/bench/bench_report.h"
-#include "tests/support/cpu_time.h"
 #include "tests/support/collision/random_scenes.h"
+#include "tests/support/cpu_time.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include "collision/detector.h"
 #include "collision/obstacle/obstacle.h"
 #include "tests/support/catch.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/scenes.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

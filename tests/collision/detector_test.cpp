@@ -5,9 +5,9 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/collision/pairs.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/scenes.h"
 #include "tests/support/collision/truth.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

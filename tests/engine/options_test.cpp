@@ -75,6 +75,51 @@ TEST_CASE("Every option has one field, a key of its own and a sentence") {
     check_descriptions(step_options());
 }
 
+namespace {
+
+/// Another value of the field that an option names; of a number that may be automatic, another number.
+void change(const Option<StepSettings>& option, StepSettings& settings) {
+    if (option.number) *option.number(settings) *= 0.5;
+    if (option.integer) *option.integer(settings) += 1;
+    if (option.flag) *option.flag(settings) = !*option.flag(settings);
+    if (option.number_or_auto) *option.number_or_auto(settings) = 1e-3;
+    if (option.get_choice) {
+        const auto words = static_cast<int>(option.choices.size());
+        option.set_choice(settings, (option.get_choice(settings) + 1) % words);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("The hash of step settings changes with every field that changes steps and with no other") {
+    const std::uint64_t before = options_hash({});
+    std::set<std::uint64_t> others;
+    for (const Option<StepSettings>& option : step_options()) {
+        CAPTURE(option.key);
+        StepSettings settings;
+        change(option, settings);
+        const bool counts = option.changes_steps && !option.automatic;
+        CHECK((options_hash(settings) != before) == counts);
+        if (counts) CHECK(others.insert(options_hash(settings)).second);
+        if (option.automatic) {
+            *option.automatic(settings) = true;
+            CHECK((options_hash(settings) != before) == option.changes_steps);
+        }
+    }
+    CHECK(others.size() >= 10);
+    StepSettings of_the_state;
+    of_the_state.gravity = Vec3(0.0, 1.0, 0.0);
+    of_the_state.wind = Vec3(1.0, 0.0, 0.0);
+    CHECK(options_hash(of_the_state) == before);
+}
+
+TEST_CASE("Threads, the rule for a start and checks of derivatives change no step") {
+    std::set<std::string_view> free;
+    for (const Option<StepSettings>& option : step_options())
+        if (!option.changes_steps) free.insert(option.key);
+    CHECK(free == std::set<std::string_view>{"threads", "start", "check_derivatives"});
+}
+
 TEST_CASE("Defaults are allowed") {
     CHECK(scene_error([] { check_options(Fabric{}, "default"); }) == "");
     CHECK(scene_error([] { check_options(StepSettings{}, "default"); }) == "");

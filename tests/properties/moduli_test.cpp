@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "tests/support/catch.h"
-#include "tests/support/laws.h"
 #include "tests/support/forces/membrane_cases.h"
+#include "tests/support/laws.h"
 
 namespace percale::test {
 namespace {

@@ -7,9 +7,9 @@
 #include "scenes/meshes/mesh_import.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/shapes.h"
 #include "tests/support/collision/steps.h"
+#include "tests/support/random.h"
 #include "tests/support/real_meshes.h"
 
 // Whatever the tree: the same contacts, cuts and distances, to the last bit.

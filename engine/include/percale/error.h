@@ -9,7 +9,19 @@ namespace percale {
 /// Thrown only by the call that was given the wrong input; never for numerical trouble inside a step.
 class SceneError : public std::runtime_error {
 public:
-    explicit SceneError(const std::string& message) : std::runtime_error(message) {}
+    explicit SceneError(const std::string& message) : SceneError({}, message) {}
+    /// what() is "subject: reason"; without a subject the reason alone.
+    SceneError(const std::string& subject, const std::string& reason)
+        : std::runtime_error(subject.empty() ? reason : subject + ": " + reason), subject_(subject), reason_(reason) {}
+
+    /// What the error is about: the name that the caller gave, or a place; "" if it does not say.
+    const std::string& subject() const { return subject_; }
+    /// The message without the subject.
+    const std::string& reason() const { return reason_; }
+
+private:
+    std::string subject_;
+    std::string reason_;
 };
 
 }  // namespace percale

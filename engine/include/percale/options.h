@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -13,7 +14,7 @@
 namespace percale {
 
 /// One field of an options struct, described once: the scene loader, the validator, `percale explain`
-/// and the key table of scenes/README.md all walk these lists.
+/// its settings in report.json and the key table of scenes/README.md all walk these lists.
 template <class Owner>
 struct Option {
     std::string_view key;                                      // dotted key inside the owner's table of a scene file
@@ -22,6 +23,8 @@ struct Option {
     double lowest = -std::numeric_limits<double>::infinity();  // allowed range of a number, both ends included
     double highest = std::numeric_limits<double>::infinity();
     std::span<const std::string_view> choices = {};  // allowed words, for choices
+    bool required = false;                           // in its table of a scene file
+    bool changes_steps = true;                       // of StepSettings: what steps do depends on it whatever the state
 
     // Exactly one of these is set (`automatic` beside `number`); it names the field.
     double* (*number)(Owner&) = nullptr;
@@ -37,6 +40,10 @@ struct Option {
 
 std::span<const Option<Fabric>> fabric_options();
 std::span<const Option<StepSettings>> step_options();
+
+/// A hash of the fields that change what steps do, whatever the state. What a saved state holds itself (gravity, wind, the number
+/// of time_step) does not count, and neither does what changes no step (Option::changes_steps).
+std::uint64_t options_hash(const StepSettings& settings);
 
 /// The schemes, one line each: order, kind, contact, cost and stability.
 std::string scheme_table_text();

@@ -8,8 +8,8 @@
 #include "collision/certificate/box_tree.h"
 #include "collision/certificate/inside_test.h"
 #include "tests/support/catch.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/truth.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

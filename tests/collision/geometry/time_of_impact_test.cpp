@@ -5,8 +5,8 @@
 #include <string>
 
 #include "tests/support/catch.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/truth.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "tests/support/catch.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/truth.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

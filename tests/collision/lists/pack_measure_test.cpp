@@ -7,9 +7,9 @@
 #include "collision/brute_force/brute_force_tree.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision/pairs.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/shapes.h"
 #include "tests/support/collision/trees.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

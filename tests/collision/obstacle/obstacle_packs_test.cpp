@@ -6,9 +6,9 @@
 #include "collision/brute_force/brute_force_tree.h"
 #include "collision/obstacle/obstacle.h"
 #include "tests/support/catch.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/shapes.h"
 #include "tests/support/collision/trees.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

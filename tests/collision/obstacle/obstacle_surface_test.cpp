@@ -6,8 +6,8 @@
 
 #include "percale/error.h"
 #include "tests/support/catch.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/shapes.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

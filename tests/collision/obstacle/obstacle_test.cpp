@@ -4,9 +4,9 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/shapes.h"
 #include "tests/support/collision/trees.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

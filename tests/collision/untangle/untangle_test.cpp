@@ -9,8 +9,8 @@
 #include "percale/certify.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision/off.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/shapes.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -40,17 +40,6 @@ TEST_CASE("a distance is told in metres, an infinite one in words") {
     CHECK(nearness_text(std::numeric_limits<double>::infinity()) == "never near");
 }
 
-TEST_CASE("a place with a line is file, line and column, without one the file") {
-    CHECK(place_text({.file = "a.toml", .line = 3, .column = 7}) == "a.toml:3:7");
-    CHECK(place_text({.file = "a.toml"}) == "a.toml");
-    CHECK(place_text({}).empty());
-}
-
-TEST_CASE("an error at a place begins with the place, and has no colon where there is none") {
-    CHECK(error_of([] { fail_at({.file = "a.toml", .line = 3, .column = 7}, "is wrong"); }) == "a.toml:3:7: is wrong");
-    CHECK(error_of([] { fail_at({}, "is wrong"); }) == "is wrong");
-}
-
 TEST_CASE("joined words have commas between them") {
     const std::string words[] = {"a", "b", "c"};
     CHECK(joined(words) == "a, b, c");

@@ -1,12 +1,14 @@
 #include "scenes/doctor/finding.h"
 
+#include "scenes/common/scene_file_error.h"
 #include "tests/support/catch.h"
 
 using namespace percale;
 using namespace percale::scenes;
 
-TEST_CASE("a refusal takes the place in the file off the front of the message") {
-    const Finding finding = refusal("refused", "a.toml:3:5: gravity: too large", "a.toml", "make it smaller");
+TEST_CASE("a refusal is a finding at the place of its error") {
+    const SceneFileError error({.file = "a.toml", .line = 3, .column = 5}, "gravity: too large");
+    const Finding finding = refusal("refused", error, "a.toml", "make it smaller");
     CHECK(finding.severity == Severity::error);
     CHECK(finding.kind == "refused");
     CHECK(finding.place == "a.toml:3:5");
@@ -14,11 +16,19 @@ TEST_CASE("a refusal takes the place in the file off the front of the message") 
     CHECK(finding.fix == "make it smaller");
 }
 
-TEST_CASE("a message without the file in front is told of the whole file") {
-    for (const char* message : {"no such thing", "b.toml:3:5: other", "a.toml:3"}) {
-        const Finding finding = refusal("start", message, "a.toml", "");
+TEST_CASE("an error about the file itself does not say it twice") {
+    const Finding finding = refusal("unreadable", SceneError("a.obj", "no vertices"), "a.obj", "");
+    CHECK(finding.place == "a.obj");
+    CHECK(finding.what == "no vertices");
+}
+
+TEST_CASE("an error that is not inside the file is told of the whole file") {
+    const SceneFileError elsewhere({.file = "b.toml", .line = 3, .column = 5}, "other");
+    const SceneError plain("no such thing"), named("flag", "torn");
+    for (const SceneError* error : {static_cast<const SceneError*>(&elsewhere), &plain, &named}) {
+        const Finding finding = refusal("start", *error, "a.toml", "");
         CHECK(finding.place == "a.toml");
-        CHECK(finding.what == message);
+        CHECK(finding.what == error->what());
     }
 }
 

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "percale/fabric_presets.h"
-#include "scenes/format/scene_keys.h"
+#include "scenes/format/scene_table.h"
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 

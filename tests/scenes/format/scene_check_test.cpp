@@ -2,7 +2,7 @@
 
 #include "percale/options.h"
 #include "scenes/common/text.h"
-#include "scenes/format/scene_keys.h"
+#include "scenes/format/scene_table.h"
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
@@ -34,9 +34,9 @@ TEST_CASE(
     FaultList all(true);
     check_document(parse_toml(text, "t"), all);
     std::vector<std::string> places;
-    for (const std::string& message : all.messages) places.push_back(message.substr(0, message.find(": ")));
+    for (const SceneFileError& error : all.found) places.push_back(place_text(error.place()));
     CHECK(places == std::vector<std::string>{"t:1:1", "t:3:13", "t:4:10", "t:6:7", "t:8:1", "t:11:10", "t:11:45", "t:9:1"});
-    CHECK(all.messages[0] == fault(text));
+    CHECK(all.found[0].what() == fault(text));
 }
 
 TEST_CASE("an unknown key is refused with its place, its table and the nearest valid key") {

@@ -34,6 +34,7 @@ TEST_CASE("a refused start holds its place and the triangles concerned") {
         FAIL("nothing was thrown");
     } catch (const StartRefused& refused) {
         CHECK(std::string(refused.what()).find("t:15:1: the cloth starts inside box: 36 vertices") == 0);
+        CHECK(refused.place().line == 15);
         CHECK(refused.triangles().triangles.size() == 50);
     }
     const BuiltScene built = build_scene(parse_scene(text, "t"));

@@ -6,8 +6,8 @@
 
 #include "collision/obstacle/obstacle_tree.h"
 #include "tests/support/catch.h"
-#include "tests/support/random.h"
 #include "tests/support/collision/shapes.h"
+#include "tests/support/random.h"
 
 // What every tree has to obey.
 namespace percale::test {

@@ -1,4 +1,4 @@
-#include "scenes/format/toml_document.h"
+#include "scenes/fields/toml_document.h"
 
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"

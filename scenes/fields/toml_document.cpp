@@ -1,10 +1,11 @@
-#include "format/toml_document.h"
+#include "fields/toml_document.h"
 
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <tuple>
 
+#include "common/scene_file_error.h"
 #include "common/text.h"
 
 namespace percale::scenes {

@@ -1,4 +1,4 @@
-#include "scenes/format/scene_keys.h"
+#include "scenes/format/scene_table.h"
 
 #include <algorithm>
 #include <set>
@@ -128,16 +128,4 @@ TEST_CASE("every measure may be expected") {
         CHECK(find_scene_key("expect." + measure.name)->kind == KeyKind::limit);
     }
     CHECK(find_scene_key("expect.matches.file") != nullptr);
-}
-
-TEST_CASE("ranges are written with both ends and the unit") {
-    SceneKey key{.path = "x", .kind = KeyKind::number, .sentence = "X."};
-    CHECK(range_text(key).empty());
-    key.lowest = 0.0;
-    CHECK(range_text(key) == ">= 0");
-    key.highest = 10.0;
-    key.unit = "m";
-    CHECK(range_text(key) == "0 ... 10 m");
-    key.lowest = -std::numeric_limits<double>::infinity();
-    CHECK(range_text(key) == "<= 10 m");
 }

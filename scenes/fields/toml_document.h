@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "format/scene.h"
+#include "common/source_place.h"
 
 namespace percale::scenes {
 

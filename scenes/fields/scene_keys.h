@@ -26,10 +26,10 @@ enum class KeyKind {
     named_tables  // [... .NAME]
 };
 
-/// One key of a scene file, described once: the loader checks with this list, `percale explain` and the table of README.md
-/// print it. Fields of Fabric and StepSettings come from percale/options.h, measures of [expect] from expectations.h.
+/// One key of a scene file. Rows of field tables hold it (field_table.h); the list of all keys, made of these, is in
+/// tables/scene_table.h.
 struct SceneKey {
-    std::string path;  // dotted from the top of the file, names of fabrics left out: "fabric.springs.bend"
+    std::string path;  // in a row the key; in the list dotted from the top, names of fabrics left out: "fabric.springs.bend"
     KeyKind kind = KeyKind::text;
     std::string sentence;
     std::string unit = {};
@@ -37,18 +37,14 @@ struct SceneKey {
     double highest = std::numeric_limits<double>::infinity();
     int count = 0;
     std::vector<std::string> choices = {};
-    std::string default_text = {};  // "" if there is none
-    bool required = false;          // in its table
+    std::string default_text = {};      // "" if there is none
+    bool required = false;              // in its table
+    bool alternative = false;           // exactly one of these in its table
+    std::string needs = {};             // means nothing without that other key
+    std::string needs_why = {};         // "unit is that of a mesh file"
+    bool setting = true;                // what a run does depends on it; false: it names or judges the run
+    std::vector<SceneKey> inside = {};  // of a table, in a row; empty in the list
 };
-
-/// All keys, every table directly before what it holds.
-const std::vector<SceneKey>& scene_keys();
-
-/// The key with this path, or null.
-const SceneKey* find_scene_key(std::string_view path);
-
-/// The keys directly inside a table ("" = the top of the file), without the table's own path.
-std::vector<std::string> keys_inside(std::string_view path);
 
 /// "a number", "a list of 3 numbers", "one of fcl, bullet"; what a value must be.
 std::string kind_text(const SceneKey& key);

@@ -1,6 +1,4 @@
-#include "scenes/format/scene_parts.h"
-
-#include <limits>
+#include "scenes/format/body_tables.h"
 
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
@@ -10,12 +8,12 @@ using namespace percale::scenes;
 
 namespace {
 
-const double infinity = std::numeric_limits<double>::infinity();
-
-ClothSpec cloth(const std::string& text) { return read_cloth(parse_toml("name = \"flag\"\nfabric = \"f\"\n" + text, "t")); }
-ObstacleSpec obstacle(const std::string& text) { return read_obstacle(parse_toml("name = \"body\"\n" + text, "t")); }
-EventSpec event(const std::string& text) { return read_event(parse_toml("time = 1.5\n" + text, "t")); }
-Expectation expectation(const std::string& text) { return read_expectations(parse_toml(text, "t")).at(0); }
+ClothSpec cloth(const std::string& text) {
+    return read_spec(parse_toml("name = \"flag\"\nfabric = \"f\"\n" + text, "t"), cloth_table());
+}
+ObstacleSpec obstacle(const std::string& text) {
+    return read_spec(parse_toml("name = \"body\"\n" + text, "t"), obstacle_table());
+}
 
 const std::string grid = "grid = { size = [1.0, 2], vertices = [3, 4] }\n";
 
@@ -61,7 +59,7 @@ TEST_CASE("a cloth is a grid or a mesh, not both, not neither") {
 
 TEST_CASE("names that cannot be file names or parts of a key are refused") {
     const auto fault = [](const std::string& name) {
-        return error_of([&] { read_cloth(parse_toml("name = \"" + name + "\"\nfabric = \"f\"\n" + grid, "t")); });
+        return error_of([&] { read_spec(parse_toml("name = \"" + name + "\"\nfabric = \"f\"\n" + grid, "t"), cloth_table()); });
     };
     CHECK(fault("poncho_2-left") == "nothing was thrown");
     CHECK(fault("\u00dcberwurf") == "nothing was thrown");
@@ -121,56 +119,15 @@ TEST_CASE("a spin has a unit axis") {
           std::string::npos);
 }
 
-TEST_CASE("every kind of event is read") {
-    const EventSpec pin = event("pin = { cloth = \"flag\", vertices = [1] }\n");
-    CHECK(pin.time == 1.5);
-    CHECK(std::get<PinEvent>(pin.what).cloth == "flag");
-    CHECK(std::get<VertexIndices>(std::get<PinEvent>(pin.what).vertices).vertices == std::vector<int>{1});
-    const EventSpec unpin = event("unpin = { cloth = \"flag\", vertices = \"boundary\" }\n");
-    CHECK(std::holds_alternative<VertexBoundary>(std::get<UnpinEvent>(unpin.what).vertices));
-    const EventSpec move = event("move = { cloth = \"flag\", vertices = [1], to = [0, 1, 0], over = 0.5 }\n");
-    CHECK(std::get<MoveEvent>(move.what).to == Vec3(0, 1, 0));
-    CHECK(std::get<MoveEvent>(move.what).over == 0.5);
-    CHECK(std::get<GravityEvent>(event("gravity = [0, 1, 0]\n").what).gravity == Vec3(0, 1, 0));
-}
-
-TEST_CASE("an event is one thing") {
-    CHECK(error_of([] { event(""); }).find("event must have exactly one of pin, unpin, move, gravity, wind; it has none") !=
-          std::string::npos);
-    CHECK(error_of([] {
-              event("gravity = [0, 0, 0]\npin = { cloth = \"flag\", vertices = [1] }\n");
-          }).find("it has pin, gravity") != std::string::npos);
-}
-
-TEST_CASE("the forms of an expectation become limits") {
-    const Expectation equal = expectation("intersections = 0\n");
-    CHECK(equal.measure == "intersections");
-    CHECK(equal.lowest == 0.0);
-    CHECK(equal.highest == 0.0);
-    CHECK((equal.lowest_included && equal.highest_included));
-    const Expectation below = expectation("largest_strain = { below = 0.3 }\n");
-    CHECK(below.lowest == -infinity);
-    CHECK(below.highest == 0.3);
-    CHECK_FALSE(below.highest_included);
-    const Expectation above = expectation("smallest_distance = { above = 0.1 }\n");
-    CHECK(above.lowest == 0.1);
-    CHECK_FALSE(above.lowest_included);
-    CHECK(above.highest == infinity);
-    CHECK(above.highest_included);
-    const Expectation between = expectation("lowest_vertex = { between = [0.1, 0.2] }\n");
-    CHECK(between.lowest == 0.1);
-    CHECK(between.highest == 0.2);
-    CHECK((between.lowest_included && between.highest_included));
-    const Expectation matches = expectation("matches = { file = \"a.obj\", within = 1e-3 }\n");
-    CHECK(matches.file == "a.obj");
-    CHECK(matches.highest == 1e-3);
-    CHECK(matches.highest_included);
-}
-
-TEST_CASE("expectations keep the order of the file and know their places") {
-    const auto list = read_expectations(parse_toml("speed_at_end = 0\nintersections = 0\n", "t"));
-    REQUIRE(list.size() == 2);
-    CHECK(list[0].measure == "speed_at_end");
-    CHECK(list[1].measure == "intersections");
-    CHECK(list[1].place.line == 2);
+TEST_CASE("a selection of vertices is written as it is read") {
+    const auto again = [](const VertexSelection& selection) {
+        VertexSelection read;
+        read_value(value_node(selection), read);
+        return read;
+    };
+    CHECK(std::get<VertexIndices>(again(VertexIndices{{4, 2}})).vertices == std::vector<int>{4, 2});
+    const auto box = std::get<VertexBox>(again(VertexBox{Vec3(0, 0.1, 0), Vec3(1, 2, 1)}));
+    CHECK(box.lowest == Vec3(0, 0.1, 0));
+    CHECK(box.highest == Vec3(1, 2, 1));
+    CHECK(std::holds_alternative<VertexBoundary>(again(VertexBoundary{})));
 }

@@ -1,0 +1,291 @@
+#include "format/body_tables.h"
+
+#include <cctype>
+
+#include "common/scene_file_error.h"
+#include "common/text.h"
+
+namespace percale::scenes {
+namespace {
+
+VertexIndices indices_of(const TomlNode& list) {
+    VertexIndices indices;
+    for (const TomlNode& item : list.items) indices.vertices.push_back(static_cast<int>(item.integer));
+    return indices;
+}
+
+struct SelectionNode {
+    TomlNode operator()(const VertexIndices& s) const {
+        TomlNode list;
+        list.kind = TomlKind::list;
+        for (const int vertex : s.vertices) list.items.push_back(value_node(vertex));
+        return list;
+    }
+    TomlNode operator()(const VertexBox& s) const {
+        TomlNode corners, node;
+        corners.kind = TomlKind::list;
+        corners.key = "box";
+        corners.items = {value_node(s.lowest), value_node(s.highest)};
+        node.entries.push_back(std::move(corners));
+        return node;
+    }
+    TomlNode operator()(const VertexBoundary&) const { return value_node(std::string("boundary")); }
+};
+
+constexpr std::string_view unit_words[] = {"mm", "cm", "m"};
+
+// Names become file names and parts of dotted keys.
+bool fits_name(unsigned char letter) { return std::isalnum(letter) || letter == '_' || letter == '-' || letter >= 0x80; }
+
+void check_name(const TomlNode& node, const std::string& list) {
+    const std::string& name = node.text;
+    const unsigned char first = name.empty() ? '\0' : static_cast<unsigned char>(name.front());
+    bool good = std::isalpha(first) || first >= 0x80;
+    for (const char letter : name) good = good && fits_name(static_cast<unsigned char>(letter));
+    if (!good)
+        fail_at(node.place, list + ".name = \"" + name + "\" must begin with a letter and hold only letters, digits, _ and -");
+}
+
+template <class Spec>
+Field<Spec> name_field(const std::string& list, const std::string& sentence) {
+    Field<Spec> field = value_field<Spec>({.path = "name", .sentence = sentence, .required = true}, &Spec::name);
+    field.read = [list](const TomlNode& node, Spec& spec, FaultList&) {
+        check_name(node, list);
+        spec.name = node.text;
+    };
+    return field;
+}
+
+template <class Spec>
+Field<Spec> mesh_field(const std::string& sentence) {
+    Field<Spec> field = value_field<Spec>({.path = "mesh", .sentence = sentence, .alternative = true}, &Spec::mesh);
+    field.write = [](const Spec& spec) { return spec.mesh.empty() ? std::nullopt : std::optional(value_node(spec.mesh)); };
+    return field;
+}
+
+template <class Spec>
+Field<Spec> unit_field() {
+    return word_field<Spec>({.path = "unit",
+                             .sentence = "What one unit of the mesh file is.",
+                             .needs = "mesh",
+                             .needs_why = "unit is that of a mesh file"},
+                            &Spec::unit, unit_words, std::vector{0.001, 0.01, 1.0});
+}
+
+const FieldTable<Pose>& pose_table() {
+    static const FieldTable<Pose> table = {
+        .fields = {
+            value_field<Pose>({.path = "translation",
+                               .sentence = "Where the mesh's origin comes to lie.",
+                               .unit = "m",
+                               .lowest = -farthest,
+                               .highest = farthest},
+                              &Pose::translation),
+            rotation_field<Pose>({.path = "rotation",
+                                  .sentence = "Unit quaternion w, x, y, z (length 1 to within 0.001).",
+                                  .lowest = -1.001,
+                                  .highest = 1.001},
+                                 "pose.rotation", &Pose::rotation),
+            value_field<Pose>({.path = "scale", .sentence = "Factor on the mesh's size.", .lowest = 1e-6, .highest = 1e6},
+                              &Pose::scale),
+        }};
+    return table;
+}
+
+template <class Spec>
+Field<Spec> pose_field() {
+    return table_field<Spec>({.path = "pose", .sentence = "Where the mesh stands: x -> translation + rotation (scale x)."},
+                             &Spec::pose, pose_table());
+}
+
+const FieldTable<GridSpec>& grid_table() {
+    static const FieldTable<GridSpec> table = {
+        .fields = {
+            value_field<GridSpec>({.path = "size",
+                                   .sentence = "Width along x and depth along z.",
+                                   .unit = "m",
+                                   .lowest = 1e-4,
+                                   .highest = 1e3,
+                                   .required = true},
+                                  &GridSpec::size),
+            value_field<GridSpec>(
+                {.path = "vertices", .sentence = "Vertices along x and along z.", .lowest = 2, .highest = 4096, .required = true},
+                &GridSpec::vertices),
+        }};
+    return table;
+}
+
+void finish_cloth(const TomlNode& table, ClothSpec& cloth) {
+    const TomlNode* pin = table.find("pin");
+    const TomlNode* box = pin != nullptr ? pin->find("box") : nullptr;
+    cloth.pin_place = box != nullptr ? box->place : pin != nullptr ? pin->place : cloth.place;
+}
+
+/// A length of a shape.
+template <class Spec>
+Field<Spec> length_field(const std::string& key, double lowest, const std::string& sentence, double Spec::*length) {
+    return value_field<Spec>({.path = key, .sentence = sentence, .unit = "m", .lowest = lowest, .highest = 1e4, .required = true},
+                             length);
+}
+
+template <class Alternative>
+Field<Shape> shape_field(const std::string& key, const std::string& sentence, std::vector<Field<Alternative>> fields) {
+    return variant_table<Alternative, Shape>({.path = key, .sentence = sentence}, itself, {.fields = std::move(fields)});
+}
+
+const FieldTable<Shape>& shape_table() {
+    static const FieldTable<Shape> table = {
+        .fields = {shape_field<SphereShape>("sphere", "A sphere of 5120 triangles.",
+                                            {length_field("radius", 1e-6, "Radius.", &SphereShape::radius)}),
+                   shape_field<BoxShape>("box", "A box along the axes.",
+                                         {value_field<BoxShape>({.path = "size",
+                                                                 .sentence = "Edge lengths.",
+                                                                 .unit = "m",
+                                                                 .lowest = 1e-6,
+                                                                 .highest = 1e4,
+                                                                 .required = true},
+                                                                &BoxShape::size)}),
+                   shape_field<CapsuleShape>(
+                       "capsule", "A capsule about the y axis, 48 segments around.",
+                       {length_field("radius", 1e-6, "Radius.", &CapsuleShape::radius),
+                        length_field("height", 0.0, "Length between the centres of its half spheres.", &CapsuleShape::height)}),
+                   shape_field<CylinderShape>("cylinder", "A closed cylinder about the y axis, 48 segments around.",
+                                              {length_field("radius", 1e-6, "Radius.", &CylinderShape::radius),
+                                               length_field("height", 1e-6, "Height.", &CylinderShape::height)}),
+                   shape_field<PlaneShape>(
+                       "plane", "A horizontal square at y = 0, facing up.",
+                       {value_field<PlaneShape>(
+                           {.path = "half_size", .sentence = "Half of an edge.", .unit = "m", .lowest = 1e-6, .highest = 1e4},
+                           &PlaneShape::half_size)})},
+        .rules = {.shown = [](const TomlNode&) -> std::string { return "shape"; }}};
+    return table;
+}
+
+const FieldTable<Keyframe>& keyframe_table() {
+    static const FieldTable<Keyframe> table = {
+        .fields = {
+            value_field<Keyframe>(
+                {.path = "time", .sentence = "When.", .unit = "s", .lowest = 0.0, .highest = longest, .required = true},
+                &Keyframe::time),
+            value_field<Keyframe>({.path = "translation",
+                                   .sentence = "Where; without it as in the keyframe before.",
+                                   .unit = "m",
+                                   .lowest = -farthest,
+                                   .highest = farthest},
+                                  &Keyframe::translation),
+            rotation_field<Keyframe>({.path = "rotation",
+                                      .sentence = "Unit quaternion w, x, y, z; without it as in the keyframe before.",
+                                      .lowest = -1.001,
+                                      .highest = 1.001},
+                                     "rotation", &Keyframe::rotation),
+        }};
+    return table;
+}
+
+void read_motion(const TomlNode& list, std::vector<Keyframe>& motion) {
+    for (const TomlNode& item : list.items) {
+        const Keyframe frame = read_spec(item, keyframe_table());
+        if (!motion.empty() && frame.time <= motion.back().time)
+            fail_at(item.place, "motion must ascend in time; " + number_text(frame.time) + " s follows " +
+                                    number_text(motion.back().time) + " s");
+        motion.push_back(frame);
+    }
+    if (motion.empty()) fail_at(list.place, "motion must have at least one keyframe");
+}
+
+Field<ObstacleSpec> motion_field() {
+    Field<ObstacleSpec> field = list_field<ObstacleSpec>(
+        {.path = "motion",
+         .sentence = "Keyframes, ascending in time: they replace the pose's translation and rotation, linear and the "
+                     "shortest way in between, constant outside."},
+        &ObstacleSpec::motion, keyframe_table());
+    field.read = [](const TomlNode& node, ObstacleSpec& obstacle, FaultList&) { read_motion(node, obstacle.motion); };
+    return field;
+}
+
+void finish_spin(const TomlNode& table, Spin& spin) {
+    const double length = spin.axis.norm();
+    if (!(length > 0.0)) fail_at(table.find("axis")->place, "spin.axis must not be zero");
+    spin.axis /= length;
+}
+
+const FieldTable<Spin>& spin_table() {
+    static const FieldTable<Spin> table = {
+        .fields = {value_field<Spin>({.path = "axis",
+                                      .sentence = "Direction of the axis in the world, of any length.",
+                                      .lowest = -farthest,
+                                      .highest = farthest},
+                                     &Spin::axis),
+                   value_field<Spin>({.path = "turns_per_s",
+                                      .sentence = "Counter-clockwise seen against the axis.",
+                                      .unit = "1/s",
+                                      .lowest = -1e3,
+                                      .highest = 1e3,
+                                      .required = true},
+                                     &Spin::turns_per_s),
+                   value_field<Spin>(
+                       {.path = "from", .sentence = "When it begins.", .unit = "s", .lowest = 0.0, .highest = longest},
+                       &Spin::from)},
+        .finish = finish_spin};
+    return table;
+}
+
+std::string cloth_shown(const TomlNode& table) { return "cloth '" + table.find("name")->text + "'"; }
+std::string obstacle_shown(const TomlNode& table) { return "obstacle '" + table.find("name")->text + "'"; }
+
+}  // namespace
+
+void read_value(const TomlNode& node, VertexSelection& value) {
+    if (node.kind == TomlKind::text) {
+        value = VertexBoundary{};
+    } else if (const TomlNode* box = node.find("box")) {
+        VertexBox& corners = value.emplace<VertexBox>();
+        read_value(box->items[0], corners.lowest);
+        read_value(box->items[1], corners.highest);
+    } else {
+        value = indices_of(node);
+    }
+}
+
+TomlNode value_node(const VertexSelection& value) { return std::visit(SelectionNode{}, value); }
+
+const FieldTable<ClothSpec>& cloth_table() {
+    static const FieldTable<ClothSpec> table = {
+        .fields = {name_field<ClothSpec>("cloth", "Its name in events, messages and file names; must begin with a letter."),
+                   value_field<ClothSpec>({.path = "fabric", .sentence = "NAME of a [fabric.NAME].", .required = true},
+                                          &ClothSpec::fabric),
+                   table_field<ClothSpec>({.path = "grid",
+                                           .sentence = "A flat regular grid in the plane y = 0, centred; instead of mesh.",
+                                           .alternative = true},
+                                          &ClothSpec::grid, grid_table()),
+                   mesh_field<ClothSpec>("Mesh file, relative to the scene file; instead of grid."), unit_field<ClothSpec>(),
+                   pose_field<ClothSpec>(),
+                   selection_field<ClothSpec>({.path = "pin", .sentence = "Vertices held where they start."}, &ClothSpec::pin)},
+        .rules = {.shown = cloth_shown},
+        .finish = finish_cloth};
+    return table;
+}
+
+const FieldTable<ObstacleSpec>& obstacle_table() {
+    static const FieldTable<ObstacleSpec> table = {
+        .fields = {name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
+                   mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."),
+                   unit_field<ObstacleSpec>(),
+                   table_field<ObstacleSpec>(
+                       {.path = "shape",
+                        .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",
+                        .alternative = true},
+                       &ObstacleSpec::shape, shape_table()),
+                   value_field<ObstacleSpec>(
+                       {.path = "friction", .sentence = "Coulomb coefficient against cloth.", .lowest = 0.0, .highest = 10.0},
+                       &ObstacleSpec::friction),
+                   pose_field<ObstacleSpec>(), motion_field(),
+                   table_field<ObstacleSpec>(
+                       {.path = "spin",
+                        .sentence = "A steady turn about an axis through the mesh's origin, on top of pose and motion."},
+                       &ObstacleSpec::spin, spin_table())},
+        .rules = {.shown = obstacle_shown}};
+    return table;
+}
+
+}  // namespace percale::scenes

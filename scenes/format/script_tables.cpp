@@ -1,0 +1,186 @@
+#include "format/script_tables.h"
+
+#include <limits>
+
+#include "format/body_tables.h"
+#include "format/expectations.h"
+
+namespace percale::scenes {
+namespace {
+
+template <class Event>
+FieldTable<Event> vertex_event_table() {
+    return {.fields = {value_field<Event>({.path = "cloth", .sentence = "NAME of a cloth.", .required = true}, &Event::cloth),
+                       selection_field<Event>({.path = "vertices", .sentence = "Which of its vertices.", .required = true},
+                                              &Event::vertices)}};
+}
+
+FieldTable<MoveEvent> move_table() {
+    FieldTable<MoveEvent> table = vertex_event_table<MoveEvent>();
+    table.fields.push_back(value_field<MoveEvent>({.path = "to",
+                                                   .sentence = "How far from where they are then.",
+                                                   .unit = "m",
+                                                   .lowest = -farthest,
+                                                   .highest = farthest,
+                                                   .required = true},
+                                                  &MoveEvent::to));
+    table.fields.push_back(value_field<MoveEvent>(
+        {.path = "over", .sentence = "How long it takes.", .unit = "s", .lowest = 1e-6, .highest = longest, .required = true},
+        &MoveEvent::over));
+    return table;
+}
+
+template <class Event>
+Field<EventSpec> vertex_event(const std::string& key, const std::string& sentence, const FieldTable<Event>& table) {
+    return variant_table<Event, EventSpec>({.path = key, .sentence = sentence}, &EventSpec::what, table);
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const FieldTable<Expectation>& matches_table() {
+    static const FieldTable<Expectation> table = {
+        .fields = {
+            value_field<Expectation>({.path = "file", .sentence = "The mesh file, relative to the scene file.", .required = true},
+                                     &Expectation::file),
+            value_field<Expectation>({.path = "within",
+                                      .sentence = "Largest distance of a vertex allowed.",
+                                      .unit = "m",
+                                      .lowest = 0.0,
+                                      .highest = farthest,
+                                      .required = true},
+                                     &Expectation::highest),
+        }};
+    return table;
+}
+
+void read_limit(const TomlNode& node, Expectation& limit) {
+    if (node.is_number()) {
+        limit.lowest = limit.highest = node.number;
+    } else if (const TomlNode* below = node.find("below")) {
+        limit.highest = below->number;
+        limit.highest_included = false;
+    } else if (const TomlNode* above = node.find("above")) {
+        limit.lowest = above->number;
+        limit.lowest_included = false;
+    } else {
+        const TomlNode& between = *node.find("between");
+        limit.lowest = between.items[0].number;
+        limit.highest = between.items[1].number;
+    }
+}
+
+TomlNode limit_node(const Expectation& limit) {
+    if (limit.lowest == limit.highest) return value_node(limit.lowest);
+    TomlNode table;
+    const bool above = !limit.lowest_included, below = !limit.highest_included;
+    TomlNode value = above   ? value_node(limit.lowest)
+                     : below ? value_node(limit.highest)
+                             : value_node(std::array{limit.lowest, limit.highest});
+    value.key = above ? "above" : below ? "below" : "between";
+    table.entries.push_back(std::move(value));
+    return table;
+}
+
+Expectation expectation_of(const TomlNode& node) {
+    Expectation expectation{.measure = node.key, .lowest = -infinity, .highest = infinity, .file = {}, .place = node.key_place};
+    FaultList first(false);
+    if (node.find("file") != nullptr) {
+        read_fields(node, matches_table(), expectation, first);
+    } else {
+        read_limit(node, expectation);
+    }
+    return expectation;
+}
+
+TomlNode expectation_node(const Expectation& expectation) {
+    TomlNode node = expectation.file.empty() ? limit_node(expectation) : spec_node(matches_table(), expectation);
+    node.key = expectation.measure;
+    return node;
+}
+
+std::vector<SceneKey> expect_keys() {
+    std::vector<SceneKey> keys;
+    for (const MeasureDescription& measure : measure_descriptions())
+        keys.push_back({.path = measure.name, .kind = KeyKind::limit, .sentence = measure.sentence, .unit = measure.unit});
+    keys.push_back({.path = "matches",
+                    .kind = KeyKind::table,
+                    .sentence = "Compares the vertices at the end with a mesh, in the same order.",
+                    .inside = keys_of(matches_table())});
+    return keys;
+}
+
+}  // namespace
+
+const FieldTable<SeamSpec>& seam_table() {
+    static const FieldTable<SeamSpec> table = {
+        .fields = {
+            value_field<SeamSpec>(
+                {.path = "cloths", .sentence = "NAMEs of the two cloths; twice the same is one with itself.", .required = true},
+                &SeamSpec::cloths),
+            value_field<SeamSpec>({.path = "vertices",
+                                   .sentence = "Pairs [i, j], i a vertex of the first cloth, j one of the second.",
+                                   .lowest = 0,
+                                   .highest = 2147483647,
+                                   .required = true},
+                                  &SeamSpec::vertices),
+            value_field<SeamSpec>({.path = "over",
+                                   .sentence = "How long closing takes, from the start of the scene on.",
+                                   .unit = "s",
+                                   .lowest = 0.0,
+                                   .highest = longest},
+                                  &SeamSpec::over),
+            value_field<SeamSpec>({.path = "stiffness",
+                                   .sentence = "Constant of the spring that draws a pair together and then holds it.",
+                                   .unit = "N/m",
+                                   .lowest = 1e-3,
+                                   .highest = 1e9},
+                                  &SeamSpec::stiffness),
+        }};
+    return table;
+}
+
+const FieldTable<EventSpec>& event_table() {
+    static const FieldTable<EventSpec> table = {
+        .fields = {value_field<EventSpec>({.path = "time",
+                                           .sentence = "When; after the end of the scene it does not happen.",
+                                           .unit = "s",
+                                           .lowest = 0.0,
+                                           .highest = longest,
+                                           .required = true},
+                                          &EventSpec::time),
+                   vertex_event("pin", "Holds vertices where they are then.", vertex_event_table<PinEvent>()),
+                   vertex_event("unpin", "Lets vertices go.", vertex_event_table<UnpinEvent>()),
+                   vertex_event("move", "Moves pinned vertices along a straight line.", move_table()),
+                   variant_value<GravityEvent, EventSpec>(
+                       {.path = "gravity", .sentence = "Gravity from then on.", .unit = "m/s^2", .lowest = -1e4, .highest = 1e4},
+                       &EventSpec::what, &GravityEvent::gravity),
+                   variant_value<WindEvent, EventSpec>(
+                       {.path = "wind",
+                        .sentence = "Velocity of the air from then on. Before the first wind there is no air; [0, 0, 0] stands "
+                                    "still.",
+                        .unit = "m/s",
+                        .lowest = -1e3,
+                        .highest = 1e3},
+                       &EventSpec::what, &WindEvent::wind)},
+        .rules = {.shown = [](const TomlNode&) -> std::string { return "event"; }}};
+    return table;
+}
+
+Field<Scene> expect_field() {
+    return {.key = {.path = "expect",
+                    .kind = KeyKind::table,
+                    .sentence = "What makes the scene a test.",
+                    .setting = false,
+                    .inside = expect_keys()},
+            .read =
+                [](const TomlNode& node, Scene& scene, FaultList&) {
+                    for (const TomlNode& entry : node.entries) scene.expectations.push_back(expectation_of(entry));
+                },
+            .write = [](const Scene& scene) -> std::optional<TomlNode> {
+                TomlNode node;
+                for (const Expectation& expectation : scene.expectations) node.entries.push_back(expectation_node(expectation));
+                return node;
+            }};
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,88 @@
+#include "scenes/format/script_tables.h"
+
+#include <limits>
+
+#include "tests/scenes/scene_texts.h"
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::scenes;
+
+namespace {
+
+const double infinity = std::numeric_limits<double>::infinity();
+
+EventSpec event(const std::string& text) { return read_spec(parse_toml("time = 1.5\n" + text, "t"), event_table()); }
+
+std::vector<Expectation> expectations(const std::string& text) {
+    Scene scene;
+    FaultList first(false);
+    expect_field().read(parse_toml(text, "t"), scene, first);
+    return scene.expectations;
+}
+Expectation expectation(const std::string& text) { return expectations(text).at(0); }
+
+}  // namespace
+
+TEST_CASE("a seam is read with its pairs, and sews at once where that is said") {
+    const SeamSpec seam =
+        read_spec(parse_toml("cloths = [\"a\", \"b\"]\nvertices = [[1, 2], [3, 4]]\nover = 0\n", "t"), seam_table());
+    CHECK(seam.cloths == std::array<std::string, 2>{"a", "b"});
+    CHECK(seam.vertices == std::vector<std::array<int, 2>>{{1, 2}, {3, 4}});
+    CHECK(seam.over == 0.0);
+    CHECK(seam.stiffness == SeamSpec{}.stiffness);
+}
+
+TEST_CASE("every kind of event is read") {
+    const EventSpec pin = event("pin = { cloth = \"flag\", vertices = [1] }\n");
+    CHECK(pin.time == 1.5);
+    CHECK(std::get<PinEvent>(pin.what).cloth == "flag");
+    CHECK(std::get<VertexIndices>(std::get<PinEvent>(pin.what).vertices).vertices == std::vector<int>{1});
+    const EventSpec unpin = event("unpin = { cloth = \"flag\", vertices = \"boundary\" }\n");
+    CHECK(std::holds_alternative<VertexBoundary>(std::get<UnpinEvent>(unpin.what).vertices));
+    const EventSpec move = event("move = { cloth = \"flag\", vertices = [1], to = [0, 1, 0], over = 0.5 }\n");
+    CHECK(std::get<MoveEvent>(move.what).to == Vec3(0, 1, 0));
+    CHECK(std::get<MoveEvent>(move.what).over == 0.5);
+    CHECK(std::get<GravityEvent>(event("gravity = [0, 1, 0]\n").what).gravity == Vec3(0, 1, 0));
+}
+
+TEST_CASE("an event is one thing") {
+    CHECK(error_of([] { event(""); }).find("event must have exactly one of pin, unpin, move, gravity, wind; it has none") !=
+          std::string::npos);
+    CHECK(error_of([] {
+              event("gravity = [0, 0, 0]\npin = { cloth = \"flag\", vertices = [1] }\n");
+          }).find("it has pin, gravity") != std::string::npos);
+}
+
+TEST_CASE("the forms of an expectation become limits") {
+    const Expectation equal = expectation("intersections = 0\n");
+    CHECK(equal.measure == "intersections");
+    CHECK(equal.lowest == 0.0);
+    CHECK(equal.highest == 0.0);
+    CHECK((equal.lowest_included && equal.highest_included));
+    const Expectation below = expectation("largest_strain = { below = 0.3 }\n");
+    CHECK(below.lowest == -infinity);
+    CHECK(below.highest == 0.3);
+    CHECK_FALSE(below.highest_included);
+    const Expectation above = expectation("smallest_distance = { above = 0.1 }\n");
+    CHECK(above.lowest == 0.1);
+    CHECK_FALSE(above.lowest_included);
+    CHECK(above.highest == infinity);
+    CHECK(above.highest_included);
+    const Expectation between = expectation("lowest_vertex = { between = [0.1, 0.2] }\n");
+    CHECK(between.lowest == 0.1);
+    CHECK(between.highest == 0.2);
+    CHECK((between.lowest_included && between.highest_included));
+    const Expectation matches = expectation("matches = { file = \"a.obj\", within = 1e-3 }\n");
+    CHECK(matches.file == "a.obj");
+    CHECK(matches.highest == 1e-3);
+    CHECK(matches.highest_included);
+}
+
+TEST_CASE("expectations keep the order of the file and know their places") {
+    const auto list = expectations("speed_at_end = 0\nintersections = 0\n");
+    REQUIRE(list.size() == 2);
+    CHECK(list[0].measure == "speed_at_end");
+    CHECK(list[1].measure == "intersections");
+    CHECK(list[1].place.line == 2);
+}
