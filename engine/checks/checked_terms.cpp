@@ -92,7 +92,7 @@ CheckedTerm spring_term(const StepEnd& step, const std::string& name, DampingFor
         step.scene.compute,
         {check->adjacency(), step.start.positions, form, check->dt(), step.end.cloth.rest_length, &step.scene.model.springs},
         check->springs);
-    check->springs.rate_damping = false;
+    check->springs.velocity_damping = false;
     CheckedTerm term = term_of(name, check, evaluate_network);
     const SpringNetwork& network = step.scene.model.springs;
     for (int k = 0; k < network.size(); ++k) {

@@ -6,7 +6,7 @@
 namespace percale {
 namespace {
 
-/// Springs in bands are summed in longer chunks: each begins with the springs of the guard before it once more.
+/// Springs in bands are summed in longer chunks: each computes the springs of the vertices just before it (the guard) once more.
 constexpr int band_chunk_slices = 128;
 
 double length(const SpringNetwork& network, const Vectors& x, int k) {
@@ -15,7 +15,7 @@ double length(const SpringNetwork& network, const Vectors& x, int k) {
     return std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 
-/// Seams have rest lengths of their own.
+/// A copy of all rest lengths with those of seams replaced: the model's stay as they are.
 void set_seam_lengths(const SpringStart& start, StepSprings& springs) {
     const SpringNetwork& network = *start.network;
     springs.seam_rest_length = start.adjacency.rest_length;
@@ -26,7 +26,7 @@ void set_seam_lengths(const SpringStart& start, StepSprings& springs) {
     springs.entries.rest_length = springs.seam_rest_length.data();
 }
 
-/// Blocks before the first vertex are zero.
+/// The blocks (a, w) before the first vertex are zero.
 void clear_guards(const BandPattern& bands, AlignedVector<float>& values) {
     for (int array = 0; array < 4 * bands.count; ++array) {
         std::fill_n(values.begin() + array * (bands.guard + bands.padded), bands.guard, 0.0f);
@@ -40,7 +40,7 @@ void set_step_springs(const Compute& compute, const SpringStart& start, StepSpri
     springs.adjacency = &adjacency;
     springs.entries = adjacency.springs();
     if (!start.rest_length.empty()) set_seam_lengths(start, springs);
-    springs.rate_damping = adjacency.damped && start.form == DampingForm::velocity;
+    springs.velocity_damping = adjacency.damped && start.form == DampingForm::velocity;
     if (!adjacency.damped || start.form == DampingForm::velocity) return;
     springs.stiffness.resize(adjacency.stiffness.size());
     springs.rest_length.resize(adjacency.stiffness.size());
@@ -60,7 +60,7 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
                         Vectors& forces, SpringTerms& terms) {
     const Adjacency& adjacency = *springs.adjacency;
     pack_points(compute, adjacency, motion.positions, terms.points);
-    if (springs.rate_damping) pack_points(compute, adjacency, motion.velocities, terms.motion);
+    if (springs.velocity_damping) pack_points(compute, adjacency, motion.velocities, terms.motion);
     const int slices = motion.positions.slices();
     if (with_matrix && terms.values.size() != adjacency.value_count()) terms.values.assign(adjacency.value_count(), 0.0f);
     const BandPattern& bands = adjacency.bands;
@@ -72,7 +72,7 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
                           .positions = motion.positions.axes(),
                           .velocities = motion.velocities.axes(),
                           .points = terms.points.data(),
-                          .motion = springs.rate_damping ? terms.motion.data() : nullptr,
+                          .motion = springs.velocity_damping ? terms.motion.data() : nullptr,
                           .dt = motion.dt,
                           .forces = forces.axes(),
                           .values = with_matrix ? terms.values.data() : nullptr,

@@ -16,7 +16,7 @@ namespace percale {
 struct StepSprings {
     const Adjacency* adjacency = nullptr;
     SpringEntries entries;                         // k N/m, l_rest m, c N s/m
-    bool rate_damping = false;                     // there is a c
+    bool velocity_damping = false;                 // there is a c
     AlignedVector<double> stiffness, rest_length;  // of this step, where they are not those of the model
     AlignedVector<double> seam_rest_length;        // m, where seams have changed theirs
     AlignedVector<double> points;                  // work space
@@ -25,11 +25,11 @@ struct StepSprings {
 /// Where a step begins, and how long it is.
 struct SpringStart {
     const Adjacency& adjacency;
-    const Vectors& positions;  // m, l_n
+    const Vectors& positions;  // m, at the start: l_n follows
     DampingForm form;
     double dt;                                 // s
     std::span<const double> rest_length = {};  // ClothState::rest_length, of the springs of `network`
-    const SpringNetwork* network = nullptr;    // null: the rest lengths are those of the adjacency
+    const SpringNetwork* network = nullptr;    // needed where rest_length is not empty
 };
 
 /// DampingForm::velocity: k = ks, l_rest = l0, c = kd.

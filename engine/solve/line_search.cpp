@@ -86,7 +86,7 @@ LineResult search_line(StageEquations& equations, const TimeError& error) {
         if (trial > 0) equations.aim(fraction);
         kept = equations.cut();
         evaluate_trial(equations, line);
-        line.objective_known = !space.springs.rate_damping && space.current.rows.size() + space.trial.rows.size() == 0;
+        line.objective_known = !space.springs.velocity_damping && space.current.rows.size() + space.trial.rows.size() == 0;
         // While pins or obstacles are on their way, the objective may have to rise.
         accepted = !stage.options.line_search || !was_arrived || accept_trial(fraction * kept, line);
         if (accepted) break;

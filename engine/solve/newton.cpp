@@ -11,17 +11,17 @@
 namespace percale {
 namespace {
 
-constexpr double estimated_share = 0.1;  // of the time error, that a change may be where it is only estimated
+constexpr double estimated_share = 0.1;  // of the time error: an estimated change below it counts as small
 constexpr int most_rounds = 6;           // of contact multipliers in one stage
 constexpr double round_share = 0.01;     // of the thickness at most: contact less exact takes another round
 
 /// Where the search for a motion stands.
 struct Search {
-    int iteration = 0;        // Newton's, rounds of multipliers included
-    double first_norm = 0.0;  // what residuals are relative to
-    double norm = 0.0, last_norm = 0.0;
-    bool matrix_is_old = false;  // the point is not the one whose matrix was solved with
-    bool solved_once = false;    // by a small change, in this round or the one before
+    int iteration = 0;                   // over all rounds of multipliers
+    double first_norm = 0.0;             // what residuals are relative to
+    double norm = 0.0, last_norm = 0.0;  // of the residual now and one iteration ago, m/s kg^1/2
+    bool matrix_is_old = false;          // the line search went on beyond the point that its matrix led to
+    bool line_solved = false;            // the last line searched ended at the solution
 };
 
 /// |r| in velocity units weighted by mass: sqrt(sum |r_i|^2/m_i).
@@ -60,7 +60,8 @@ bool meets_tolerance(const StageEquations& equations, const NewtonReport& report
     return tolerance && equations.arrived() && report.residual <= *tolerance;
 }
 
-/// Whether the line just searched ended at the solution.
+/// Whether the line just searched ended at the solution: it changed little, but not in the first iteration, whose matrix may be
+/// far off; or it can gain nothing but rounding.
 bool is_solution(const StageEquations& equations, const Direction& direction, const LineResult& line, int iterations) {
     const bool by_residual = equations.stage().scene.settings.newton_tolerance.has_value();
     const bool by_change = line.small && line.whole && direction.exact && !by_residual && iterations > 1;
@@ -91,14 +92,15 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
         report.line_search_cuts += line.cuts;
         search.last_norm = search.norm;
         search.matrix_is_old = line.went_on;
-        search.solved_once = is_solution(equations, direction, line, report.newton_iterations);
-        if (search.solved_once || settings.newton_iterations == 1) break;
+        search.line_solved = is_solution(equations, direction, line, report.newton_iterations);
+        if (search.line_solved || settings.newton_iterations == 1) break;
     }
     measure_residual(equations, search, report);
-    return search.solved_once;
+    return search.line_solved;
 }
 
-/// Contact less exact than this, in m, is corrected.
+/// Contact less exact than this, in m, is corrected: a quarter of the time error h/2 sqrt(sum m |v - v_n|^2/sum m), within shares
+/// of the thickness.
 double enough_contact(const ImplicitStage& stage, const TimeError& error, const Vectors& velocities) {
     const ClothModel& model = stage.scene.model;
     const double square = squared_error(error, 0, model.vertex_count(), velocities);
@@ -112,17 +114,17 @@ bool correct_contact(StageEquations& equations, const TimeError& error) {
     return equations.correct_contact(enough_contact(equations.stage(), error, equations.space().current.velocities));
 }
 
-/// Of a search that came to no solution, or to one that cannot be told from a start at rest.
+/// Of a search that was given up, or whose residual is exactly 0.
 NewtonEnd end_of(const StageEquations& equations, const Search& search, const NewtonReport& report) {
     if (!std::isfinite(report.residual)) return NewtonEnd::not_finite;
     if (!equations.arrived()) return NewtonEnd::blocked;
     // A linearised step is taken as it is, unless it leads farther from the solution.
     const bool linearised = equations.stage().scene.settings.newton_iterations == 1 && report.newton_iterations == 1;
-    const bool good = search.norm == 0.0 || search.solved_once || (linearised && report.residual <= 1.0);
+    const bool good = search.norm == 0.0 || search.line_solved || (linearised && report.residual <= 1.0);
     return good ? NewtonEnd::converged : NewtonEnd::iterations_used;
 }
 
-/// What space.current is leaves the stage.
+/// Writes space.current to the stage's end, pins exactly to their targets.
 void leave(const StageEquations& equations, StageEnd end) {
     const ImplicitStage& stage = equations.stage();
     const StagePoint& point = equations.space().current;

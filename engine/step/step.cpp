@@ -11,8 +11,9 @@
 namespace percale {
 namespace {
 
-/// s per second: how fast the time step that contact stiffness is made for may become shorter. Stiffness goes as 1/dt^2, and what
-/// a stiffer contact stores nobody has paid for; slowly against its own period, 2 pi sqrt(2) dt, it stores nothing.
+/// s per second: how fast the time step that contact stiffness is made for (StepState::contact_dt) may become shorter. Stiffness
+/// goes as 1/dt^2. A contact that stiffens while it is compressed gains energy from nothing; one that stiffens slowly against its
+/// period, 2 pi sqrt(2) dt, gains almost none.
 constexpr double fastest_shortening = 0.05;
 
 StepReport begin_report(double time_step) {
@@ -29,7 +30,8 @@ void advance_time(double time_step, StepState& state) {
     state.time = sum;
 }
 
-/// The plan is brought up to date; returns the work of pins that came or went, J.
+/// What the step needs and what moves in it; contact stiffness follows the time step. Returns the work of pins that came or went,
+/// J.
 double plan_step(World& world) {
     StepScene& scene = world.scene;
     const double work = world.plan_outdated ? renew_plan(scene, world.state.cloth) : 0.0;
@@ -40,7 +42,7 @@ double plan_step(World& world) {
     return work;
 }
 
-/// The end of the step, if it is one: nothing infinite, no force that contradicts its energy.
+/// Whether the end that was found is one: nothing infinite, no force that contradicts its energy.
 void check_end(const StepScene& scene, const StepState& start, const StepState& end, const Workspace& work, StepReport& report) {
     if (report.ok() && !all_finite(end.cloth)) report.status = StepStatus::not_finite;
     if (report.ok() && scene.settings.check_derivatives)
@@ -51,12 +53,15 @@ void check_end(const StepScene& scene, const StepState& start, const StepState& 
 
 void scene_changed(World& world) {
     world.plan_outdated = true;
-    world.state.past.forget();
+    world.state.past.forget();  // what schemes would extrapolate from
     wake(world.rest);
 }
 
 StepReport step(World& world) {
-    auto& [pool, scene, state, rest, work, views, plan_outdated, changed] = world;
+    StepScene& scene = world.scene;
+    StepState& state = world.state;
+    RestState& rest = world.rest;
+    Workspace& work = world.work;
     const double dt = scene.settings.time_step;
     if (rest.asleep) {
         advance_time(dt, state);

@@ -34,8 +34,8 @@ int count(const StressRun& run, Scheme scheme, StressVerdict verdict) {
     }));
 }
 
-std::string padded(const std::string& text, std::size_t width, bool right) {
-    const std::string fill(width > text.size() ? width - text.size() : 0, ' ');
+std::string padded(const std::string& text, std::size_t columns, bool right) {
+    const std::string fill(columns > text.size() ? columns - text.size() : 0, ' ');
     return right ? fill + text : text + fill;
 }
 

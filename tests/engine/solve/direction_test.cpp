@@ -23,10 +23,10 @@ struct FirstPoint {
         scene.before = scene.state;
         scene.targets = scene.state.positions;
         set_euler_base(scene.before, scene.settings.time_step, scene.base);
-        options.predict = false;
         stage = std::make_unique<ImplicitStage>(ImplicitStage{
             .scene = scene, .base = scene.base, .start = scene.before, .targets = scene.targets, .options = options});
         equations = std::make_unique<StageEquations>(*stage, memory, scene.newton, scene.stages);
+        equations->predict();
         equations->evaluate(scene.newton.current);
     }
     const Vectors& residual() const { return scene.newton.current.residual; }
@@ -41,6 +41,7 @@ TEST_CASE("The Newton direction solves A dv = -r on free vertices and leaves pre
     CHECK(found.exact);
     CHECK(point.direction().at(12) == Vec3::Zero());
     Vectors product;
+    product.resize(25);
     AlignedVector<double> points;
     multiply(point.scene.newton.solver.matrix, point.direction(), points, product);
     double largest = 0.0;
@@ -80,7 +81,7 @@ TEST_CASE("A prescribed vertex on its way heads for its target") {
     point.scene.newton.current.fraction = 0.5;
     point.scene.targets.set(4, point.scene.before.positions.at(4) + Vec3(0.02, 0.0, 0.0));
     newton_direction(*point.equations, {.relative_residual = 1e-8});
-    CHECK((point.direction().at(4) - Vec3(0.02 * 60.0, 0.0, 0.0)).norm() < 1e-12);
+    CHECK((point.direction().at(4) - Vec3(0.02 * 60.0, 0.0, 0.0)).norm() < 1e-9);
 }
 
 TEST_CASE("Block Jacobi gives no estimate of the next change") {

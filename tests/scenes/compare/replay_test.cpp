@@ -66,7 +66,7 @@ TEST_CASE("what is no table of steps, or has no state hashes, is refused with it
     folder.write("steps.csv", "a,b\n1,2\n");
     CHECK_THROWS_WITH(read_step_hashes(file), Catch::Contains(file + ":1: is no table of steps: it has no column 'time'"));
     folder.write("steps.csv", header + "1,2\n");
-    CHECK_THROWS_WITH(read_step_hashes(file), Catch::Contains(file + ":2: has 2 columns, not 11"));
+    CHECK_THROWS_WITH(read_step_hashes(file), Catch::Contains(file + ":2: has 2 columns, not 12"));
     folder.write("steps.csv", header + step_table_line({}, std::nullopt) + "\n");
     CHECK_THROWS_WITH(read_step_hashes(file), Catch::Contains("--replay-hash"));
 }

@@ -133,8 +133,8 @@ TEST_CASE("state hashes repeat from run to run and are left out unless asked for
     REQUIRE(a.size() == 13);
     CHECK(a == hashes_in(folder, "b"));
     for (std::size_t i = 1; i < a.size(); ++i) {
-        CHECK(a[i].substr(0, 18) == c[i]);
-        CHECK(a[i].size() == 34);
+        CHECK(a[i].size() == 18);
+        CHECK(c[i] == ",,");
     }
 }
 
