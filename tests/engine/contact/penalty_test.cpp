@@ -10,7 +10,7 @@
 namespace percale::test {
 namespace {
 
-constexpr double h = 0.005, stiffness = 200.0;
+constexpr double h = 0.005;
 
 Eigen::Matrix3d full(const std::array<double, 6>& k) {
     Eigen::Matrix3d m;
