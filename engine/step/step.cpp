@@ -73,7 +73,8 @@ StepReport step(World& world) {
     tell_obstacles(scene);  // where they have to be at the end of the step; nothing moves yet
     const StepMeasure measure(scene, state, report.energy.work);
 
-    // Explicit, or Newton on the implicit scheme; every move is cut safe. The end lies in the workspace; null: the report says why.
+    // Explicit, or Newton on the implicit scheme; every move is cut safe. The end lies in the workspace; null: the report says
+    // why.
     StepState* end = solve_step(scene, state, work, report);
     if (end) check_end(scene, state, *end, work, report);
 
