@@ -116,7 +116,7 @@ std::string StepReport::explanation() const {
     text << "step from t = " << (ok() ? time - dt : time) << " s over " << dt << " s: " << status_word(status);
     if (!ok()) text << ", " << failure_text(*this);
     text << " (" << newton_iterations << " Newton and " << linear_iterations << " linear iterations, relative residual "
-         << residual << ", " << halvings << " halvings" << (dropped.total() > 0 ? ": " + dropped.text() : "") << ")";
+         << residual << ", " << halvings << " halvings" << (dropped.total() > 0 ? "; dropped: " + dropped.text() : "") << ")";
     return text.str();
 }
 

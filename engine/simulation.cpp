@@ -110,9 +110,8 @@ struct Simulation::Implementation {
     void pass_cloth_to_detector() {
         if (!world.scene.detector) return;
         std::vector<double> zone = world.scene.model.thickness;
-        if (world.scene.settings.contact_response == ContactResponse::projection) {
-            for (double& thickness : zone) thickness *= projection_zone;
-        }
+        const double factor = world.work.newton.law(world.scene.settings.contact_response).zone();
+        for (double& thickness : zone) thickness *= factor;
         world.scene.detector->set_cloth(world.scene.model.triangles, zone);
         if (!meets_cloth()) return;
         std::vector<int> owner;

@@ -19,9 +19,9 @@ Vec3 symmetric_product(const SymmetricBlock& k, const Vec3& u) {
     return {xx * u.x() + xy * u.y() + xz * u.z(), xy * u.x() + yy * u.y() + yz * u.z(), xz * u.x() + yz * u.y() + zz * u.z()};
 }
 
-/// What the terms of springs and triangles share: the model's adjacency at the end of a step from step.before.
+/// What the terms of springs and triangles share: the model's adjacency at the end of a step.
 struct SpringCheck {
-    const StepEnd& step;
+    StepEnd step;
     StepSprings springs;
     SpringTerms terms;  // at the state
     std::vector<bool> exact;
@@ -88,10 +88,14 @@ CheckedTerm term_of(const std::string& name, const std::shared_ptr<SpringCheck>&
 /// Springs in one damping form, without damping by velocity, which has no potential. Compressed ones are clamped in the matrix.
 CheckedTerm spring_term(const StepEnd& step, const std::string& name, DampingForm form) {
     auto check = std::make_shared<SpringCheck>(step);
-    set_step_springs(
-        step.scene.compute,
-        {check->adjacency(), step.start.positions, form, check->dt(), step.end.cloth.rest_length, &step.scene.model.springs},
-        check->springs);
+    if (form == DampingForm::length_rate) {
+        check->springs = step.work.newton.springs;  // those of the last span, whose start made them what they are
+    } else {
+        set_step_springs(
+            step.scene.compute,
+            {check->adjacency(), step.start.positions, form, check->dt(), step.end.cloth.rest_length, &step.scene.model.springs},
+            check->springs);
+    }
     check->springs.velocity_damping = false;
     CheckedTerm term = term_of(name, check, evaluate_network);
     const SpringNetwork& network = step.scene.model.springs;
@@ -119,10 +123,10 @@ CheckedTerm membrane_term(const StepEnd& step) {
 /// What rest angles change; the matrix keeps that of flat hinges, which claims nothing here.
 CheckedTerm curved_hinge_term(const StepEnd& step) {
     return {.name = "curved hinges",
-            .add_forces = [&step](const Vectors& positions,
-                                  Vectors& forces) { add_curved_hinges(step.scene.model.hinges, positions, forces); },
+            .add_forces = [step](const Vectors& positions,
+                                 Vectors& forces) { add_curved_hinges(step.scene.model.hinges, positions, forces); },
             .energy =
-                [&step](const Vectors& positions) {
+                [step](const Vectors& positions) {
                     Vectors unused = positions;
                     return add_curved_hinges(step.scene.model.hinges, positions, unused);
                 },
@@ -132,7 +136,7 @@ CheckedTerm curved_hinge_term(const StepEnd& step) {
 
 /// Drag as a function of the positions at the end of the step, with the velocities that lead there.
 struct WindCheck {
-    const StepEnd& step;
+    StepEnd step;
     WindTerms terms;
     std::vector<bool> exact;
 
@@ -189,12 +193,12 @@ CheckedTerm wind_term(const StepEnd& step, double reach) {
 
 CheckedTerm gravity_term(const StepEnd& step) {
     CheckedTerm term{.name = "gravity", .add_forces = {}, .energy = {}, .multiply = {}, .exact = {}, .internal = false};
-    term.add_forces = [&step](const Vectors&, Vectors& forces) {
+    term.add_forces = [step](const Vectors&, Vectors& forces) {
         Vectors own = forces;
         set_gravity_forces(step.scene.model.mass, step.scene.settings.gravity, own);
         add_scaled(forces, 1.0, own);
     };
-    term.energy = [&step](const Vectors& positions) {
+    term.energy = [step](const Vectors& positions) {
         return gravity_energy(step.scene.model.mass, step.scene.settings.gravity, positions);
     };
     return term;
@@ -202,7 +206,7 @@ CheckedTerm gravity_term(const StepEnd& step) {
 
 /// The rows of the last evaluation as planes, without friction, which has no potential.
 struct ContactCheck {
-    const StepEnd& step;
+    StepEnd step;
     ContactRows rows;
     ContactTerms terms;
     std::vector<bool> exact;

@@ -16,7 +16,8 @@ struct StepEnd {
     double dt;              // s, of its spans
 };
 
-/// Every force that acts on the cloth there, one function of checked_terms.cpp each. Views the end, which must stay as it is.
+/// Every force that acts on the cloth there, one function of checked_terms.cpp each. Views what the end names, which must stay as
+/// it is.
 std::vector<CheckedTerm> checked_terms(const StepEnd& step);
 
 /// Checks the derivatives of all of them; what does not fit makes the step a failed one and stands in its report. Explicit

@@ -30,8 +30,8 @@ public:
     bool is_for(const ClothModel& model) const { return matrix.pattern == &model.adjacency; }
     void forget_model() { matrix.pattern = nullptr; }
 
-    /// A new step or part of one begins: what is taken over from earlier matrices is made anew.
-    void start_part() { stale_ = true; }
+    /// A new stage begins: what is taken over from earlier matrices is made anew.
+    void start_stage() { stale_ = true; }
 
     /// Takes springs and contacts of a state.
     void fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts);

@@ -28,7 +28,8 @@ struct Script {
     std::vector<Seam> seams;
 };
 
-/// All that is fixed while a step runs: no step writes to it. The detector remembers its search; what it answers follows from
+/// All that is fixed while the spans of a step are solved. Between steps the plan is renewed, with hinges beside pins, and
+/// obstacles arrive. The detector remembers its search; what it answers follows from
 /// what it is told.
 struct StepScene {
     Compute compute;

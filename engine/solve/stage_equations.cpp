@@ -43,7 +43,7 @@ StageEquations::StageEquations(const ImplicitStage& stage, const ContactMemory& 
     space.frozen_diagonal.padded = 0;
     if (!space.solver.is_for(scene.model)) space.solver.set_model(scene.compute, scene.model, scene.settings.linear_solver);
     space.solver.matrix.free = scene.script.free;
-    space.solver.start_part();
+    space.solver.start_stage();
     if (scene.plan.contacts) law_.begin(memory);
     for (auto* vectors : {&space.direction, &space.right_side}) vectors->resize(scene.model.vertex_count());
     space.friction = {

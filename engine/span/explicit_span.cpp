@@ -26,7 +26,7 @@ void make_step(const Span& span, const StepState& start, Workspace& work, StepSt
                             .wind = set_wind_at(scene, start.cloth.positions, work),
                             .rest_length = rest_lengths_at(span, 0.5, start, work.rest_length)};
     step_explicit(scene.plan.scheme, step, work.explicit_space, end.cloth);
-    set_rest_length(span, start, work, end.cloth);
+    set_rest_length(span, start, work.rest_length, end.cloth);
 }
 
 /// A step that counts.

@@ -35,7 +35,7 @@ public:
         begin_end(start_, end_);
         make_stages();
         if (!usable()) return result_;
-        set_rest_length(span_, start_, work_, end_.cloth);
+        set_rest_length(span_, start_, work_.rest_length, end_.cloth);
         account_implicit(span_, {start_, end_, middle_, obstacle_work_}, work_, result_.flows);
         return result_;
     }

@@ -57,7 +57,7 @@ public:
         return balance;
     }
 
-    /// Of the air, as work.wind has it, on cloth that moves over the span while the drag stays what these velocities make it, J.
+    /// Of the air around a place on cloth that moves over the span while the drag stays what its velocities make it, J.
     double wind_work(const ForcePlace& place) {
         if (!set_wind_at(scene_, place.air, work_)) return 0.0;
         work_.forces.resize(scene_.model.vertex_count());
@@ -104,6 +104,14 @@ std::array<ForcePlace, 3> stage_places(const SpanStates& states, const StagePoin
     return {{{start.positions, start.velocities, start.positions, {}},
              {middle.positions, middle.velocities, start.positions, {}},
              {last.positions, last.velocities, middle.positions, {}}}};
+}
+
+/// Of pins: in backward Euler what the momentum lacks, which is exact for its forces; in schemes of second order by the mean of
+/// the forces at both ends, as what one stage gives would be of first order.
+double pin_work(const Span& span, const SpanStates& states, const Balance& balance, Workspace& work) {
+    if (!span.scene.plan.pin_work) return 0.0;
+    if (facts_of(span.scene.plan.scheme).order == 1) return balance.prescribed;
+    return script_work(span.scene, states.start.cloth, states.end.cloth, span.length(), work).pins;
 }
 
 /// What contact took: by its own law where one stage is all there is, else all that its forces did.
@@ -155,9 +163,10 @@ void account_implicit(const Span& span, const SpanStates& states, Workspace& wor
     }
     if (!weighs) return;
     const Balance balance = account.balance();
-    flows.work += balance.prescribed;
+    const double pins = pin_work(span, states, balance, work);
+    flows.work += pins;
     if (!plan.ledger) return;
-    flows.dissipated_integrator += balance.kinetic;
+    flows.dissipated_integrator += balance.kinetic - balance.prescribed + pins;
     if (plan.contacts) {
         account_contact(span, states, balance, account, work, flows);
     } else if (plan.scheme == Scheme::bdf2) {

@@ -18,12 +18,13 @@ struct SpanStates {
 /// the right side summed over prescribed vertices being the work of pins, over free ones what the solver and contact left.
 /// Every entry is computed from its own forces, none as what the others leave, but contact by TR-BDF2, where all that contact
 /// forces take, friction included, is in dissipated_contact. BDF2 also gives momentum from the span before: the integrator's.
-/// Sets flows.work, with the ledger all its entries, and the energy of
-/// contact at the end.
+/// The work of pins is that right side in backward Euler; in schemes of second order it goes by the mean of the forces at both
+/// ends, and the difference is the integrator's. Adds to flows.work, with the ledger to its other entries, and sets the energy of
+/// contact of states.end.
 void account_implicit(const Span& span, const SpanStates& states, Workspace& work, StepEnergy& flows);
 
-/// The same of a step of an explicit scheme, whose stages follow from the start. Its work is the mean over both ends: of a pin's
-/// forces over its path, of the wind's power.
+/// The same of a step of an explicit scheme, whose stages follow from the start. The work of pins and wind is left to the caller,
+/// who adds it (script_work) to flows.work and to flows.dissipated_integrator.
 void account_explicit(const Span& span, const SpanStates& states, Workspace& work, StepEnergy& flows);
 
 }  // namespace percale

@@ -24,8 +24,8 @@ struct Span {
 struct SpanResult {
     SpanEnd end = SpanEnd::solved;
     double error = 0.0;  // m, estimated, of positions; adaptive steps only
-    StepEnergy flows;    // J, work and, with the ledger, where energy went; `contact` is that of the end
-    // Sums and extremes over its stages.
+    StepEnergy flows;    // J, work and, with the ledger, where energy went; nothing that is stored
+    // Sums and extremes over its stages; the residual is the last one's.
     int newton_iterations = 0, linear_iterations = 0, line_search_cuts = 0;
     double residual = 0.0, smallest_fraction = 1.0, contact_stiffness = 0.0;
 

@@ -16,11 +16,11 @@ struct SchemeMemory {
     /// The present state does not follow from the last span.
     void forget() {
         earlier_length = 0.0;
-        unbalanced.resize(0);
+        for (Vectors* vectors : {&earlier.positions, &earlier.velocities, &acceleration, &unbalanced}) vectors->resize(0);
     }
 };
 
-/// All that a step changes and the next one goes by. Saved as a whole.
+/// All of the cloth and of its solution that a step changes and the next one goes by. Saved; but for `contact`, as it is.
 struct StepState {
     ClothState cloth;
     SchemeMemory past;

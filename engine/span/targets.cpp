@@ -36,9 +36,9 @@ std::span<const double> rest_lengths_at(const Span& span, double place, const St
     return list;
 }
 
-void set_rest_length(const Span& span, const StepState& start, Workspace& work, ClothState& end) {
-    const std::span<const double> list = rest_lengths_at(span, 1.0, start, work.rest_length);
-    end.rest_length.assign(list.begin(), list.end());
+void set_rest_length(const Span& span, const StepState& start, std::vector<double>& list, ClothState& end) {
+    const std::span<const double> lengths = rest_lengths_at(span, 1.0, start, list);
+    end.rest_length.assign(lengths.begin(), lengths.end());
 }
 
 double seam_work(const Span& span, const StepState& start, const ClothState& end) {

@@ -14,8 +14,8 @@ void set_flows(const StepScene& scene, double fraction, std::vector<ObstacleFlow
 /// memory for them.
 std::span<const double> rest_lengths_at(const Span& span, double place, const StepState& start, std::vector<double>& list);
 
-/// end.rest_length: at the end of the span.
-void set_rest_length(const Span& span, const StepState& start, Workspace& work, ClothState& end);
+/// end.rest_length: at the end of the span. `list` is memory.
+void set_rest_length(const Span& span, const StepState& start, std::vector<double>& list, ClothState& end);
 
 /// Work of closing seams in a span from one state to another, J: each stage's weight times what the change of length to its own
 /// stores at the start, and what the change from there stores at the end.

@@ -90,6 +90,7 @@ void update_rest(const StepScene& scene, const Vectors& forces, ClothState& clot
 
 void wake(RestState& rest) {
     rest.cloths.clear();
+    rest.anchor.resize(0);
     rest.asleep = false;
 }
 

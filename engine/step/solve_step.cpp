@@ -6,6 +6,7 @@
 #include "failure.h"
 #include "schemes/schemes.h"
 #include "span/advance.h"
+#include "span/targets.h"
 
 namespace percale {
 namespace {
@@ -155,6 +156,7 @@ private:
 StepState* stand_still(const StepScene& scene, const StepState& start, Workspace& work) {
     StepState& end = work.ends[0];
     end = start;
+    set_rest_length({scene, start.cloth.positions, {0.0, 1.0}}, start, work.rest_length, end.cloth);  // seams close all the same
     end.contact_energy = 0.0;
     end.cloth.velocities.resize(scene.model.vertex_count());
     return &end;

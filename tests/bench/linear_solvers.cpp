@@ -208,7 +208,7 @@ struct Cost {
 Cost measure_ours(const System& system, percale::LinearSolver choice) {
     percale::StepSolver solver;
     const auto fill = [&] {
-        solver.start_part();
+        solver.start_stage();
         solver.fill(system.forces.spring_terms, {});
     };
     Cost cost{.solver = choice == percale::LinearSolver::cg ? "block Jacobi" : "multigrid"};

@@ -63,8 +63,8 @@ TEST_CASE("A step is good unless pins, obstacles or infinities stopped it") {
 TEST_CASE("An explanation has the status and the figures") {
     for (const StepStatus status : all_statuses) {
         const std::string text = report_of(status).explanation();
-        CHECK(mentions(
-            text, {status_word(status), "0.1 s", "7 Newton", "83 linear", "0.03125", "2 halvings: 1 not converged, 1 blocked"}));
+        CHECK(mentions(text, {status_word(status), "0.1 s", "7 Newton", "83 linear", "0.03125",
+                              "2 halvings; dropped: 1 not converged, 1 blocked"}));
         // A failed step's time is that of its start.
         CHECK(mentions(text, {report_of(status).ok() ? "t = 0.4 s" : "t = 0.5 s"}));
     }

@@ -213,6 +213,14 @@ inline SpanResult advance_world(World& world, StepFraction fraction, bool last_t
     return result;
 }
 
+/// A mass on a spring, off its rest; the other end is held.
+inline World mass_on_spring(const StepSettings& settings) {
+    World world =
+        linked_world(linked_masses({0.1, 0.2}, {{0, 1, 1.0, 50.0, 0.3}}), {Vec3(0, 0, 0), Vec3(1.2, 0, 0)}, {0}, settings);
+    plan_step(world);
+    return world;
+}
+
 /// What a SceneError says; empty if nothing was thrown.
 template <class Call>
 std::string scene_error(Call&& call) {

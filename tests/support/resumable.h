@@ -45,6 +45,8 @@ struct StepTrace {
                   r.energy.total(),
                   r.energy.work} {
         for (const auto entry : ledger_entries) figures.push_back(r.energy.*entry);
+        for (const int count : {r.dropped.not_converged, r.dropped.blocked, r.dropped.not_finite, r.dropped.inexact})
+            figures.push_back(count);
         // NaN, which is not equal to itself, stands for what is not measured.
         for (double& figure : figures) figure = figure == figure ? figure : -1e300;
     }

@@ -20,7 +20,8 @@ enum class StepStatus {  // those up to tolerance_missed are accepted
     not_finite,         // failed: a state would have become infinite or NaN; the state is that of the step's start
 };
 
-/// What became of a span, a piece of a step that is solved at once. All but `solved` drop it; it is solved again in shorter ones.
+/// What became of a span, a piece of a step that is solved at once. All but `solved` drop it, and it is solved again in shorter
+/// ones; where it cannot be shorter, `not_converged` is kept as it is, the others fail the step.
 enum class SpanEnd {
     solved,
     not_converged,  // the solver used up its iterations
@@ -29,11 +30,12 @@ enum class SpanEnd {
     inexact,        // adaptive steps: the estimated error is above the tolerance
 };
 
-/// How many spans of a step were dropped, by what became of them.
+/// How many spans of a step were dropped and solved again, by what became of them. `inexact` counts rejected lengths of adaptive
+/// steps, of however many spans; the others add up to StepReport::halvings.
 struct DroppedSpans {
     int not_converged = 0, blocked = 0, not_finite = 0, inexact = 0;
 
-    void add(SpanEnd end);
+    void add(SpanEnd end);  // nothing for `solved`
     DroppedSpans& operator+=(const DroppedSpans& more);
     int total() const { return not_converged + blocked + not_finite + inexact; }
     /// "2 not converged, 1 blocked"; empty if none was dropped.

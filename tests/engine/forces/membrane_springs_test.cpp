@@ -172,7 +172,7 @@ TEST_CASE("Diagonal blocks are those of the matrix, and factorisation, multigrid
         StepSolver solver;
         solver.set_model(compute, sheet.model, which);
         solver.matrix.free[0] = solver.matrix.free[12] = 0.0;
-        solver.start_part();
+        solver.start_stage();
         solver.fill(sheet.terms, {});
         for (int i = 0; i < count; ++i) {
             std::array<double, 6> block;

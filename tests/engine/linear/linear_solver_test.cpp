@@ -234,7 +234,7 @@ TEST_CASE("A new part of a step starts with coarser levels of its own matrix") {
     Prepared reused(first, LinearSolver::multigrid), fresh(later, LinearSolver::multigrid);
     Vectors x, expected;
     reused.solve(first, 1e-6, x);
-    reused.solver.start_part();
+    reused.solver.start_stage();
     reused.solver.fill(later.terms, later.contacts);
     CHECK(reused.solve(later, 1e-6, x).iterations == fresh.solve(later, 1e-6, expected).iterations);
     CHECK(same_bits(x, expected));

@@ -6,17 +6,6 @@
 #include "tests/support/cloth_scenes.h"
 
 namespace percale::test {
-namespace {
-
-/// A mass on a spring, off its rest; the other end is held.
-World mass_on_spring(const StepSettings& settings) {
-    World world =
-        linked_world(linked_masses({0.1, 0.2}, {{0, 1, 1.0, 50.0, 0.3}}), {Vec3(0, 0, 0), Vec3(1.2, 0, 0)}, {0}, settings);
-    plan_step(world);
-    return world;
-}
-
-}  // namespace
 
 TEST_CASE("Accelerations are f/m, and 0 where vertices are held") {
     World world = mass_on_spring({.scheme = Scheme::rk4});

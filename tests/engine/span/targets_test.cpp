@@ -11,6 +11,17 @@ World sheet_world() {
     return make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {});
 }
 
+/// A sheet whose opposite corners are sewn together within four steps.
+World sewn_world() {
+    const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
+    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.time_step = 0.1});
+    Seam seam{.length = {}, .from = 0.0, .over = 0.4};
+    append_seam(std::vector<std::array<int, 2>>{{0, 8}}, 50.0, world.state.cloth.positions, seam, world.scene.model);
+    finish_model(world.scene.model);
+    world.scene.script.seams = {seam};
+    return world;
+}
+
 }  // namespace
 
 TEST_CASE("Pins go along the straight line and arrive exactly") {
@@ -30,12 +41,7 @@ TEST_CASE("Pins go along the straight line and arrive exactly") {
 }
 
 TEST_CASE("Seams close in the course of a span, other springs keep their lengths, and the model keeps all of them") {
-    const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
-    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.time_step = 0.1});
-    Seam seam{.length = {}, .from = 0.0, .over = 0.4};
-    append_seam(std::vector<std::array<int, 2>>{{0, 8}}, 50.0, world.state.cloth.positions, seam, world.scene.model);
-    finish_model(world.scene.model);
-    world.scene.script.seams = {seam};
+    World world = sewn_world();
     const std::vector<double> before = world.scene.model.springs.rest_length;
     plan_step(world);
     const Span second_half{world.scene, world.state.cloth.positions, {0.5, 1.0}};
@@ -50,14 +56,9 @@ TEST_CASE("Seams close in the course of a span, other springs keep their lengths
 }
 
 TEST_CASE("The work of a closing seam on cloth that stays is what it stores") {
-    const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
-    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.time_step = 0.1});
-    Seam seam{.length = {}, .from = 0.0, .over = 0.4};
-    append_seam(std::vector<std::array<int, 2>>{{0, 8}}, 50.0, world.state.cloth.positions, seam, world.scene.model);
-    finish_model(world.scene.model);
-    world.scene.script.seams = {seam};
+    World world = sewn_world();
     plan_step(world);
-    const double shortened = 0.25 * seam.length[0];
+    const double shortened = 0.25 * world.scene.script.seams[0].length[0];
     const Span span{world.scene, world.state.cloth.positions, {0.0, 1.0}};
     CHECK(seam_work(span, world.state, world.state.cloth) == Approx(0.5 * 50.0 * shortened * shortened));
 }

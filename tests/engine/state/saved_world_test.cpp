@@ -313,4 +313,22 @@ TEST_CASE("A detector that keeps no state refuses to be saved") {
     CHECK(mentions(scene_error([&] { simulation.save(); }), {"cannot save its state"}));
 }
 
+TEST_CASE("A simulation to which cloth was added between steps goes on from what it saved") {
+    for (const Scheme scheme : {Scheme::backward_euler, Scheme::bdf2, Scheme::tr_bdf2}) {
+        Simulation first({.scheme = scheme}), second({.scheme = scheme});
+        for (Simulation* simulation : {&first, &second}) {
+            const ClothId cloth = simulation->add_cloth(make_grid(1, 1, 9, 9), sheet_fabric());
+            simulation->pin(cloth, 0);
+            for (int n = 0; n < 3; ++n) REQUIRE(simulation->step().ok());
+            simulation->add_cloth(make_grid(1, 1, 5, 5), sheet_fabric(), {.translation = {0, 1, 0}});
+        }
+        const Saved at_once = first.save();
+        CHECK_NOTHROW(second.restore(at_once));
+        REQUIRE(first.step().ok());
+        CHECK_NOTHROW(second.restore(first.save()));
+        for (int n = 0; n < 3; ++n) REQUIRE((first.step().ok() && second.step().ok()));
+        CHECK(first.state_hash() == second.state_hash());
+    }
+}
+
 }  // namespace percale::test

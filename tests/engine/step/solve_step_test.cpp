@@ -146,4 +146,15 @@ TEST_CASE("Lifting a whole sheet at constant speed takes the work m g h") {
     }
 }
 
+TEST_CASE("A seam closes while every vertex is pinned") {
+    Simulation simulation({.time_step = 0.01});
+    const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 4, 4), sheet_fabric());
+    for (int i = 0; i < 16; ++i) simulation.pin(cloth, i);
+    const std::vector<std::array<int, 2>> pair = {{0, 3}};
+    simulation.add_seam(cloth, cloth, pair, {.over = 0.05, .stiffness = 100.0});
+    for (int n = 0; n < 20; ++n) REQUIRE(simulation.step().ok());
+    // The seam's spring has no length any more, and is as long as the sheet is wide.
+    CHECK(simulation.energy().elastic == Approx(0.5 * 100.0 * 0.25).epsilon(1e-12));
+}
+
 }  // namespace percale::test
