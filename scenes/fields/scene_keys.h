@@ -31,7 +31,7 @@ enum class KeyKind {
 struct SceneKey {
     std::string path;  // in a row the key; in the list dotted from the top, names of fabrics left out: "fabric.springs.bend"
     KeyKind kind = KeyKind::text;
-    std::string sentence;
+    std::string sentence = {};
     std::string unit = {};
     double lowest = -std::numeric_limits<double>::infinity();  // allowed range of numbers, both ends included
     double highest = std::numeric_limits<double>::infinity();
