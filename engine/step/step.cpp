@@ -7,13 +7,10 @@
 #include "motion.h"
 #include "plan/planning.h"
 #include "solve_step.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-/// s per second: how fast the time step that contact stiffness is made for may become shorter. Stiffness goes as 1/dt^2, and what
-/// a stiffer contact stores nobody has paid for; slowly against its own period, 2 pi sqrt(2) dt, it stores nothing.
-constexpr double fastest_shortening = 0.05;
 
 StepReport begin_report(double time_step) {
     StepReport report;
@@ -36,7 +33,7 @@ double plan_step(World& world) {
     world.plan_outdated = false;
     set_motion_of_step(scene, world.state.cloth, world.state.time);
     const double dt = scene.settings.time_step;
-    if (scene.plan.solve) world.state.contact_dt = std::max(dt, world.state.contact_dt - fastest_shortening * dt);
+    if (scene.plan.solve) world.state.contact_dt = std::max(dt, world.state.contact_dt - fastest_contact_shortening * dt);
     return work;
 }
 

@@ -1,15 +1,9 @@
 #include "meshes/primitives.h"
 
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
-
-namespace {
-
-constexpr int sphere_level = 4;      // 5120 triangles
-constexpr int segments_around = 48;  // of what is round about the y axis
-
-}  // namespace
 
 TriangleMesh SphereShape::mesh() const { return make_sphere(radius, sphere_level); }
 TriangleMesh BoxShape::mesh() const { return make_box(size); }
