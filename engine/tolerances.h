@@ -207,11 +207,11 @@ constexpr double float_aim_share = 0.5;
 constexpr double most_refined_share = 0.5;
 
 /// Ratio of energy gains from one window to the next. Below it they fall fast, and what is likely to come is estimated by the
-/// last window alone. Larger: badly conditioned systems count as solved too early.
-constexpr double slow_gain_ratio = 0.8;
+/// last window alone. Larger: badly conditioned systems count as solved too early. (Inline, as a header reads it.)
+inline constexpr double slow_gain_ratio = 0.8;
 
 /// The largest ratio that the sum of what is to come is taken with. 1: no bound.
-constexpr double most_gain_ratio = 0.99;
+inline constexpr double most_gain_ratio = 0.99;
 
 // ---- plan/
 

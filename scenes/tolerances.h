@@ -64,7 +64,7 @@ constexpr std::size_t always_allowed_vertices = 100000, most_part_copies = 64;
 
 /// Divisions of shapes that a scene names: a sphere's (4: 5120 triangles), and around the y axis. Cloth of finer mesh sees the
 /// facets; more triangles cost more.
-constexpr int sphere_level = 4, segments_around = 48;
+constexpr int sphere_level = 4, shape_segments_around = 48;
 
 // ---- format/
 

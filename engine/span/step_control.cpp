@@ -7,6 +7,7 @@
 #include "tolerances.h"
 
 namespace percale {
+
 double next_length(const StepControl& control, double remaining) {
     const double length = control.length > 0.0 ? control.length : first_adaptive_step;
     return remaining / std::max(1.0, std::ceil(remaining / length * (1.0 - step_count_rounding)));

@@ -7,8 +7,8 @@ namespace percale::scenes {
 
 TriangleMesh SphereShape::mesh() const { return make_sphere(radius, sphere_level); }
 TriangleMesh BoxShape::mesh() const { return make_box(size); }
-TriangleMesh CylinderShape::mesh() const { return make_cylinder(radius, height, segments_around); }
-TriangleMesh CapsuleShape::mesh() const { return make_capsule(radius, height, segments_around); }
+TriangleMesh CylinderShape::mesh() const { return make_cylinder(radius, height, shape_segments_around); }
+TriangleMesh CapsuleShape::mesh() const { return make_capsule(radius, height, shape_segments_around); }
 TriangleMesh PlaneShape::mesh() const { return make_plane(half_size); }
 
 namespace {
