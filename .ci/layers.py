@@ -20,7 +20,8 @@ TOP_LEVEL = {'CMakeLists.txt', 'engine', 'collision', 'scenes', 'tests', 'data',
 LIBRARY = ('engine', 'collision', 'scenes')
 CODE_SUFFIXES = ('.cpp', '.h', '.inl')
 
-# Which part may include which, by folder. `public` = engine's public headers, `public_collision` = collision's.
+# Which part may include which, by folder. `public` = engine's public headers, `public_collision` = collision's. Every part of
+# engine but `public` may include its tolerances.h; a layer's tolerances.h includes no file of the project.
 PUBLIC = {'public', 'public_collision'}
 ENGINE_PARTS = ['support', 'kernels', 'mesh', 'model', 'forces', 'contact', 'schemes', 'linear', 'plan', 'solve', 'span', 'checks',
                 'step', 'start', 'state']
@@ -178,6 +179,10 @@ def check_directions(tree):
     for path, includes in tree.includes.items():
         part = part_of(path)
         for line, name, target in includes:
+            if path.endswith('/tolerances.h') and target is not None:
+                tree.complain(path, line, f'tolerances.h must include no file of the project ({name})')
+            if target == 'engine/tolerances.h' and path.startswith('engine/') and part != 'public':
+                continue
             if target is not None and part_of(target) not in MAY_INCLUDE[part]:
                 tree.complain(path, line, f'{part} must not include {part_of(target)} ({name})')
             if target is None:

@@ -106,7 +106,17 @@ class Rules(unittest.TestCase):
     def test_tolerances_of_a_layer_make_no_ring_of_folders(self):
         changes = {'collision/detector.h': '#include "lists/a.h"\n', 'collision/lists/a.h': '#include "tolerances.h"\n'}
         self.assertEqual(violations({**changes, 'collision/tolerances.h': '#pragma once\n'}), [])
-        self.assertIn('folders include each other', violations({**changes, 'collision/tolerances.h': '#include "detector.h"\n'})[1])
+        ring = violations({**changes, 'collision/tolerances.h': '#include "detector.h"\n'})
+        self.assertTrue(any('folders include each other' in line for line in ring), ring)
+
+    def test_tolerances_are_read_by_their_whole_layer_and_read_nothing(self):
+        clean = {'engine/tolerances.h': '#pragma once\n'}
+        for path in ('engine/support/check.h', 'engine/step/step.h', 'engine/simulation.h'):
+            self.assertEqual(violations({**clean, path: '#include "tolerances.h"\n' + CLEAN[path]}), [])
+        for path in ('engine/include/percale/mesh.h', 'collision/surface.h', 'scenes/scene.h'):
+            said = violations({**clean, path: CLEAN[path] + '#include "engine/tolerances.h"\n'})
+            self.assertTrue(any('must not include engine ' in line for line in said), (path, said))
+        self.caught('engine/tolerances.h', '#include "support/check.h"\n', 'tolerances.h must include no file of the project')
 
     def test_an_include_that_is_no_file(self):
         self.include_caught('scenes/scene.h', '"sceen.h"', 'is no file of the project')

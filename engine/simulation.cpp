@@ -14,6 +14,7 @@
 #include "step/step.h"
 #include "support/hash.h"
 #include "support/stage_timer.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -28,7 +29,7 @@ void check_pose(const Pose& pose, const std::string& name) {
     const Rotation& q = pose.rotation;
     const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     if (!pose.translation.allFinite()) throw SceneError(name, "the translation of its pose is not finite");
-    if (!(std::abs(norm - 1.0) <= 1e-6)) {
+    if (!(std::abs(norm - 1.0) <= unit_length_error)) {
         throw SceneError(
             name, "the rotation of its pose has length " + number_text(norm) + ", a rotation is a unit quaternion (w, x, y, z)");
     }

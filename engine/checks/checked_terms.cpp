@@ -8,11 +8,10 @@
 #include "forces/hinge_bending.h"
 #include "forces/membrane_springs.h"
 #include "forces/wind.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr double share_of_length = 1e-5;  // of the shortest spring, by which vertices are moved
 
 Vec3 symmetric_product(const SymmetricBlock& k, const Vec3& u) {
     const auto& [xx, xy, xz, yy, yz, zz] = k;
@@ -164,7 +163,7 @@ struct WindCheck {
 
 CheckedTerm wind_term(const StepEnd& step, double reach) {
     auto check = std::make_shared<WindCheck>(WindCheck{step, {}, std::vector<bool>(step.scene.model.vertex_count(), true)});
-    check->set_exact(1e3 * reach / step.dt);
+    check->set_exact(wind_kink_reaches * reach / step.dt);
     Vectors forces = step.end.cloth.positions;
     check->evaluate(step.end.cloth.positions, forces, check->terms);
     return {.name = "wind",
@@ -247,7 +246,7 @@ struct ContactCheck {
     /// Where a row is about to end or to begin the second derivative jumps.
     void set_exact(double reach) {
         for (std::size_t row = 0; row < rows.size(); ++row) {
-            if (std::abs(rows.distance[row] - rows.thickness[row]) > 10.0 * reach) continue;
+            if (std::abs(rows.distance[row] - rows.thickness[row]) > contact_kink_reaches * reach) continue;
             for (std::size_t k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) exact[rows.vertex[row][k]] = false;
         }
     }
@@ -283,7 +282,7 @@ double reach_of(const StepEnd& step) {
     for (int k = 0; k < springs.size(); ++k) {
         if (springs.rest_length[k] > 0.0) shortest = std::min(shortest, springs.rest_length[k]);
     }
-    return share_of_length * shortest;
+    return derivative_reach_share * shortest;
 }
 
 /// "vertex 3 of cloth sheet"

@@ -5,12 +5,10 @@
 #include <cstdint>
 #include <sstream>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr double accuracy = 1e-4, floor_accuracy = 1e-5;  // relative to the vertex itself, to the largest of all
-constexpr double rounding = 1e-12;                        // of sums of forces and of energies, relative
-constexpr int stretches = 16;                             // of vertices whose energy slope is compared by itself
 
 /// Between -1 and 1, the same for the same number (splitmix64; Steele, Lea and Flood, OOPSLA 2014).
 double spread(std::uint64_t number) {
@@ -86,15 +84,16 @@ private:
             size += forces_.at(i).norm();
             arm = std::max(arm, state_.positions.at(i).norm());
         }
-        if (sum.norm() > rounding * size) return WrongDerivative{term_.name, "internal forces add up to " + text_of(sum) + " N"};
-        if (moment.norm() > rounding * size * arm) {
+        if (sum.norm() > derivative_rounding * size)
+            return WrongDerivative{term_.name, "internal forces add up to " + text_of(sum) + " N"};
+        if (moment.norm() > derivative_rounding * size * arm) {
             return WrongDerivative{term_.name, "internal forces have the moment " + text_of(moment) + " N m"};
         }
         return {};
     }
 
     std::optional<WrongDerivative> check_energy() const {
-        const int grain = (state_.count + stretches - 1) / stretches;
+        const int grain = (state_.count + derivative_stretches - 1) / derivative_stretches;
         for (int first = 0; first < state_.count; first += grain) {
             const Range range{first, std::min(first + grain, state_.count)};
             if (slope_fits(range)) continue;
@@ -117,8 +116,10 @@ private:
         }
         // What rounding leaves of the difference, and what a third derivative adds.
         const double bend = std::abs(ahead - 2.0 * term_.energy(state_.positions) + behind);
-        const double noise = (1e-3 * rounding * (std::abs(ahead) + std::abs(behind)) + accuracy * bend) / state_.reach;
-        return {by_forces, (ahead - behind) / (2.0 * state_.reach), accuracy * size + floor_accuracy * largest_force() + noise};
+        const double noise =
+            (1e-3 * derivative_rounding * (std::abs(ahead) + std::abs(behind)) + derivative_accuracy * bend) / state_.reach;
+        return {by_forces, (ahead - behind) / (2.0 * state_.reach),
+                derivative_accuracy * size + derivative_floor_accuracy * largest_force() + noise};
     }
 
     double largest_force() const { return largest(forces_, state_.count); }
@@ -168,7 +169,8 @@ private:
     std::optional<WrongDerivative> check_matrix() const {
         const Range all{0, state_.count};
         const Products p = products(all);
-        const double floor = floor_accuracy * std::max(largest(p.matrix, state_.count), largest(p.differences, state_.count));
+        const double floor =
+            derivative_floor_accuracy * std::max(largest(p.matrix, state_.count), largest(p.differences, state_.count));
         double excess = 0.0, size = 0.0;
         const Vectors d = direction(all);
         for (int i = 0; i < state_.count; ++i) {
@@ -176,10 +178,10 @@ private:
             excess += d.at(i).dot(p.matrix.at(i) - p.differences.at(i));
             size += p.matrix.at(i).norm() + p.differences.at(i).norm();
             const double own = std::max(p.matrix.at(i).norm(), p.differences.at(i).norm());
-            if (p.mismatch(i) <= accuracy * own + floor || !is_exact(i)) continue;
+            if (p.mismatch(i) <= derivative_accuracy * own + floor || !is_exact(i)) continue;
             return wrong_row(i);
         }
-        if (excess >= -floor_accuracy * size) return {};
+        if (excess >= -derivative_floor_accuracy * size) return {};
         std::ostringstream text;
         text << "the matrix is below the derivative by " << -excess << " kg where it should bound it";
         return WrongDerivative{term_.name, text.str()};

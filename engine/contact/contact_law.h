@@ -11,9 +11,6 @@
 
 namespace percale {
 
-/// Below this share of the thickness a change means nothing in contact.
-constexpr double contact_accuracy = 2e-4;
-
 /// What contact needs of the stage that it is evaluated in.
 struct ContactStep {
     double dt = 0.0;                            // s, of the stage being solved

@@ -9,9 +9,6 @@
 
 namespace percale {
 
-/// How far a sticking contact gives before it slides, as a share of the thickness.
-constexpr double reach_share = 0.01;
-
 /// Motion of an obstacle over a whole step: its point that is at p when the part begins moves by turn p + shift, m.
 struct ObstacleFlow {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
-constexpr int any_feature = -2;       // of an obstacle
-constexpr double most_of_it = 0.5;    // of its stiffness, that a row has to take to be handed forces
-constexpr double least_cosine = 0.9;  // between the directions of rows that hand over, or they lie on two sides of a gap
+constexpr int any_feature = -2;  // of an obstacle
 
 RowKey of_cloth_feature(RowKey key) {
     key.feature = any_feature;
@@ -18,7 +18,7 @@ RowKey of_cloth_feature(RowKey key) {
 bool has_left(const ContactRows& rows, int row, int nearest, const RowClearance& clearance) {
     const double cloth_thickness = rows.thickness[row] / clearance.zone;
     const double from = std::max(cloth_thickness, rows.distance[nearest]) + clearance.share * cloth_thickness;
-    return rows.distance[row] > from && rows.direction[row].dot(rows.direction[nearest]) > least_cosine;
+    return rows.distance[row] > from && rows.direction[row].dot(rows.direction[nearest]) > least_handing_cosine;
 }
 
 /// All forces by their keys, in whatever order they came.
@@ -41,7 +41,7 @@ void ContactMultipliers::hand_over(const ContactRows& rows, const RowClearance& 
         const RowKey key = row_key(rows, row);
         const int number = static_cast<int>(row);
         places_.at(key) = number;
-        if (rows.obstacle[row] < 0 || rows.share[row] < most_of_it) continue;
+        if (rows.obstacle[row] < 0 || rows.share[row] < least_handed_share) continue;
         const int* known = places_.find(of_cloth_feature(key));
         if (!known || rows.distance[row] < rows.distance[*known]) places_.at(of_cloth_feature(key)) = number;
     }

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr double stick_rate = 0.2;  // thicknesses a second, below it friction between cloths is a damper
-constexpr double share_of_matrix =
-    0.5;  // of the step matrix that the contact stiffness takes: softer sinks, stiffer takes Newton longer
 
 /// What a_k of a row's vertices makes at the contact: the mean by weight against an obstacle; between cloths, where both sides
 /// give way, 1 / sum w_k^2/a_k.
@@ -25,7 +23,8 @@ double at_contact(const ContactRows& rows, std::size_t row, Value value) {
 
 /// 1/dt^2 for the share of the masses: of this step where the obstacle comes or goes by a fifth of the thickness or more.
 double inverse_square_dt(const ContactRows& rows, std::size_t row, const ContactStep& step) {
-    const double displacement = std::abs(rows.direction[row].dot(rows.obstacle_displacement[row])) / (0.2 * rows.thickness[row]);
+    const double displacement =
+        std::abs(rows.direction[row].dot(rows.obstacle_displacement[row])) / (moving_obstacle_share * rows.thickness[row]);
     const double share = std::min(displacement, 1.0), longer = std::max(step.dt, step.stiffness_dt);
     return share / (step.dt * step.dt) + (1.0 - share) / (longer * longer);
 }
@@ -44,7 +43,8 @@ double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep
     }
     const double static_load = std::max(mass * step.gravity.norm(), press / squares);
     const double of_matrix = inert * inverse_square_dt(rows, row, step) + (inertia - inert) / (step.dt * step.dt);
-    return rows.share[row] * std::max(share_of_matrix * of_matrix, 4.0 * static_load / rows.thickness[row]);
+    return rows.share[row] *
+           std::max(penalty_stiffness_share * of_matrix, static_load_factor * static_load / rows.thickness[row]);
 }
 
 /// Gives the vertices of a row their share of what presses them to the obstacle. Normals that point apart, of the two sides of a
@@ -55,7 +55,7 @@ void add_press(const ContactRows& rows, std::size_t row, double normal_force, To
         if (rows.weight[row][k] <= 0.0) continue;
         Touch& touch = touches.get(rows.vertex[row][k], rows.obstacle[row]);
         touch.press += (touch.press.dot(press) < 0.0 ? -1.0 : 1.0) * rows.weight[row][k] * press;
-        touch.reach = reach_share * rows.thickness[row];
+        touch.reach = stick_reach_share * rows.thickness[row];
     }
 }
 
@@ -115,8 +115,6 @@ Rubbing friction_between_cloths(const ContactRows& rows, std::size_t row, double
     return {-damping * slip, damping * speed * speed};
 }
 
-constexpr double least_share = 1e-3;  // of the thickness: a row is not taken to have been nearer at the start
-
 /// What a move took, and what the rows of its end, with their stiffness, would have stored at its start: their distances and the
 /// stretch of their grips, moved back with the relative velocity, J.
 struct PenaltyLoss {
@@ -134,7 +132,7 @@ void add_row_loss(const ContactMove& move, const CoupledBlock& block, PenaltyLos
     const std::size_t row = block.row;
     const double h = move.rows.thickness[row], d = move.rows.distance[row], k = stiffness_of(move, block);
     const double opened = move.rows.direction[row].dot(relative_move(move, row));
-    const double began = std::max(d - opened, std::min(d, least_share * h));
+    const double began = std::max(d - opened, std::min(d, least_start_share * h));
     const ContactPotential end = contact_potential(d, h, k), start = contact_potential(began, h, k);
     loss.stored_at_start += start.energy;
     loss.integrator += start.energy - end.energy - end.slope * opened;

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr double stiffness_share = 1.0;  // of the step matrix: softer takes more rounds, stiffer makes each take longer
-constexpr double recovery_time = 0.05;   // s, in which cloth that starts too near comes back to the thickness
 
 constexpr RowClearance leaving{.zone = projection_zone, .share = contact_accuracy};
 
@@ -40,14 +39,14 @@ double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep
         const double sharing = vertex < crowd.size() ? std::max(1.0, crowd[vertex]) : 1.0;
         yielding += sharing * weight * weight / quadratic_form(step.diagonal->block(rows.vertex[row][k]), rows.direction[row]);
     }
-    return stiffness_share / (step.dt * step.dt * yielding);
+    return projection_stiffness_share / (step.dt * step.dt * yielding);
 }
 
 /// The distance a row has to keep: the thickness; if it began nearer, only part of what is missing, as pushing it out at once
 /// would throw the cloth off. Where the row began follows from its velocity, but it was nowhere nearer than `kept`.
 double target_distance(double thickness, double kept, double began, double dt) {
     const double start = std::clamp(began, std::min(kept, thickness), thickness);
-    return thickness - (thickness - start) * std::exp(-dt / recovery_time);
+    return thickness - (thickness - start) * std::exp(-dt / thickness_recovery_time);
 }
 
 /// Where a row has to be, m.
@@ -60,7 +59,7 @@ struct RowRange {
 ContactPotential row_spring(const RowRange& range, double multiplier, double stiffness) {
     if (range.distance < range.target) return contact_potential(range.distance, range.target, stiffness);
     const double depth = range.target - range.distance;
-    const double steep = std::max(stiffness, multiplier / (0.9 * (range.zone - range.target)));
+    const double steep = std::max(stiffness, multiplier / (multiplier_zone_share * (range.zone - range.target)));
     return {0.5 * steep * depth * depth, steep * depth, steep};
 }
 
@@ -120,6 +119,8 @@ void take(const ContactRows& rows, const std::vector<RowForce>& forces, ContactM
 }
 
 }  // namespace
+
+double ProjectedContact::zone() const { return projection_zone; }
 
 void ProjectedContact::begin(const ContactMemory& memory) {
     multipliers_ = memory.lasting;

@@ -5,10 +5,6 @@
 
 namespace percale {
 
-/// The contact zone that a detector is asked for when contact is projected, in thicknesses: rows have to be known before they
-/// touch, and cloth at rest lies at the thickness itself.
-constexpr double projection_zone = 1.2;
-
 /// Contact as constraints: at the end of the step every row's distance is at least the thickness, and a row that is nearer pushes
 /// with just the force that this takes (Signorini), with friction in Coulomb's cone: a row sticks, without any slip, or its
 /// friction is mu times its push and against the slip.
@@ -20,7 +16,7 @@ constexpr double projection_zone = 1.2;
 /// rounds, the next step goes on from its forces.
 class ProjectedContact final : public ContactLaw {
 public:
-    double zone() const override { return projection_zone; }
+    double zone() const override;
 
     /// From the forces that lasted for two spans, as the push of an impact lasts for one.
     void begin(const ContactMemory& memory) override;

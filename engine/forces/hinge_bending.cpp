@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr double no_sine_square = 1e-28;  // of edge and arm: a triangle as narrow as that has no direction any more
 
 Vec3 bent(const Hinge& hinge, const Vectors& x) {
     Vec3 u = Vec3::Zero();
@@ -28,7 +28,7 @@ struct OpenHinge {
           second_normal(second_arm.cross(edge)) {}
 
     bool has_angle() const {
-        const double least = no_sine_square * edge.squaredNorm();
+        const double least = least_hinge_sine_square * edge.squaredNorm();
         return first_normal.squaredNorm() > least * first_arm.squaredNorm() &&
                second_normal.squaredNorm() > least * second_arm.squaredNorm();
     }

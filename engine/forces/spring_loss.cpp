@@ -1,6 +1,7 @@
 #include "spring_loss.h"
 
 #include "springs.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -9,12 +10,9 @@ Vec3 between(const SpringNetwork& network, const Vectors& x, int spring) {
     return x.at(network.first[spring]) - x.at(network.second[spring]);
 }
 
-/// Spring forces have no direction below this length, m (evaluate_springs).
-constexpr double shortest = 1e-18;
-
 Vec3 direction(const Vec3& x) {
     const double length = x.norm();
-    return length < shortest ? Vec3(Vec3::Zero()) : Vec3(x / length);
+    return length < least_spring_length ? Vec3(Vec3::Zero()) : Vec3(x / length);
 }
 
 }  // namespace

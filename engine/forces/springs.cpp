@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-/// Springs in bands are summed in longer chunks: each computes the springs of the vertices just before it (the guard) once more.
-constexpr int band_chunk_slices = 128;
 
 double length(const SpringNetwork& network, const Vectors& x, int k) {
     const int i = network.first[k], j = network.second[k];

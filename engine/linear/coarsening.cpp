@@ -3,15 +3,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
-constexpr double strong_share = 0.25;
-constexpr double lower_share = 0.03;  // where that keeps too many vertices
-constexpr double most_kept = 0.4;     // of all
 constexpr int most_weights = 3;
 constexpr int most_candidates = most_weights + 2;
-constexpr double smallest_weight = 0.03;  // weights below this share of the largest are dropped
 
 /// The strong neighbours of each vertex, and the strongest of all.
 struct Neighbours {
@@ -73,7 +71,8 @@ void find_candidates(const SpringGraph& graph, const Neighbours& near, const std
     found.clear();
     const auto offer = [&](int j) {
         if (kept[j] != 1 || std::any_of(found.begin(), found.end(), [j](const Candidate& c) { return c.vertex == j; })) return;
-        found.push_back({.square = std::max((graph.positions[i] - graph.positions[j]).squaredNorm(), 1e-24), .vertex = j});
+        found.push_back(
+            {.square = std::max((graph.positions[i] - graph.positions[j]).squaredNorm(), least_candidate_square), .vertex = j});
     };
     for (int k = near.start[i]; k < near.start[i + 1]; ++k) offer(near.vertex[k]);
     for (int k = near.start[i]; k < near.start[i + 1]; ++k) {
@@ -101,7 +100,7 @@ void weigh(const SpringGraph& graph, int i, std::vector<Candidate>& candidates) 
             ++used;
         }
         // All candidates may lie in a plane, or on a line.
-        second += 1e-3 * used * Eigen::Matrix3d::Identity();
+        second += moment_regularisation * used * Eigen::Matrix3d::Identity();
         const Vec3 g = -second.inverse() * first;
         Candidate* worst = nullptr;
         double sum = 0.0;
@@ -137,7 +136,7 @@ InterpolationRow interpolation_row(const SpringGraph& graph, int i, int fallback
     InterpolationRow row{.vertex = {-1, -1, -1}, .weight = {}, .count = 0};
     double sum = 0.0;
     for (const Candidate& c : candidates) {
-        if (row.count == most_weights || c.weight <= smallest_weight * candidates[0].weight) break;
+        if (row.count == most_weights || c.weight <= least_weight_share * candidates[0].weight) break;
         row.vertex[row.count] = c.vertex;
         row.weight[row.count++] = c.weight;
         sum += c.weight;
@@ -149,10 +148,10 @@ InterpolationRow interpolation_row(const SpringGraph& graph, int i, int fallback
 }  // namespace
 
 Coarsening coarsen(const SpringGraph& graph) {
-    Neighbours near(graph, strong_share);
+    Neighbours near(graph, strong_pair_share);
     std::vector<char> kept = independent_set(near);
-    if (static_cast<double>(std::count(kept.begin(), kept.end(), 1)) > most_kept * static_cast<double>(kept.size())) {
-        near = Neighbours(graph, lower_share);
+    if (static_cast<double>(std::count(kept.begin(), kept.end(), 1)) > most_kept_share * static_cast<double>(kept.size())) {
+        near = Neighbours(graph, lower_pair_share);
         kept = independent_set(near);
     }
     const int count = static_cast<int>(graph.positions.size());

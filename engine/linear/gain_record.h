@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "../tolerances.h"
+
 namespace percale {
 
 /// When to stop. A rule is off where its number is 0; the first that holds ends the solve.
@@ -51,12 +53,11 @@ private:
             ratio = std::max(ratio, in_window(k - 1) / before);
             all += before;
         }
-        if (ratio < slow) return last * std::max(1.0, count_ / (4.0 * window_));
-        const double bounded = std::min(ratio, 0.99);
+        if (ratio < slow_gain_ratio) return last * std::max(1.0, count_ / (4.0 * window_));
+        const double bounded = std::min(ratio, most_gain_ratio);
         return all * bounded / (1.0 - bounded);
     }
 
-    static constexpr double slow = 0.8;
     std::array<double, 40> recent_{};
     int window_;
     double total_ = 0.0;

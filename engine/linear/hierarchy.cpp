@@ -4,13 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr double least_coefficient = 1e-4;
-constexpr double worst_ratio = 0.8;  // of vertices kept: above it a level gains nothing
-constexpr int most_levels = 12;
-constexpr int sorting_window = 128;
 
 struct Entry {
     int index;
@@ -95,7 +92,7 @@ std::vector<Term> galerkin_terms(const SpringGraph& graph, const Coarsening& coa
         for (int a = 0; a < count; ++a) {
             for (int b = a + 1; b < count; ++b) {
                 const double coefficient = -entries[a].weight * entries[b].weight;
-                if (std::abs(coefficient) <= least_coefficient) continue;
+                if (std::abs(coefficient) <= least_galerkin_coefficient) continue;
                 const auto [first, second] = std::minmax(entries[a].index, entries[b].index);
                 terms.push_back({first, second, static_cast<int>(e), static_cast<float>(coefficient)});
             }
@@ -134,8 +131,8 @@ void sort_by_degree(SpringGraph& coarse, Coarsening& coarsening) {
         for (const int i : pair) ++degree[i];
     }
     std::iota(order.begin(), order.end(), 0);
-    for (std::size_t first = 0; first < count; first += sorting_window) {
-        std::stable_sort(order.begin() + first, order.begin() + std::min(count, first + sorting_window),
+    for (std::size_t first = 0; first < count; first += level_sorting_window) {
+        std::stable_sort(order.begin() + first, order.begin() + std::min(count, first + level_sorting_window),
                          [&](int a, int b) { return degree[a] > degree[b]; });
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -177,9 +174,9 @@ void set_entries(LevelPattern& level) {
 
 std::vector<LevelPattern> make_hierarchy(SpringGraph graph) {
     std::vector<LevelPattern> levels;
-    while (static_cast<int>(graph.positions.size()) > dense_vertices && static_cast<int>(levels.size()) < most_levels) {
+    while (static_cast<int>(graph.positions.size()) > dense_vertices && static_cast<int>(levels.size()) < most_multigrid_levels) {
         Coarsening coarsening = coarsen(graph);
-        if (static_cast<double>(coarsening.kept.size()) > worst_ratio * static_cast<double>(graph.positions.size())) break;
+        if (static_cast<double>(coarsening.kept.size()) > most_coarse_share * static_cast<double>(graph.positions.size())) break;
         LevelPattern level;
         SpringGraph coarse = coarse_graph(graph, galerkin_terms(graph, coarsening), level);
         sort_by_degree(coarse, coarsening);

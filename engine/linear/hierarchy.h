@@ -41,7 +41,4 @@ struct LevelPattern {
 /// -c_a c_b B (x_a - x_b)^2.
 std::vector<LevelPattern> make_hierarchy(SpringGraph graph);
 
-/// The largest bottom level that is solved densely.
-constexpr int dense_vertices = 30;
-
 }  // namespace percale

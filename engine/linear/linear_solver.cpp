@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr int dear_jacobi = 25;  // iterations from which multigrid is cheaper
-constexpr int most_jacobi = 40;  // after which a solve is left to multigrid
 
 bool has_slivers(const ClothModel& model) {
     return std::any_of(model.cloths.begin(), model.cloths.end(),
@@ -18,7 +17,7 @@ bool has_slivers(const ClothModel& model) {
 
 bool factorises(const ClothModel& model, LinearSolver wish) {
     if (wish != LinearSolver::automatic) return wish == LinearSolver::direct;
-    return model.vertex_count() <= most_factorised && has_slivers(model);
+    return model.vertex_count() <= most_factorised_vertices && has_slivers(model);
 }
 
 void StepSolver::set_model(const Compute& compute, const ClothModel& model, LinearSolver wish) {
@@ -49,9 +48,9 @@ SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vecto
     if (in_use_ == LinearSolver::cg) {
         const bool may_change = wish_ == LinearSolver::automatic && model_->vertex_count() > dense_vertices;
         SolveTarget first = target;
-        if (may_change) first.most_iterations = std::min(target.most_iterations, most_jacobi);
+        if (may_change) first.most_iterations = std::min(target.most_iterations, most_jacobi_iterations);
         const SolveReport report = solve_cg(matrix, b, first, space_, x);
-        if (!may_change || report.iterations <= dear_jacobi) return report;
+        if (!may_change || report.iterations <= dear_jacobi_iterations) return report;
         in_use_ = LinearSolver::multigrid;
         fill_multigrid();
         if (report.converged) return report;
@@ -64,7 +63,7 @@ SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vecto
     } else {
         report = solve_multigrid(matrix, *multigrid_, b, target, multigrid_space_, x);
         if (fresh_iterations_ == 0) fresh_iterations_ = report.iterations;
-        stale_ = report.iterations > 2 * fresh_iterations_ + 2;
+        stale_ = report.iterations > stale_level_factor * fresh_iterations_ + stale_level_excess;
     }
     report.iterations += before;
     if (report.converged) return report;

@@ -10,9 +10,6 @@
 
 namespace percale {
 
-/// Up to so many vertices `automatic` factorises where iterative solvers are not exact enough.
-constexpr int most_factorised = 2000;
-
 /// Whether steps of a model begin with a factorisation: where that is asked for, and where `automatic` finds slivers in small
 /// cloth of moduli.
 bool factorises(const ClothModel& model, LinearSolver wish);
@@ -22,7 +19,7 @@ bool factorises(const ClothModel& model, LinearSolver wish);
 /// `automatic` begins with block Jacobi and changes to multigrid, for good and in the midst of a solve, when that has turned out
 /// to be dearer, in products with the matrix: a multigrid solve costs about 8 products for its coarser matrices and 3 an
 /// iteration, and needs about five iterations where block Jacobi needs more than 25. Counts only, no clock: runs repeat bit for
-/// bit. Cloth of moduli with slivers is solved directly, up to `most_factorised` vertices.
+/// bit. Cloth of moduli with slivers is solved directly, up to `most_factorised_vertices` vertices.
 class StepSolver {
 public:
     /// Prepares for a model, which is viewed and must stay as it is.

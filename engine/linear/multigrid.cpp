@@ -2,14 +2,10 @@
 
 #include <algorithm>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-// Block Jacobi leaves eigenvalues up to 2 for springs and up to about 2.8 on coarser levels: damped by more than 2/2.8 it would
-// amplify them. Chebyshev polynomials of degree two need fewer cycles, but each reads the matrix twice as often.
-constexpr float damping = 0.7f;
-
-constexpr int pair_grain = 2048, least_shared_pairs = 16384;
 
 using Block = std::array<double, 6>;
 
@@ -323,7 +319,7 @@ void Multigrid::smooth(int k, bool fresh) {
     const SmoothPass pass{.inverse = level.inverse.data(),
                           .r = view(fresh ? level.b : level.r, level),
                           .x = view(level.x, level),
-                          .factor = damping,
+                          .factor = jacobi_damping,
                           .fresh = fresh};
     for_chunks(compute_, level.slices, [&](Slices range) { compute_.kernels->smooth(pass, range); });
 }

@@ -2,11 +2,10 @@
 
 #include <cmath>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr double float_reach = 1e-4;  // the residual to which floats are trusted, relative
-constexpr int most_refinements = 12;
 
 /// One solve: functions that share the system and its work space.
 class MixedSolve {
@@ -28,7 +27,7 @@ public:
             const double before = norm;
             norm = set_residual(b, x);
             report_.converged = norm <= target.relative_residual * first;
-            if (report_.converged || norm > 0.5 * before) return report_;
+            if (report_.converged || norm > most_refined_share * before) return report_;
         }
         return report_;
     }
@@ -57,7 +56,7 @@ private:
     bool solve_floats(double norm, double wanted, const SolveTarget& target) {
         const FloatVectors r = view(multigrid_.residual()), z = view(multigrid_.correction());
         const FloatVectors x = view(space_.x), p = view(space_.p), q = view(space_.q);
-        const SolveTarget scaled{.relative_residual = std::max(0.5 * wanted, float_reach),
+        const SolveTarget scaled{.relative_residual = std::max(float_aim_share * wanted, float_residual),
                                  .relative_gain = target.relative_gain,
                                  .absolute_gain = target.absolute_gain / (norm * norm)};
         std::fill(space_.x.begin(), space_.x.end(), 0.0f);

@@ -6,6 +6,7 @@
 
 #include "percale/error.h"
 #include "percale/mesh.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -37,7 +38,7 @@ void check_indices(const TriangleMesh& mesh, const std::string& name) {
 bool has_area(const TriangleMesh& mesh, const Triangle& t) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return (b - a).cross(c - a).norm() > 1e-12 * longest;
+    return (b - a).cross(c - a).norm() > least_triangle_area * longest;
 }
 
 void check_triangles(const TriangleMesh& mesh, const std::string& name) {

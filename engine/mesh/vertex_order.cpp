@@ -5,18 +5,17 @@
 #include <cstdint>
 #include <numeric>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr int key_bits = 20;          // of each axis
-constexpr std::size_t stretch = 256;  // vertices: 16 slices, 8 KB of positions
 
 using Cell = std::array<std::uint32_t, 3>;
 
 /// The bits of the three numbers in turn, the highest ones first.
 std::uint64_t interleave(const Cell& cell) {
     std::uint64_t key = 0;
-    for (int bit = key_bits; bit-- > 0;) {
+    for (int bit = curve_key_bits; bit-- > 0;) {
         for (const std::uint32_t number : cell) key = key << 1 | (number >> bit & 1U);
     }
     return key;
@@ -26,7 +25,7 @@ std::uint64_t interleave(const Cell& cell) {
 /// down, each half cube's reflections and exchanges of axes are undone in all finer levels; the octant numbers then are a Gray
 /// code.
 std::uint64_t curve_key(Cell cell) {
-    constexpr std::uint32_t top = 1U << (key_bits - 1);
+    constexpr std::uint32_t top = 1U << (curve_key_bits - 1);
     for (std::uint32_t level = top; level > 1; level >>= 1) {
         const std::uint32_t finer = level - 1;
         for (std::uint32_t& number : cell) {
@@ -52,7 +51,7 @@ std::vector<std::uint64_t> curve_keys(std::span<const Vec3> points) {
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
     }
-    const double scale = ((1U << key_bits) - 1U) / std::max((high - low).maxCoeff(), 1e-300);
+    const double scale = ((1U << curve_key_bits) - 1U) / std::max((high - low).maxCoeff(), 1e-300);
     std::vector<std::uint64_t> keys;
     for (const Vec3& x : points) {
         const Vec3 at = scale * (x - low);
@@ -74,9 +73,9 @@ std::vector<int> along_curve(std::span<const Vec3> points) {
 
 VertexOrder memory_order(std::span<const Vec3> rest, std::span<const int> springs) {
     VertexOrder order{.place = std::vector<int>(rest.size()), .vertex = along_curve(rest)};
-    for (std::size_t from = 0; from < rest.size(); from += stretch) {
+    for (std::size_t from = 0; from < rest.size(); from += vertex_sorting_window) {
         const auto first = order.vertex.begin() + static_cast<long>(from);
-        const auto last = order.vertex.begin() + static_cast<long>(std::min(rest.size(), from + stretch));
+        const auto last = order.vertex.begin() + static_cast<long>(std::min(rest.size(), from + vertex_sorting_window));
         std::stable_sort(first, last, [&](int a, int b) { return springs[a] > springs[b]; });
     }
     for (std::size_t at = 0; at < rest.size(); ++at) order.place[order.vertex[at]] = static_cast<int>(at);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
@@ -41,11 +43,6 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
     return result;
 }
 
-constexpr double least_filled = 0.7;  // of the places of all bands
-/// Vertices. Wider grids leave the caches: the many arrays that bands read side by side then are slower than slices, which read
-/// one (percale_force_cost at N = 257: a product took 1.5 times as long).
-constexpr std::size_t longest_guard = 512;
-
 /// The bands of a network, if few bands hold all springs, each place at most one.
 BandPattern find_bands(const SpringNetwork& network, int vertex_count) {
     BandPattern bands;
@@ -62,10 +59,10 @@ BandPattern find_bands(const SpringNetwork& network, int vertex_count) {
         if (*place) return {};
         *place = true;
     }
-    if (network.size() < least_filled * bands.count * vertex_count) return {};
+    if (network.size() < least_band_filling * bands.count * vertex_count) return {};
     const int widest = *std::max_element(bands.offset, bands.offset + bands.count);
     bands.guard = static_cast<std::size_t>((widest + slice_lanes - 1) / slice_lanes) * slice_lanes;
-    if (bands.guard > longest_guard) return {};
+    if (bands.guard > longest_band_guard) return {};
     bands.padded = static_cast<std::size_t>((vertex_count + slice_lanes - 1) / slice_lanes) * slice_lanes;
     return bands;
 }

@@ -68,7 +68,5 @@ void set_model_clamps(std::span<const double> free, ClothModel& model);
 /// Longest edge of a triangle over its height there at rest, largest of a cloth of moduli on a free mesh: its stiffness across is
 /// by as much larger than along. 0 for other cloth.
 double largest_aspect(const ClothModel& model, const ClothRange& cloth);
-/// From there on iterative solvers stop too early.
-constexpr double sliver_aspect = 100.0;
 
 }  // namespace percale

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -16,7 +17,6 @@ constexpr std::string_view measured =
     "measured: Wang, O'Brien and Ramamoorthi, Data-driven elastic models for cloth, ACM Transactions on Graphics 30(4), 2011; "
     "moduli at small strain, mean bending; their coupling of warp and weft is left out, which leaves them positive definite";
 constexpr double standard_gravity = 9.80665;  // m/s^2
-constexpr double damping_time = 2e-3;         // s; not measured
 
 struct Moduli {
     double warp, weft, shear;  // N/m
@@ -24,7 +24,7 @@ struct Moduli {
 
 Fabric fabric_of(double area_density, const Moduli& moduli, double bend_stiffness) {
     Fabric fabric{.area_density = area_density, .springs = {.structural = 0.0}, .spring_damping = 0.0};
-    fabric.damping_time = damping_time;
+    fabric.damping_time = preset_damping_time;
     fabric.stretch_stiffness = {moduli.warp, moduli.weft};
     fabric.shear_stiffness = moduli.shear;
     fabric.bend_stiffness = bend_stiffness;

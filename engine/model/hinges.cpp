@@ -6,12 +6,10 @@
 #include <utility>
 
 #include "mesh/topology.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr double least_angle = 1e-6;  // rad, a rest shape with smaller ones is flat
-constexpr double equal_cells = 1e-6;  // relative to their size
 
 /// A triangle on one side of an edge: its height over the edge, and the foot of the height, from 0 at the edge's first vertex to
 /// 1 at its second.
@@ -28,7 +26,7 @@ Side side_of(const Vec3& a, const Vec3& edge, const Vec3& opposite) {
 double rest_angle(const std::array<Vec3, 4>& x) {
     const Vec3 edge = x[1] - x[0], first = edge.cross(x[2] - x[0]), second = (x[3] - x[0]).cross(edge);
     const double angle = std::atan2(first.cross(second).dot(edge.normalized()), first.dot(second));
-    return std::abs(angle) > least_angle ? angle : 0.0;
+    return std::abs(angle) > least_rest_angle ? angle : 0.0;
 }
 
 Hinge triangle_hinge(const MeshEdge& edge, std::span<const Vec3> rest, double bend_stiffness) {
@@ -67,11 +65,11 @@ public:
         if (mesh_.columns < 2 || mesh_.rows < 2) return false;
         const Vec3 along = at(1, 0) - at(0, 0), across = at(0, 1) - at(0, 0);
         const double size = along.norm() + across.norm();
-        if (std::abs(along.dot(across)) > equal_cells * size * size) return false;
+        if (std::abs(along.dot(across)) > grid_cell_error * size * size) return false;
         for (int r = 0; r < mesh_.rows; ++r) {
             for (int c = 0; c < mesh_.columns; ++c) {
                 const Vec3 regular = at(0, 0) + c * along + r * across;
-                if ((at(c, r) - regular).norm() > equal_cells * size) return false;
+                if ((at(c, r) - regular).norm() > grid_cell_error * size) return false;
             }
         }
         return true;

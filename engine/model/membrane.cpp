@@ -6,6 +6,7 @@
 
 #include "mesh/topology.h"
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -100,7 +101,7 @@ Eigen::Matrix3d stress_law(const Fabric& fabric) {
 bool is_isotropic(const Fabric& fabric) {
     const auto [warp, weft] = *fabric.stretch_stiffness;
     const double shear = isotropic_shear(fabric);
-    return warp == weft && std::abs(fabric.shear_stiffness.value_or(shear) - shear) <= 1e-3 * shear;
+    return warp == weft && std::abs(fabric.shear_stiffness.value_or(shear) - shear) <= isotropic_shear_error * shear;
 }
 
 Eigen::Matrix3d triangle_stiffness(const std::array<Eigen::Vector2d, 3>& corner, const Eigen::Matrix3d& law) {

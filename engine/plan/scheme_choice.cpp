@@ -9,16 +9,10 @@
 #include "percale/stability.h"
 #include "plan_costs.h"
 #include "schemes/schemes.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr int power_iterations = 40;
-constexpr double safety = 0.8;                // of the estimated stable step
-constexpr double usual_implicit = 1.0 / 240;  // s, of adaptive TR-BDF2
-constexpr double most_stiff = 3.0;            // w dt of the trapezoid
-constexpr int fine_sheet = 4000;              // vertices
-constexpr int most_parts = 1000;              // of a step, far more than are cheaper than an implicit one
 
 std::string rough_number(double value) {
     char text[32];
@@ -28,7 +22,7 @@ std::string rough_number(double value) {
 
 /// y = -Jq x by central differences of all elastic forces, for |x| = 1.
 void multiply_shapes(const StepScene& scene, const ClothState& state, const Vectors& x, Vectors& y) {
-    const double reach = 1e-5 * scene.model.springs.rest_length.front();
+    const double reach = shape_difference_share * scene.model.springs.rest_length.front();
     ElasticSpace space;
     ClothState moved = state;
     add_scaled(moved.positions, -reach, x);
@@ -127,13 +121,13 @@ SchemeChoice choose_scheme(const StepScene& scene, const ClothState& state, cons
     const bool adaptive = scene.settings.adaptive;
     const Scheme implicit = implicit_choice(scene), short_steps = explicit_choice(scene);
     if (has_contact(scene)) return {implicit, 1, "explicit schemes take no contact"};
-    const double stable = safety * stable_step(scene, state, short_steps), dt = scene.settings.time_step;
+    const double stable = stable_step_share * stable_step(scene, state, short_steps), dt = scene.settings.time_step;
     const double parts = adaptive ? 1.0 : std::max(1.0, std::ceil(dt / stable));
     const double tries = adaptive ? 3.0 : 1.0;  // a whole step and two halves
     const double length = adaptive ? stable : dt / parts;
     const double explicit_cost = tries * facts_of(short_steps).force_evaluations / length;
-    const double other_cost = implicit_cost(scene, facts, implicit, adaptive ? std::min(dt, usual_implicit) : dt);
-    const bool cheaper = explicit_cost < other_cost && parts <= most_parts;
+    const double other_cost = implicit_cost(scene, facts, implicit, adaptive ? std::min(dt, usual_implicit_step) : dt);
+    const bool cheaper = explicit_cost < other_cost && parts <= most_explicit_parts;
     std::string reason = "a second of " + word(short_steps) + " in steps of " + rough_number(length) + " s costs " +
                          rough_number(explicit_cost) + " evaluations of all springs, one of " + word(implicit) + " " +
                          rough_number(other_cost);
@@ -144,7 +138,7 @@ bool can_be_chosen(const StepScene& scene, Scheme scheme, int parts) {
     const Scheme wish = scene.settings.scheme;
     if (wish != Scheme::automatic) return scheme == wish && parts == 1;
     if (scheme == explicit_choice(scene) && !has_contact(scene))
-        return parts >= 1 && parts <= (scene.settings.adaptive ? 1 : most_parts);
+        return parts >= 1 && parts <= (scene.settings.adaptive ? 1 : most_explicit_parts);
     return scheme == implicit_choice(scene) && parts == 1;
 }
 
@@ -180,14 +174,14 @@ std::vector<std::string> step_warnings(const StepScene& scene, const ClothState&
     const bool undamped = plan.scheme == Scheme::trapezoid || plan.scheme == Scheme::implicit_midpoint;
     if (undamped && !scene.settings.adaptive) {
         const double stiff = dt * std::sqrt(largest_square(scene, state));
-        if (stiff > most_stiff) {
+        if (stiff > most_ringing_phase) {
             warnings.push_back(step + " is " + rough_number(stiff) +
                                " times the reciprocal of the highest frequency: what is so stiff rings under " +
                                word(plan.scheme) +
                                " and can gain energy; use backward_euler, or tr_bdf2 with time_step = \"auto\"");
         }
     }
-    if (plan.implicit && scene.settings.newton_iterations == 1 && scene.model.vertex_count() > fine_sheet) {
+    if (plan.implicit && scene.settings.newton_iterations == 1 && scene.model.vertex_count() > fine_sheet_vertices) {
         warnings.push_back("newton_iterations = 1 with " + std::to_string(scene.model.vertex_count()) +
                            " vertices: one linear solve leaves fine cloth far from the end of its step; allow more");
     }

@@ -6,16 +6,12 @@
 #include <limits>
 
 #include "schemes.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double least_stable = 1e-6;      // of 1/|lambda|: shorter stable steps count as none
-constexpr double march = 1.02;             // from one trial to the next
-constexpr double factor_rounding = 1e-12;  // of |R|
-constexpr double beyond_all = 4.0;         // of 1/|lambda|: no Taylor polynomial of degree 4 or less is stable there
 
 /// 1 + z + ... + z^degree/degree!
 Complex taylor(int degree, Complex z) {
@@ -37,14 +33,14 @@ Complex eigenvalue(const Oscillator& oscillator) {
 double taylor_limit(int degree, const Oscillator& oscillator) {
     const Complex lambda = eigenvalue(oscillator);
     const double size = std::abs(lambda);
-    const auto stable = [&](double dt) { return std::abs(taylor(degree, lambda * dt)) <= 1.0 + factor_rounding; };
-    double inside = least_stable / size, outside = inside;
-    while (stable(outside) && outside * size < beyond_all) {
+    const auto stable = [&](double dt) { return std::abs(taylor(degree, lambda * dt)) <= 1.0 + growth_rounding; };
+    double inside = least_stable_step / size, outside = inside;
+    while (stable(outside) && outside * size < beyond_stable_step) {
         inside = outside;
-        outside *= march;
+        outside *= stable_step_march;
     }
     if (outside == inside) return 0.0;
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < stable_step_halvings; ++k) {
         const double middle = 0.5 * (inside + outside);
         (stable(middle) ? inside : outside) = middle;
     }

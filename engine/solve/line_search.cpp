@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr int most_trials = 10;  // of one line search
-/// Slopes beyond the minimum, over the first one's size, up to which a step is taken whatever the objective says: friction is not
-/// in it, and steps that overshoot by more go to and fro for ever. Less where contact is projected, unless the step changes
-/// little: rows that were in no matrix stop the cloth half-way, and the next step would lead back as far.
-constexpr double most_turned = 0.9, most_projected = 0.3;
-constexpr double slope_left = 0.6;       // of a full step, from where on going further pays for its evaluation
-constexpr double flat_slope = 1e-12;     // of the objective: what slopes say below is rounding
-constexpr double longest_further = 3.0;  // steps, by the secant
 
 double slope_at(const StageEquations& equations, const StagePoint& point) {
     return dot(equations.stage().scene.compute, point.residual, equations.space().direction);
@@ -26,7 +19,7 @@ LineTrial line_from(const StageEquations& equations, bool small) {
     const StagePoint& current = equations.space().current;
     LineTrial line{.start_objective = current.objective, .start_slope = slope_at(equations, current)};
     const bool may_turn = stage.scene.settings.newton_iterations == 1 || current.rows.size() == 0 || is_flat(line);
-    if (!may_turn) line.most_turned = stage.projects() && !small ? most_projected : most_turned;
+    if (!may_turn) line.most_turned = stage.projects() && !small ? most_projected_slope : most_turned_slope;
     return line;
 }
 
@@ -43,8 +36,8 @@ void evaluate_trial(StageEquations& equations, LineTrial& line) {
 bool go_on(StageEquations& equations, LineTrial line) {
     const ImplicitStage& stage = equations.stage();
     const double ratio = line.slope / line.start_slope;
-    if (!(ratio > slope_left) || !stage.options.line_search || stage.scene.settings.newton_iterations == 1) return false;
-    const double further = std::min(ratio / std::max(1.0 - ratio, 0.1), longest_further);
+    if (!(ratio > slope_left_share) || !stage.options.line_search || stage.scene.settings.newton_iterations == 1) return false;
+    const double further = std::min(ratio / std::max(1.0 - ratio, least_secant_fall), longest_secant_step);
     line.start_objective = line.objective;
     line.start_slope = line.slope;
     equations.aim(further);
@@ -59,17 +52,17 @@ bool go_on(StageEquations& equations, LineTrial line) {
 bool accept_trial(double fraction, const LineTrial& trial) {
     if (!std::isfinite(trial.objective) || !std::isfinite(trial.slope)) return false;
     if (trial.slope > trial.most_turned * std::abs(trial.start_slope)) return false;
-    const bool gentle = trial.slope <= 0.9 * std::abs(trial.start_slope);
-    if (trial.objective <= trial.start_objective + 1e-4 * fraction * trial.start_slope) return true;
+    const bool gentle = trial.slope <= gentle_slope * std::abs(trial.start_slope);
+    if (trial.objective <= trial.start_objective + armijo_share * fraction * trial.start_slope) return true;
     if (!trial.objective_known) return gentle;
-    const bool flat = trial.objective <= trial.start_objective + 1e-9 * std::abs(trial.start_objective);
+    const bool flat = trial.objective <= trial.start_objective + flat_objective * std::abs(trial.start_objective);
     return flat && gentle;
 }
 
 double shorten(const LineTrial& trial) {
     const double rise = trial.slope - trial.start_slope;
-    if (!(rise > 0.0) || !std::isfinite(rise)) return 0.5;
-    return std::clamp(-trial.start_slope / rise, 0.15, 0.6);
+    if (!(rise > 0.0) || !std::isfinite(rise)) return blind_shortening;
+    return std::clamp(-trial.start_slope / rise, least_shortening, most_shortening);
 }
 
 LineResult search_line(StageEquations& equations, const TimeError& error) {
@@ -82,7 +75,7 @@ LineResult search_line(StageEquations& equations, const TimeError& error) {
     LineTrial line = line_from(equations, result.small);
     double fraction = 1.0, kept = 1.0;
     bool accepted = false;
-    for (int trial = 0; trial < most_trials; ++trial) {
+    for (int trial = 0; trial < most_line_trials; ++trial) {
         if (trial > 0) equations.aim(fraction);
         kept = equations.cut();
         evaluate_trial(equations, line);

@@ -38,7 +38,4 @@ struct LineResult {
 /// accept_trial agrees; further by the secant where the slope has hardly fallen.
 LineResult search_line(StageEquations& equations, const TimeError& error);
 
-/// Newton has solved for a motion when an iteration changes less than this share of the time error.
-constexpr double share_of_time_error = 0.25;
-
 }  // namespace percale

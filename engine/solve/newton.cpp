@@ -7,13 +7,10 @@
 #include "line_search.h"
 #include "newton_stop.h"
 #include "stage_equations.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr double estimated_share = 0.1;  // of the time error: an estimated change below it counts as small
-constexpr int most_rounds = 6;           // of contact multipliers in one stage
-constexpr double round_share = 0.01;     // of the thickness at most: contact less exact takes another round
 
 /// Where the search for a motion stands.
 struct Search {
@@ -52,7 +49,7 @@ bool next_change_is_small(const StageEquations& equations, const TimeError& erro
     const bool by_residual = equations.stage().scene.settings.newton_tolerance.has_value();
     if (search.iteration == 0 || by_residual || !equations.arrived() || search.matrix_is_old) return false;
     if (!estimate_direction(equations)) return false;
-    return change_is_small(error, change_to(equations, equations.space().current.velocities), estimated_share);
+    return change_is_small(error, change_to(equations, equations.space().current.velocities), estimated_share_of_time_error);
 }
 
 bool meets_tolerance(const StageEquations& equations, const NewtonReport& report) {
@@ -106,7 +103,7 @@ double enough_contact(const ImplicitStage& stage, const TimeError& error, const 
     const double square = squared_error(error, 0, model.vertex_count(), velocities);
     const double time_error = 0.5 * stage.base.h * std::sqrt(square / total_mass(stage.scene));
     const double thickness = *std::min_element(model.thickness.begin(), model.thickness.end());
-    return std::clamp(share_of_time_error * time_error, contact_accuracy * thickness, round_share * thickness);
+    return std::clamp(share_of_time_error * time_error, contact_accuracy * thickness, contact_round_share * thickness);
 }
 
 bool correct_contact(StageEquations& equations, const TimeError& error) {
@@ -154,7 +151,7 @@ NewtonReport solve_stage(const ImplicitStage& stage, NewtonSpace& space, StageEn
     NewtonReport report;
     Search search;
     bool solved = find_motion(equations, error, search, report);
-    for (int round = 0; solved && round < most_rounds && correct_contact(equations, error); ++round) {
+    for (int round = 0; solved && round < most_contact_rounds && correct_contact(equations, error); ++round) {
         ++search.iteration;
         solved = find_motion(equations, error, search, report);
     }

@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "contact/contact_law.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr double thickness_over_smallest_change = 5e4;  // without contact; below that iterations are pointless
-constexpr double energy_accuracy = 0.05;                // of the linear solve, in the energy norm
 
 double squared_from(const TimeError& error, int first, int count, const Vectors& velocities, const Vectors& from) {
     const double *free = error.free->data(), *mass = error.model->mass.data();
@@ -67,9 +65,10 @@ bool change_is_small(const TimeError& error, const NewtonChange& change, double 
             0.5 * error.dt * std::sqrt(squared_error(error, cloth.first, cloth.count, change.ahead) / cloth.mass);
         const double thickness = model.thickness[cloth.first];
         const double least = change.in_contact ? contact_accuracy * thickness : thickness / thickness_over_smallest_change;
-        const double floor = std::min(least, 0.1 * error.allowance);
+        const double floor = std::min(least, negligible_allowance_share * error.allowance);
         return moved <= share * time_error + floor &&
-               error.dt * std::sqrt(worst) <= 2.0 * share * error.dt * std::sqrt(worst_error) + 10.0 * floor;
+               error.dt * std::sqrt(worst) <=
+                   worst_vertex_factor * share * error.dt * std::sqrt(worst_error) + worst_vertex_floor_factor * floor;
     });
 }
 
@@ -85,13 +84,15 @@ SolveTarget solve_target(const TimeError& error, const NewtonProgress& progress,
                          const Vectors& velocities) {
     const bool first = progress.iteration == 0;
     if (tolerance) {
-        const double wanted = 0.3 * *tolerance / std::max(progress.residual, 1e-300);
-        const double forcing = first ? 0.1 : std::clamp(0.9 * progress.ratio * progress.ratio, 1e-6, 0.1);
-        return {.relative_residual = std::min(0.3, std::max(forcing, wanted))};
+        const double wanted = last_forcing_share * *tolerance / std::max(progress.residual, 1e-300);
+        const double forcing =
+            first ? most_forcing : std::clamp(forcing_factor * progress.ratio * progress.ratio, least_forcing, most_forcing);
+        return {.relative_residual = std::min(loosest_forcing, std::max(forcing, wanted))};
     }
-    const double change =
-        first ? 0.0 : energy_accuracy * energy_accuracy * squared_error(error, 0, error.model->vertex_count(), velocities);
-    return {.relative_residual = 1e-10, .relative_gain = energy_accuracy, .absolute_gain = change};
+    const double change = first ? 0.0
+                                : linear_energy_accuracy * linear_energy_accuracy *
+                                      squared_error(error, 0, error.model->vertex_count(), velocities);
+    return {.relative_residual = least_linear_residual, .relative_gain = linear_energy_accuracy, .absolute_gain = change};
 }
 
 }  // namespace percale

@@ -25,9 +25,6 @@ struct StepAttempt {
     bool contact = false;
 };
 
-/// Shorter steps than this are accepted whatever their error, s.
-constexpr double shortest_step = 1e-7;
-
 /// The length to try next: the remaining time divided evenly into steps no longer than the control's, s.
 double next_length(const StepControl& control, double remaining);
 

@@ -5,15 +5,10 @@
 
 #include "forces/springs.h"
 #include "step/step.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr double most_strain = 0.5;
-constexpr double good_strain = 0.1;             // relaxing ends there
-constexpr int most_relaxations = 60;            // steps
-constexpr double relaxation_step = 1.0 / 60.0;  // s
-constexpr double seen_part = 0.1;               // of the thickness: smaller moves are not counted
 
 /// What steps change besides positions; put back when relaxing is over.
 class Paused {
@@ -89,7 +84,7 @@ std::vector<StartMove> moves_of(const World& world, const ClothRange& cloth, std
     if (first == own.end()) return moves;
     for (int v = cloth.first; v < cloth.first + cloth.count; ++v) {
         const double displacement = (world.state.cloth.points[v] - before[v]).norm();
-        if (displacement <= seen_part * world.scene.model.thickness[v]) continue;
+        if (displacement <= told_move_share * world.scene.model.thickness[v]) continue;
         StartMove& move = move_out_of(cause[v] >= 0 ? cause[v] : *first, moves);
         ++move.vertices_moved;
         move.largest_move = std::max(move.largest_move, displacement);
@@ -125,10 +120,10 @@ StartRepair repair_start(World& world) {
         world.scene.detector->untangle(before.points, {world.scene.script.free.data(), before.points.size()});
     if (!out) return {.obstruction = "no way out was found"};
     place(world, out->positions);
-    relax(world, std::max(good_strain, strain_before));
+    relax(world, std::max(good_start_strain, strain_before));
     StartRepair repair;
     const double strain_after = strain(world);
-    if (strain_after > std::max(most_strain, strain_before))
+    if (strain_after > std::max(most_start_strain, strain_before))
         repair.obstruction = strain_text(strain_after);
     else if (world.scene.detector->check_start(world.state.cloth.points).any())
         repair.obstruction = "no clear way out was found";

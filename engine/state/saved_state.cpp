@@ -5,6 +5,7 @@
 
 #include "percale/error.h"
 #include "support/hash.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -39,7 +40,8 @@ std::array<char, name_length> letters(std::string_view name) {
 bool is_proper(const Pose& pose) {
     const Rotation& q = pose.rotation;
     const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
-    return pose.translation.allFinite() && std::abs(square - 1.0) <= 1e-6 && pose.scale > 0.0 && std::isfinite(pose.scale);
+    return pose.translation.allFinite() && std::abs(square - 1.0) <= unit_square_error && pose.scale > 0.0 &&
+           std::isfinite(pose.scale);
 }
 
 std::uint64_t checksum(std::span<const std::byte> content) {

@@ -9,6 +9,7 @@
 #include "plan/planning.h"
 #include "plan/scheme_choice.h"
 #include "support/hash.h"
+#include "tolerances.h"
 
 namespace percale {
 

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-constexpr double still_time = 0.5;     // s
-constexpr double still_share = 0.002;  // of the thickness
-constexpr double weight_share = 0.02;  // of a vertex's weight
 
 /// One cloth, and how far it may stray, m.
 struct RestCheck {
@@ -27,8 +25,8 @@ bool is_still(const RestCheck& check, const Vectors& positions, const Vectors& a
 bool is_balanced(const RestCheck& check, const Vectors& forces) {
     const auto& [scene, cloth, bound] = check;
     // A force m a moves a vertex by a t^2/2.
-    const double least = 2.0 * bound / (still_time * still_time);
-    const double acceleration = std::max(weight_share * scene.settings.gravity.norm(), least);
+    const double least = 2.0 * bound / (rest_time * rest_time);
+    const double acceleration = std::max(rest_force_share * scene.settings.gravity.norm(), least);
     for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
         if (scene.is_free(i) && forces.at(i).norm() > acceleration * scene.model.mass[i]) return false;
     }
@@ -43,7 +41,7 @@ void update_cloth(const RestCheck& check, const Vectors& forces, const Vectors& 
         rest.still_time = 0.0;
         for (int i = cloth.first; i < cloth.first + cloth.count; ++i) anchor.set(i, positions.at(i));
     }
-    rest.asleep = rest.still_time >= still_time && is_balanced(check, forces);
+    rest.asleep = rest.still_time >= rest_time && is_balanced(check, forces);
 }
 
 void fall_asleep(ClothState& cloth, RestState& rest, StepReport& last) {
@@ -81,7 +79,7 @@ void update_rest(const StepScene& scene, const Vectors& forces, ClothState& clot
     }
     for (std::size_t c = 0; c < rest.cloths.size(); ++c) {
         const ClothRange& range = scene.model.cloths[c];
-        const RestCheck check{scene, range, still_share * scene.model.thickness[range.first]};
+        const RestCheck check{scene, range, rest_displacement_share * scene.model.thickness[range.first]};
         update_cloth(check, forces, cloth.positions, rest.anchor, rest.cloths[c]);
         report.sleeping_cloths += rest.cloths[c].asleep;
     }

@@ -7,11 +7,10 @@
 #include "schemes/schemes.h"
 #include "span/advance.h"
 #include "span/targets.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-constexpr int most_halvings = 6;  // of one span, one inside the other
 
 /// Of spans, dropped ones too.
 void add_figures(const SpanResult& span, StepReport& report) {

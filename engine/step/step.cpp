@@ -7,14 +7,10 @@
 #include "motion.h"
 #include "plan/planning.h"
 #include "solve_step.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-/// s per second: how fast the time step that contact stiffness is made for (StepState::contact_dt) may become shorter. Stiffness
-/// goes as 1/dt^2. A contact that stiffens while it is compressed gains energy from nothing; one that stiffens slowly against its
-/// period, 2 pi sqrt(2) dt, gains almost none.
-constexpr double fastest_shortening = 0.05;
 
 StepReport begin_report(double time_step) {
     StepReport report;
@@ -38,7 +34,7 @@ double plan_step(World& world) {
     world.plan_outdated = false;
     set_motion_of_step(scene, world.state.cloth, world.state.time);
     const double dt = scene.settings.time_step;
-    if (scene.plan.solve) world.state.contact_dt = std::max(dt, world.state.contact_dt - fastest_shortening * dt);
+    if (scene.plan.solve) world.state.contact_dt = std::max(dt, world.state.contact_dt - fastest_contact_shortening * dt);
     return work;
 }
 

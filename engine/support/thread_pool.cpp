@@ -4,12 +4,10 @@
 #include <thread>
 
 #include "stage_timer.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-// Regions are tens of microseconds long: going to sleep between them would cost as much again.
-constexpr int spins = 1000;
 
 void relax() {
 #if defined(__x86_64__)
@@ -19,7 +17,7 @@ void relax() {
 
 /// Waits until `value` is no longer `old`; returns what it is then.
 int wait_for_change(const std::atomic<int>& value, int old, bool spin) {
-    for (int k = 0; spin && k < spins; ++k) {
+    for (int k = 0; spin && k < most_spins; ++k) {
         const int now = value.load(std::memory_order_acquire);
         if (now != old) return now;
         relax();

@@ -5,18 +5,16 @@
 
 #include "percale/error.h"
 #include "percale/options.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 
 namespace {
 
-constexpr int default_steps = 4;                             // of each scheme
-constexpr double default_tolerances[] = {1e-2, 1e-3, 1e-4};  // m/s, of adaptive steps
-
 void add_default_steps(const SceneSource& source, const std::string& scheme, const CompareHooks& hooks,
                        std::vector<Variant>& variants) {
     const std::optional<Survivor> survivor = largest_surviving_step(source, scheme, hooks.stop_asked);
-    double step = survivor ? survivor->step : 1.0 / 60.0;
+    double step = survivor ? survivor->step : largest_compared_step;
     for (int k = 0; k < (survivor ? default_steps : 1); ++k, step *= 0.5) variants.push_back({scheme, step, 0.0});
     if (scheme != "tr_bdf2") return;
     for (const double tolerance : default_tolerances) variants.push_back({scheme, 0.0, tolerance});
@@ -44,7 +42,7 @@ std::vector<Variant> all_variants(const SceneSource& source, const CompareSettin
     std::vector<Variant> variants;
     for (const std::string& scheme : wanted_schemes(source, settings)) {
         if (settings.steps.empty() && settings.tolerances.empty()) {
-            is_refused(source, scheme) ? variants.push_back({scheme, 1.0 / 60.0, 0.0})
+            is_refused(source, scheme) ? variants.push_back({scheme, largest_compared_step, 0.0})
                                        : add_default_steps(source, scheme, hooks, variants);
         }
         for (const double step : settings.steps) variants.push_back({scheme, step, 0.0});

@@ -6,17 +6,13 @@
 #include <utility>
 
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double largest_step = 1.0 / 60.0;  // s
-constexpr int most_halvings = 14;
-constexpr double torn = 10.0;  // stretch of an edge beyond which a finite end is none
-/// Changes that fall by less than this factor, as often in turn as a candidate has patience, have stopped falling.
-constexpr double least_progress = 1.25;
 
 struct Candidate {
     const char* scheme;
@@ -65,7 +61,7 @@ bool Refinement::halve() {
     coarse_ = std::exchange(fine_, {step, std::move(run)});
     const Distances change = distances_between(coarse_.run.state, fine_.run.state);
     uncertainty_ = richardson(change, change_);
-    stalled_ = change.rms * least_progress > change_ ? stalled_ + 1 : 0;
+    stalled_ = change.rms * least_halving_progress > change_ ? stalled_ + 1 : 0;
     change_ = change.rms;
     return true;
 }
@@ -103,18 +99,18 @@ bool has_contact(const SceneSource& source) { return source({}).has_contact(); }
 
 std::optional<Survivor> largest_surviving_step(const SceneSource& source, const std::string& scheme,
                                                const std::function<bool()>& stop_asked) {
-    double step = largest_step;
-    for (int k = 0; k <= most_halvings; ++k, step *= 0.5) {
+    double step = largest_compared_step;
+    for (int k = 0; k <= most_step_halvings; ++k, step *= 0.5) {
         VariantRun run = run_variant(source, {.scheme = scheme, .time_step = step}, stop_asked);
         if (run.end == VariantEnd::refused) throw SceneError(run.reason);
-        if (run.end == VariantEnd::finished && run.state.stretch < torn) return Survivor{step, std::move(run)};
+        if (run.end == VariantEnd::finished && run.state.stretch < torn_stretch) return Survivor{step, std::move(run)};
     }
     return std::nullopt;
 }
 
 Distances richardson(const Distances& change, double before) {
-    const double ratio = std::min(before / change.rms, 16.0);
-    return std::isfinite(before) && ratio >= 2.0 ? scaled(change, 1.0 / (ratio - 1.0)) : change;
+    const double ratio = std::min(before / change.rms, most_richardson_ratio);
+    return std::isfinite(before) && ratio >= least_richardson_ratio ? scaled(change, 1.0 / (ratio - 1.0)) : change;
 }
 
 Reference make_reference(const SceneSource& source, double wanted, const std::function<bool()>& stop_asked) {

@@ -16,9 +16,6 @@ struct Reference {
     bool chaotic = false;        // growth above chaos_growth: positions cannot be compared, only invariants
 };
 
-constexpr double disturbance_at_start = 1e-6;  // m, of every free vertex
-constexpr double chaos_growth = 1000.0;
-
 /// A run that came to an end, with its step.
 struct Survivor {
     double step = 0.0;  // s

@@ -6,6 +6,7 @@
 
 #include "common/text.h"
 #include "report/csv.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 

@@ -9,13 +9,15 @@
 #include "frames/frame_formats.h"
 #include "percale/error.h"
 #include "run/vertex_selection.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 
 std::string length_text(const Variant& variant) {
     if (variant.time_step <= 0.0) return "tolerance " + number_text(variant.tolerance) + " m/s";
     const double rate = 1.0 / variant.time_step, whole = std::round(rate);
-    if (whole >= 10.0 && std::abs(rate - whole) <= 1e-9 * whole) return "1/" + std::to_string(static_cast<long>(whole)) + " s";
+    if (whole >= 10.0 && std::abs(rate - whole) <= whole_rate_rounding * whole)
+        return "1/" + std::to_string(static_cast<long>(whole)) + " s";
     return number_text(variant.time_step) + " s";
 }
 

@@ -7,11 +7,10 @@
 #include "percale/certify.h"
 #include "percale/cleaning.h"
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
-
-constexpr std::size_t shown_elements = 4;
 
 std::string element_text(int element) { return std::to_string(element); }
 std::string element_text(const VertexPair& edge) { return "(" + std::to_string(edge[0]) + ", " + std::to_string(edge[1]) + ")"; }
@@ -63,22 +62,21 @@ private:
     std::vector<Finding> found_;
 };
 
-/// Bodies and garments are 0.1 to some 10 m large.
 void find_size(const ExaminedMesh& mesh, Findings& found) {
     const double extent = mesh.facts.extent();
     const std::string size = "it is " + short_number(extent) + " m large";
-    if (mesh.from_file && extent >= 50.0) {
-        const bool centimetres = extent < 500.0;
+    if (mesh.from_file && extent >= centimetre_extent) {
+        const bool centimetres = extent < millimetre_extent;
         found.add(Severity::warning, "size", size + ", which looks like another unit than m",
                   std::string("say unit = \"") + (centimetres ? "cm" : "mm") + "\" beside its mesh, which makes it " +
                       short_number(extent * (centimetres ? 0.01 : 0.001)) + " m, if it is not meant so");
     }
-    if (mesh.from_file && extent <= 2e-3) {
+    if (mesh.from_file && extent <= tiny_extent) {
         found.add(Severity::warning, "size", size + ", which looks like a unit too much or a pose.scale too small",
                   "leave out its unit (m), or enlarge it by pose.scale = " + short_number(extent > 0.0 ? 1.0 / extent : 1.0) +
                       ", which makes it 1 m, if it is not meant so");
     }
-    if (mesh.facts.farthest() <= 1e4 * extent) return;
+    if (mesh.facts.farthest() <= farthest_extents * extent) return;
     const Vec3 back = -0.5 * (mesh.facts.lowest + mesh.facts.highest);
     found.add(Severity::warning, "far_from_origin",
               size + ", but " + short_number(mesh.facts.farthest()) +
@@ -89,16 +87,15 @@ void find_size(const ExaminedMesh& mesh, Findings& found) {
 
 /// Beyond this exact tests of orientation overflow.
 bool is_beyond_tests(const ExaminedMesh& mesh, Findings& found) {
-    constexpr double largest = 1e75;
-    if (mesh.facts.farthest() <= largest) return false;
+    if (mesh.facts.farthest() <= largest_coordinate) return false;
     found.add(Severity::error, "size", "its coordinates reach " + short_number(mesh.facts.farthest()) + " m, 1e75 m at most",
               "scale the mesh down, to m");
     return true;
 }
 
 CrossingSearch search_crossings(const TriangleMesh& mesh) {
-    constexpr long most_pairs = 1000, tests_a_triangle = 100, least_tests = 1000000;
-    return find_crossings(mesh, most_pairs, std::max(least_tests, tests_a_triangle * static_cast<long>(mesh.triangles.size())));
+    return find_crossings(mesh, most_crossings,
+                          std::max(least_crossing_tests, crossing_tests_per_triangle * static_cast<long>(mesh.triangles.size())));
 }
 
 JoinedMesh as_given(const TriangleMesh& mesh) {
@@ -155,7 +152,7 @@ void find_cloth_shape(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
 void find_cloth_edges(const ExaminedMesh& cloth, const Fabric& fabric, Findings& found) {
     const MeshFacts& facts = cloth.facts;
     const std::string shortest = short_number(facts.shortest_edge), longest = short_number(facts.longest_edge);
-    if (facts.shortest_edge > 0.0 && facts.longest_edge > 1e3 * facts.shortest_edge)
+    if (facts.shortest_edge > 0.0 && facts.longest_edge > most_edge_ratio * facts.shortest_edge)
         found.add(Severity::warning, "edge_lengths", "its edges are " + shortest + " to " + longest + " m long",
                   "remesh it with edges of about " + short_number(facts.median_edge) + " m, its median");
     if (facts.parts > 1)
@@ -166,16 +163,18 @@ void find_cloth_edges(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
         found.add(Severity::warning, "thick_for_edges",
                   thickness + "more than its median edge, " + short_number(facts.median_edge) +
                       " m: contacts of neighbours get into each other's way",
-                  "set thickness = " + short_number(0.5 * facts.median_edge) + " or below in its fabric, or take longer edges");
+                  "set thickness = " + short_number(advised_thickness * facts.median_edge) +
+                      " or below in its fabric, or take longer edges");
     else if (fabric.self_contact && fabric.thickness > facts.shortest_edge)
         found.add(Severity::note, "thick_for_edges",
                   thickness + "more than its shortest edge, " + shortest + " m: with self_contact such places keep less",
                   "set thickness = " + shortest + " or below in its fabric for an even gap");
-    if (fabric.thickness < 1e-5 * facts.farthest())
+    if (fabric.thickness < least_thickness_of_place * facts.farthest())
         found.add(Severity::warning, "thin_for_place",
                   thickness + "too little " + short_number(facts.farthest()) + " m from the origin: gaps of a thousandth of it" +
                       " drown in rounding",
-                  "move the scene to the origin, or set thickness = " + short_number(1e-5 * facts.farthest()) + " or above");
+                  "move the scene to the origin, or set thickness = " +
+                      short_number(least_thickness_of_place * facts.farthest()) + " or above");
 }
 
 /// What cleaning leaves out before the first step, silently as far as the run is concerned.
@@ -254,8 +253,8 @@ std::vector<Finding> examine_obstacle(const ExaminedMesh& obstacle) {
 std::vector<Finding> examine_pair(const ExaminedMesh& cloth, const ExaminedMesh& obstacle) {
     Findings found(cloth);
     const double size = cloth.facts.extent(), other = obstacle.facts.extent(), ratio = std::max(size / other, other / size);
-    if ((cloth.from_file || obstacle.from_file) && ratio > 50.0) {
-        const bool centimetres = ratio < 500.0;
+    if ((cloth.from_file || obstacle.from_file) && ratio > centimetre_ratio) {
+        const bool centimetres = ratio < millimetre_ratio;
         const std::string larger = size > other ? "it" : obstacle.name, smaller = size > other ? obstacle.name : "it";
         found.add(Severity::warning, "size_ratio",
                   "it is " + short_number(size) + " m large and " + obstacle.name + " " + short_number(other) +
@@ -268,12 +267,12 @@ std::vector<Finding> examine_pair(const ExaminedMesh& cloth, const ExaminedMesh&
     for (int axis = 0; axis < 3; ++axis) sides[axis] = obstacle.facts.highest[axis] - obstacle.facts.lowest[axis];
     std::sort(sides.begin(), sides.end());
     const double edge = cloth.facts.median_edge;
-    if (edge > 0.5 * sides[1])
+    if (edge > coarse_edge * sides[1])
         found.add(Severity::warning, "coarse_cloth",
                   "its edges of " + short_number(edge) + " m are too long to lie around " + obstacle.name + ", " +
                       short_number(sides[1]) + " m across",
-                  "mesh the cloth with edges of " + short_number(0.125 * sides[1]) + " m or less");
-    else if (obstacle.from_file && edge > 10.0 * obstacle.facts.median_edge)
+                  "mesh the cloth with edges of " + short_number(advised_edge * sides[1]) + " m or less");
+    else if (obstacle.from_file && edge > coarse_edge_ratio * obstacle.facts.median_edge)
         found.add(Severity::note, "coarse_cloth",
                   "its edges of " + short_number(edge) + " m are more than ten times those of " + obstacle.name + ", " +
                       short_number(obstacle.facts.median_edge) + " m: detail of the obstacle will not show in the cloth",

@@ -15,6 +15,7 @@
 #include "run/scene_plan.h"
 #include "run/start_fault.h"
 #include "run/step_count.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
@@ -164,7 +165,6 @@ void find_idle_expectations(const Scene& scene, const Meshes& meshes, std::vecto
 
 /// Largest number of parts that a step asks for: turns of 15 degrees, or four thicknesses of still cloth.
 double most_parts(const Scene& scene, const ObstacleSpec& obstacle) {
-    constexpr double turn = 0.2617993877991494;  // pi / 12
     double thickness = 1.0;
     for (const ClothSpec& cloth : scene.cloths) {
         const auto fabric = scene.fabrics.find(cloth.fabric);
@@ -179,17 +179,16 @@ double most_parts(const Scene& scene, const ObstacleSpec& obstacle) {
     for (const double start : starts) {
         if (start >= scene.duration) continue;
         const MotionAmount amount = motion_between(obstacle, start, start + dt);
-        parts = std::max({parts, amount.angle / turn, amount.path / (4.0 * thickness)});
+        parts = std::max({parts, amount.angle / largest_part_turn, amount.path / (largest_part_displacement * thickness)});
     }
-    return std::ceil(parts - 1e-9);
+    return std::ceil(parts - part_rounding);
 }
 
 void find_fast_motion(const Scene& scene, std::vector<Finding>& found) {
-    constexpr double dear = 100.0;
     for (const ObstacleSpec& obstacle : scene.obstacles) {
         const double parts = most_parts(scene, obstacle);
         if (parts <= 1.0) continue;
-        found.push_back({.severity = parts > dear ? Severity::warning : Severity::note,
+        found.push_back({.severity = parts > dear_motion_parts ? Severity::warning : Severity::note,
                          .kind = "fast_obstacle",
                          .place = place_text(obstacle.place),
                          .what = "obstacle '" + obstacle.name + "' moves so fast that near cloth a step is made in up to " +
@@ -212,15 +211,15 @@ Finding plan_warning(const Scene& scene, const ScenePlan& plan, const std::strin
     if (!flies_apart) return finding;
     finding.severity = Severity::error;
     finding.kind = "unstable_step";
-    finding.fix =
-        "set step.time_step = " + short_number(0.8 * plan.stable_step) + " or below, or step.scheme = \"backward_euler\"";
+    finding.fix = "set step.time_step = " + short_number(advised_stable_share * plan.stable_step) +
+                  " or below, or step.scheme = \"backward_euler\"";
     return finding;
 }
 
 void find_start_moves(const BuiltScene& built, std::vector<Finding>& found) {
     for (const StartMove& move : built.simulation.start_repair()) {
         const ClothSpec& cloth = built.scene.cloths[static_cast<std::size_t>(move.cloth)];
-        const bool far = move.largest_move > 2.0 * built.scene.fabrics.at(cloth.fabric).thickness;
+        const bool far = move.largest_move > far_start_move * built.scene.fabrics.at(cloth.fabric).thickness;
         found.push_back({.severity = far ? Severity::warning : Severity::note,
                          .kind = "start_moved",
                          .place = place_text(cloth.place),
@@ -283,8 +282,7 @@ std::vector<Finding> examine_scene(const Scene& scene) {
 
 std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan) {
     std::vector<Finding> found;
-    constexpr double seconds_a_spring = 5e-9, much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
-    constexpr double bytes_a_vertex = 60.0, bytes_a_triangle = 20.0;
+    constexpr double seconds_a_spring = 5e-9, bytes_a_vertex = 60.0, bytes_a_triangle = 20.0;
     const Scene& scene = built.scene;
     const auto warn = [&](const std::string& kind, const std::string& what, const std::string& fix) {
         found.push_back({.severity = Severity::warning, .kind = kind, .place = scene.file, .what = what, .fix = fix});

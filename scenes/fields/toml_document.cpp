@@ -7,6 +7,7 @@
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
@@ -71,8 +72,6 @@ void move_to(TomlNode& node, const SourcePlace& place) {
     for (TomlNode& item : node.items) move_to(item, place);
     for (TomlNode& entry : node.entries) move_to(entry, place);
 }
-
-constexpr int deepest_key = 256;
 
 // A key like a.a.a... makes a table inside a table for each dot, and reading and removing these takes a call inside a call:
 // without a limit a hostile file would exhaust the stack.

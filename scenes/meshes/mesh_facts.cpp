@@ -7,11 +7,10 @@
 #include <span>
 #include <tuple>
 
+#include "tolerances.h"
+
 namespace percale::scenes {
 namespace {
-
-constexpr double flat_height = 1e-12;   // over the longest edge, in its lengths
-constexpr double sliver_height = 1e-2;  // likewise
 
 /// For each vertex the first one at the same place.
 std::vector<int> first_at_place(const std::vector<Vec3>& x) {
@@ -169,12 +168,11 @@ std::vector<Part> parts_of(const TriangleMesh& mesh, const MeshFacts& facts, Uni
 }
 
 std::vector<Part> largest_solids(const std::vector<Part>& parts) {
-    constexpr std::size_t most = 100;
     std::vector<Part> solids;
     for (const Part& part : parts)
         if (part.used && !part.open && part.volume > 0.0) solids.push_back(part);
     std::sort(solids.begin(), solids.end(), [](const Part& a, const Part& b) { return a.volume > b.volume; });
-    if (solids.size() > most) solids.resize(most);
+    if (solids.size() > most_solids) solids.resize(most_solids);
     return solids;
 }
 

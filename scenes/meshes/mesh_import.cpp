@@ -20,6 +20,7 @@
 #include "meshes/ply_file.h"
 #include "meshes/stl_header.h"
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 
@@ -106,10 +107,9 @@ void append(const aiMesh& part, const aiMatrix4x4& to_world, const std::string& 
 
 /// How often a file places its parts is not bounded by its size: vertices allowed.
 std::size_t most_vertices(const aiScene& scene) {
-    constexpr std::size_t always = 100000, most_copies = 64;
     std::size_t own = 0;
     for (unsigned k = 0; k < scene.mNumMeshes; ++k) own += scene.mMeshes[k]->mNumVertices;
-    return std::max(always, most_copies * own);
+    return std::max(always_allowed_vertices, most_part_copies * own);
 }
 
 void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, const std::string& file, std::size_t most,

@@ -1,20 +1,14 @@
 #include "meshes/primitives.h"
 
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 
-namespace {
-
-constexpr int sphere_level = 4;      // 5120 triangles
-constexpr int segments_around = 48;  // of what is round about the y axis
-
-}  // namespace
-
 TriangleMesh SphereShape::mesh() const { return make_sphere(radius, sphere_level); }
 TriangleMesh BoxShape::mesh() const { return make_box(size); }
-TriangleMesh CylinderShape::mesh() const { return make_cylinder(radius, height, segments_around); }
-TriangleMesh CapsuleShape::mesh() const { return make_capsule(radius, height, segments_around); }
+TriangleMesh CylinderShape::mesh() const { return make_cylinder(radius, height, shape_segments_around); }
+TriangleMesh CapsuleShape::mesh() const { return make_capsule(radius, height, shape_segments_around); }
 TriangleMesh PlaneShape::mesh() const { return make_plane(half_size); }
 
 namespace {

@@ -20,15 +20,13 @@
 #include "run/measures.h"
 #include "run/scene_build.h"
 #include "run/start_fault.h"
+#include "tolerances.h"
 
 namespace percale::program {
 
 namespace {
 
 using namespace percale::scenes;
-
-constexpr double rest_speed = 0.02;  // m/s
-constexpr int rest_steps = 10;       // so many steps in a row below it: a swing that only turns around is not at rest
 
 struct DrapeOptions {
     std::string garment, body, out;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/svg_text.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 
@@ -146,8 +147,8 @@ LogAxis axis_around(const std::vector<double>& values, double from, double to) {
     if (values.empty()) return {0, 1, from, to};
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     // Rounding of the logarithm must not open another decade.
-    const int first = static_cast<int>(std::floor(std::log10(*least) + 1e-9));
-    const int last = static_cast<int>(std::ceil(std::log10(*most) - 1e-9));
+    const int first = static_cast<int>(std::floor(std::log10(*least) + decade_rounding));
+    const int last = static_cast<int>(std::ceil(std::log10(*most) - decade_rounding));
     return {first, std::max(last, first + 1), from, to};
 }
 

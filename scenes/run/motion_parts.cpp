@@ -5,14 +5,10 @@
 #include <numbers>
 
 #include "run/obstacle_motion.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
-
-constexpr double largest_turn = std::numbers::pi / 12.0;  // rad, in one part
-constexpr double largest_displacement = 4.0;              // thicknesses, in one part
-constexpr double most_motion_parts = 1e5;                 // what moves still farther in a part may block the cloth
-constexpr double part_rounding = 1e-9;                    // of a part
 
 /// Of the shortest turn from one to the other, rad.
 double angle_between(const Rotation& p, const Rotation& q) {
@@ -76,7 +72,7 @@ double parts_of_displacement(const BuiltScene& built, std::size_t obstacle, doub
     for (std::size_t i = 0; i < built.cloths.size(); ++i) {
         const ClothAhead cloth = cloth_ahead(built, i, dt);
         const double relative = path - (end - start).norm() + (end - start - cloth.displacement).norm();
-        if (swept.overlaps(cloth.extent)) parts = std::max(parts, relative / (largest_displacement * cloth.thickness));
+        if (swept.overlaps(cloth.extent)) parts = std::max(parts, relative / (largest_part_displacement * cloth.thickness));
     }
     return parts;
 }
@@ -108,7 +104,7 @@ int motion_parts(const BuiltScene& built, double dt) {
     double parts = 1.0;
     for (std::size_t i = 0; i < built.obstacles.size(); ++i) {
         const MotionAmount amount = motion_between(built.scene.obstacles[i], now, now + dt);
-        parts = std::max(parts, amount.angle / largest_turn);
+        parts = std::max(parts, amount.angle / largest_part_turn);
         if (amount.path > 0.0) parts = std::max(parts, parts_of_displacement(built, i, amount.path, dt));
     }
     return static_cast<int>(std::ceil(std::min(parts, most_motion_parts) - part_rounding));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tolerances.h"
+
 namespace percale::scenes {
 namespace {
 
@@ -19,12 +21,11 @@ Rotation sum(double s, const Rotation& a, double t, const Rotation& b) {
 }
 
 // (sin((1-f) a) p + sin(f a) q) / sin a with the angle a between p and q; of q and -q, the same turn, the nearer is taken.
-// Below a of 1e-5 the chord differs from the arc by less than rounding.
 Rotation between(const Rotation& p, const Rotation& q, double f) {
     const double dot = p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z;
     const double side = dot < 0.0 ? -1.0 : 1.0;
     const double angle = std::acos(std::min(1.0, std::abs(dot)));
-    if (angle < 1e-5) return sum(1.0 - f, p, side * f, q);
+    if (angle < least_arc) return sum(1.0 - f, p, side * f, q);
     return sum(std::sin((1.0 - f) * angle), p, side * std::sin(f * angle), q);
 }
 

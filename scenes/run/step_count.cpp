@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "percale/options.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
@@ -19,11 +20,11 @@ StepCount count_steps(double duration, double time_step) {
     // A duration written with 16 digits is a multiple of a step written with 16 digits only up to rounding.
     const double ratio = duration / time_step;
     const double whole = std::round(ratio);
-    if (whole >= 1.0 && std::abs(ratio - whole) <= 1e-9 * whole) return {static_cast<long>(whole), time_step};
+    if (whole >= 1.0 && std::abs(ratio - whole) <= whole_steps_rounding * whole) return {static_cast<long>(whole), time_step};
     const double full = std::floor(ratio);
     // A rounded time step leaves a remainder that is no step of its own: the last one takes it along.
     const double longer = duration - (full - 1.0) * time_step;
-    if (full >= 1.0 && ratio - full <= 1e-3 && longer <= longest_step()) return {static_cast<long>(full), longer};
+    if (full >= 1.0 && ratio - full <= least_last_step && longer <= longest_step()) return {static_cast<long>(full), longer};
     return {static_cast<long>(full) + 1, duration - full * time_step};
 }
 

@@ -4,11 +4,10 @@
 
 #include "percale/error.h"
 #include "run/obstacle_motion.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
-
-constexpr double step_rounding = 1e-9;  // of a step: times are sums of steps
 
 void move_obstacles(BuiltScene& built, double end) {
     for (std::size_t i = 0; i < built.obstacles.size(); ++i) {
@@ -22,7 +21,7 @@ void move_obstacles(BuiltScene& built, double end) {
 Timeline::Timeline(const BuiltScene& built) : events_(script_events(built.scene, built.cloth_meshes)) {}
 
 void Timeline::apply(BuiltScene& built, double time, double dt) {
-    while (next_event_ < events_.size() && events_[next_event_].time <= time + step_rounding * dt)
+    while (next_event_ < events_.size() && events_[next_event_].time <= time + event_rounding * dt)
         act(built, events_[next_event_++]);
     move_pins(built, time + dt);
     move_obstacles(built, time + dt);

@@ -6,11 +6,10 @@
 
 #include "common/text.h"
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
-
-constexpr double box_rounding = 1e-9;  // of the bounding box
 
 std::vector<int> sorted_once(std::vector<int> vertices) {
     std::sort(vertices.begin(), vertices.end());

@@ -8,6 +8,7 @@
 #include "percale/error.h"
 #include "shapes/mesh_relax.h"
 #include "shapes/surface_net.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 
@@ -89,20 +90,19 @@ double both_sides(std::span<const BodyPart> parts, const Vec3& point, double ble
 }
 
 Vec3 gradient(const Vec3& point) {
-    constexpr double step = 1e-5;  // m
     Vec3 slope;
     for (int axis = 0; axis < 3; ++axis) {
-        const Vec3 offset = step * Vec3::Unit(axis);
-        slope[axis] = (mannequin_distance(point + offset) - mannequin_distance(point - offset)) / (2.0 * step);
+        const Vec3 offset = normal_step * Vec3::Unit(axis);
+        slope[axis] = (mannequin_distance(point + offset) - mannequin_distance(point - offset)) / (2.0 * normal_step);
     }
     return slope;
 }
 
 /// Newton's method along the gradient: x <- x - d grad d / |grad d|^2.
 Vec3 on_surface(Vec3 x) {
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < most_surface_steps; ++round) {
         const double d = mannequin_distance(x);
-        if (std::abs(d) < 1e-12) break;
+        if (std::abs(d) < surface_error) break;
         const Vec3 slope = gradient(x);
         x -= d / slope.squaredNorm() * slope;
     }
@@ -133,10 +133,10 @@ TriangleMesh make_mannequin(double spacing) {
         if (seam) x[0] = 0.0;
         return x;
     };
-    relax(half, 4, project);
-    for (int round = 0; round < 3; ++round) {
-        collapse_short_edges(half, 0.5 * spacing);
-        relax(half, 5, project);
+    relax(half, mannequin_first_rounds, project);
+    for (int round = 0; round < mannequin_merges; ++round) {
+        collapse_short_edges(half, mannequin_merge_share * spacing);
+        relax(half, mannequin_rounds, project);
     }
     return mirrored(half);
 }

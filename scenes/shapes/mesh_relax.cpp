@@ -8,6 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "tolerances.h"
+
 namespace percale::scenes {
 
 namespace {
@@ -62,11 +64,11 @@ std::array<Triangle, 2> flipped(const Triangle& first, int k, const Triangle& se
 bool worth_flipping(const TriangleMesh& mesh, const std::array<Triangle, 2>& before, const std::array<Triangle, 2>& after) {
     const double gain = std::min(smallest_angle_of(mesh, after[0]), smallest_angle_of(mesh, after[1])) -
                         std::min(smallest_angle_of(mesh, before[0]), smallest_angle_of(mesh, before[1]));
-    if (gain < 1e-6) return false;
+    if (gain < least_flip_gain) return false;
     // Every new normal stays within 60 degrees of both old ones.
     for (const Triangle& now : after)
         for (const Triangle& was : before)
-            if (normal_of(mesh, now).normalized().dot(normal_of(mesh, was).normalized()) < 0.5) return false;
+            if (normal_of(mesh, now).normalized().dot(normal_of(mesh, was).normalized()) < least_normal_cosine) return false;
     return true;
 }
 
@@ -116,14 +118,13 @@ bool contains(const Triangle& t, int vertex) { return t[0] == vertex || t[1] == 
 
 /// Whether the triangles of `star` without `kept` survive the move of `gone` to `kept`.
 bool star_survives(const TriangleMesh& mesh, const std::vector<int>& star, int gone, int kept) {
-    constexpr double worst = 5.0 * std::numbers::pi / 180.0;
     for (const int t : star) {
         const Triangle& before = mesh.triangles[t];
         if (contains(before, kept)) continue;
         Triangle after = before;
         std::replace(after.begin(), after.end(), gone, kept);
-        if (smallest_angle_of(mesh, after) < worst) return false;
-        if (normal_of(mesh, after).normalized().dot(normal_of(mesh, before).normalized()) < 0.5) return false;
+        if (smallest_angle_of(mesh, after) < least_merged_angle) return false;
+        if (normal_of(mesh, after).normalized().dot(normal_of(mesh, before).normalized()) < least_normal_cosine) return false;
     }
     return true;
 }
@@ -157,9 +158,8 @@ void compact(TriangleMesh& mesh, const std::vector<bool>& gone) {
 }  // namespace
 
 int flip_edges(TriangleMesh& mesh) {
-    constexpr int most_sweeps = 30;
     int total = 0, flips = 1;
-    for (int sweep = 0; sweep < most_sweeps && flips > 0; ++sweep) total += flips = flip_sweep(mesh);
+    for (int sweep = 0; sweep < most_flip_sweeps && flips > 0; ++sweep) total += flips = flip_sweep(mesh);
     return total;
 }
 

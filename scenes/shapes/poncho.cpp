@@ -6,6 +6,7 @@
 
 #include "percale/error.h"
 #include "shapes/mesh_relax.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 
@@ -45,10 +46,9 @@ double hole_reach(const PonchoShape& shape, double cosine, double sine) {
 
 /// The closed curve that lies the given share of the way from the hole (0) to the outline (1), finely sampled.
 Ring curve(const PonchoShape& shape, double share) {
-    constexpr int samples = 4096;
     Ring points;
-    for (int k = 0; k < samples; ++k) {
-        const double angle = 2.0 * std::numbers::pi * k / samples;
+    for (int k = 0; k < poncho_samples; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / poncho_samples;
         const double cosine = std::cos(angle), sine = std::sin(angle);
         const double inner = hole_reach(shape, cosine, sine), outer = outline_reach(shape, cosine, sine);
         points.emplace_back((inner + share * (outer - inner)) * Vec3(cosine, 0.0, -sine));
@@ -93,13 +93,12 @@ void zip(TriangleMesh& mesh, int inner, int inner_count, int outer, int outer_co
 
 /// The rows of triangles that fit between hole and outline, at the height of an equilateral triangle.
 int ring_count(const PonchoShape& shape) {
-    constexpr int directions = 64;
     double mean = 0.0;
-    for (int k = 0; k < directions; ++k) {
-        const double angle = 2.0 * std::numbers::pi * k / directions;
+    for (int k = 0; k < poncho_directions; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / poncho_directions;
         mean += outline_reach(shape, std::cos(angle), std::sin(angle)) - hole_reach(shape, std::cos(angle), std::sin(angle));
     }
-    return static_cast<int>(std::lround(mean / directions / (0.5 * std::numbers::sqrt3 * shape.edge_length)));
+    return static_cast<int>(std::lround(mean / poncho_directions / (0.5 * std::numbers::sqrt3 * shape.edge_length)));
 }
 
 }  // namespace
@@ -123,13 +122,13 @@ TriangleMesh make_poncho(const PonchoShape& shape) {
     std::vector<bool> fixed;
     const Projection stay = [&](std::size_t v, const Vec3& moved) { return fixed[v] ? mesh.vertices[v] : moved; };
     flip_edges(mesh);
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < poncho_merges; ++round) {
         fixed = boundary_vertices(mesh);
-        relax(mesh, 10, stay);
-        collapse_short_edges(mesh, 0.65 * shape.edge_length);
+        relax(mesh, poncho_rounds, stay);
+        collapse_short_edges(mesh, poncho_merge_share * shape.edge_length);
     }
     fixed = boundary_vertices(mesh);
-    relax(mesh, 20, stay);
+    relax(mesh, poncho_last_rounds, stay);
     return mesh;
 }
 

@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "tolerances.h"
+
 namespace percale::scenes {
 
 namespace {
@@ -49,10 +51,10 @@ void fill_nearest(Lattice& lattice, std::span<const std::array<int, 3>> nodes) {
     const std::array<int, 3>* nearest = nullptr;
     for (const std::array<int, 3>& node : nodes)
         if (lattice.at(node) >= 0.0 && (nearest == nullptr || lattice.at(node) < lattice.at(*nearest))) nearest = &node;
-    lattice.distance[lattice.index(*nearest)] = -0.1 * lattice.spacing;
+    lattice.distance[lattice.index(*nearest)] = -filled_depth * lattice.spacing;
     if ((*nearest)[0] < 2) {  // its mirror image too
         const std::array<int, 3> image = {1 - (*nearest)[0], (*nearest)[1], (*nearest)[2]};
-        lattice.distance[lattice.index(image)] = -0.1 * lattice.spacing;
+        lattice.distance[lattice.index(image)] = -filled_depth * lattice.spacing;
     }
 }
 

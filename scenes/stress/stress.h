@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "../tolerances.h"
 #include "compare/compare_run.h"
 #include "stress/stress_watch.h"
 
@@ -35,12 +36,6 @@ struct StressHooks {
 /// The default matrix: a base sweep of time step, stiffness and scheme, and sweeps of masses, damping, meshes, starts and contact
 /// around some of its points. Always the same cells in the same order.
 std::vector<StressCell> stress_matrix();
-
-/// Of a cell, if not said otherwise.
-constexpr int usual_steps = 16;
-
-/// Just beyond their limit explicit schemes grow slowly, and their steps are cheap: they make so many times more of them.
-constexpr int explicit_factor = 8;
 
 /// Runs one cell for so many steps, of an explicit scheme `explicit_factor` times as many.
 StressRow run_cell(const StressCell& cell, int steps);

@@ -5,15 +5,11 @@
 #include <cmath>
 
 #include "common/text.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 
 namespace {
-
-// Shares of the energy put in.
-constexpr double rounding = 1e-9;
-constexpr double solver_share = 1e-6;  // what backward Euler's unfinished solves may add to its bound of 0
-constexpr double doubled = 1.0;        // the bound of schemes without a law of their own
 
 /// m <v, w>, J.
 double mass_product(const Simulation& simulation, ClothId cloth, std::span<const Vec3> v, std::span<const Vec3> w) {
@@ -85,7 +81,7 @@ void StressWatch::add_energy(const StepReport& report) {
     if (!backward_euler_) return;
     unbalanced_ += std::abs(energy.residual_work);
     // Springs that moved pins compress give more than a stretched cloth could: no law there.
-    if (energy.work != 0.0) figures.bound = doubled;
+    if (energy.work != 0.0) figures.bound = doubled_energy;
     figures.finite = figures.finite && std::isfinite(energy.total());
 }
 
@@ -106,7 +102,7 @@ void StressWatch::look(const StepReport& report, const Simulation& simulation) {
     add_energy(report);
     const StepEnergy& energy = report.energy;
     const double seen = energy.kinetic + energy.elastic + std::abs(energy.gravity);
-    const double put_in = inner_ + handled_ + fallen_ + rounding * seen;
+    const double put_in = inner_ + handled_ + fallen_ + energy_rounding * seen;
     const double risen = energy.total() - start_ - work_ - unbalanced_;
     if (risen > 0.0) figures.gain = std::max(figures.gain, risen / put_in);
     // What pins or seams move is not at v = 0 what it was at the start.
@@ -119,17 +115,17 @@ void StressWatch::look(const StepReport& report, const Simulation& simulation) {
 }
 
 double gain_bound(Scheme scheme, double time_step, double stable_step) {
-    if (scheme == Scheme::backward_euler) return solver_share;
+    if (scheme == Scheme::backward_euler) return unsolved_energy;
     // Symplectic Euler keeps v^2 + w^2 x^2 - dt w^2 x v of an oscillator: with r = dt w/2 its energy stays between (1 - r) and
     // (1 + r) times a number.
     const double share = time_step / stable_step;
-    if (scheme == Scheme::symplectic_euler && share < 1.0) return std::max(doubled, 2.0 * share / (1.0 - share));
-    return doubled;
+    if (scheme == Scheme::symplectic_euler && share < 1.0) return std::max(doubled_energy, 2.0 * share / (1.0 - share));
+    return doubled_energy;
 }
 
 StressVerdict verdict_of(const StressFigures& figures) {
     const bool good = figures.finite && figures.pins_kept;
-    const bool gained = figures.gain > figures.bound || figures.step_excess > solver_share;
+    const bool gained = figures.gain > figures.bound || figures.step_excess > unsolved_energy;
     const bool said = !figures.said.empty() || figures.status != "ok" || figures.not_converged > 0;
     if (!good || (gained && !said)) return StressVerdict::silent;
     if (figures.status == status_word(StepStatus::not_finite)) return StressVerdict::not_finite;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "engine/tolerances.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/tolerances.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
@@ -201,7 +202,7 @@ TEST_CASE("Friction opposes the slip over the step and stays below mu N") {
         CHECK(std::abs(friction.force.dot(n)) <= 1e-10 * friction.normal_force);
         CHECK(friction.force.dot(slip) <= -(1.0 - 1e-6) * friction.force.norm() * slip.norm());
         CHECK(smallest_eigenvalue(friction.block) >= -1e-10 * friction.block.norm());
-        if (slip.norm() > reach_share * h) CHECK(friction.force.norm() == Approx(mu * friction.normal_force).epsilon(1e-8));
+        if (slip.norm() > stick_reach_share * h) CHECK(friction.force.norm() == Approx(mu * friction.normal_force).epsilon(1e-8));
     }
 }
 
@@ -209,11 +210,11 @@ TEST_CASE("Within the reach friction is a spring whose matrix is its stiffness")
     Touch touch(1);
     touch.add_point(Vec3(0, 1, 0), 0.7 * h, 0.4);
     for (const double share : {0.0, 0.01, 0.5, 0.999}) {
-        touch.positions.set(0, Vec3(share * reach_share * h, 0.3, 0.0));
+        touch.positions.set(0, Vec3(share * stick_reach_share * h, 0.3, 0.0));
         const Friction friction = friction_of(touch);
         const double limit = 0.4 * friction.normal_force;
         CHECK(friction.force.x() == Approx(-limit * share).epsilon(1e-9).margin(1e-15));
-        const double entry = touch.step.dt * touch.step.dt * limit / (reach_share * h);
+        const double entry = touch.step.dt * touch.step.dt * limit / (stick_reach_share * h);
         CHECK((friction.block - Eigen::Vector3d(entry, 0.0, entry).asDiagonal().toDenseMatrix()).norm() < 1e-12 * entry);
     }
 }
@@ -252,13 +253,13 @@ TEST_CASE("At first sight a vertex is held if friction can stop it within the st
     touch.add_point(Vec3(0, 1, 0), 0.9 * h, 0.3);
     touch.positions.set(0, Vec3(1e-6, 0.0, 0.0));
     const double stopped = touch.step.dt * touch.step.dt * 0.3 * friction_of(touch).normal_force / 0.01;
-    REQUIRE(stopped > 2.0 * reach_share * h);
+    REQUIRE(stopped > 2.0 * stick_reach_share * h);
     for (const double share : {0.9, 1.1}) {
         touch.positions.set(0, Vec3(share * stopped, 0.0, 0.0));
         CHECK((friction_of(touch).block(0, 0) > 0.0) == (share < 1.0));
     }
     // What held on before and is beyond the reach has been sliding.
-    const std::vector<Grip> grips = {{0, 0, Vec3(reach_share * h, 0.0, 0.0)}};
+    const std::vector<Grip> grips = {{0, 0, Vec3(stick_reach_share * h, 0.0, 0.0)}};
     touch.start.grips = grips;
     touch.positions.set(0, Vec3(0.5 * stopped, 0.0, 0.0));
     CHECK(friction_of(touch).block(0, 0) < 1e-20);

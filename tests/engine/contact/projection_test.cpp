@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/solve/newton.h"
+#include "engine/tolerances.h"
 #include "tests/support/laws.h"
 #include "tests/support/plane_scenes.h"
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "engine/tolerances.h"
 #include "tests/support/catch.h"
 #include "tests/support/forces/spring_graphs.h"
 

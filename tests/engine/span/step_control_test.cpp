@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/tolerances.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/tolerances.h"
 #include "tests/scenes/compare_scenes.h"
 #include "tests/scenes/message_of.h"
 #include "tests/scenes/small_scenes.h"

@@ -1,0 +1,378 @@
+#pragma once
+
+#include <cstddef>
+
+/// Every numerical constant of the layer that decides something. What is no choice stands where it is used: sizes of arrays,
+/// numbers of a formula or of a scheme, limits of what a user may enter, what plans were measured to cost (plan/plan_costs.cpp),
+/// and how the kernels lay out and share their work (kernels/).
+///
+/// A constant of "cost alone" changes how long a step takes and how exactly it is solved, within what is asked for; it may still
+/// change the bits of a run. Lengths of contact are given as shares of the thickness, h: the distance below which cloth is in
+/// contact, usually 1 mm to 10 mm. (w: an angular frequency; dt: the time step.)
+namespace percale {
+
+// ---- Shared
+
+/// |q| - 1 of a rotation that a user gives, and |q|^2 - 1 of one in a saved state. Smaller: rotations read from text with six
+/// digits are refused. Larger: a quaternion that was never meant to be one is taken.
+constexpr double unit_length_error = 1e-6, unit_square_error = 1e-6;
+
+// ---- support/
+
+/// Looks at a counter before a thread goes to sleep: regions are tens of microseconds long, and sleeping between them would cost
+/// as much again. Cost alone.
+constexpr int most_spins = 1000;
+
+// ---- mesh/
+
+/// Twice the area over the square of the longest edge. Triangles with less are refused: their height is rounding. Smaller: a
+/// triangle without a direction gets into the model. Larger: real needles are refused.
+constexpr double least_triangle_area = 1e-12;
+
+/// Bits of each axis along the curve that vertices are ordered by; three axes fit into 63. Fewer: vertices of a fine mesh share a
+/// cell and keep their order. Cost alone.
+constexpr int curve_key_bits = 20;
+
+/// Vertices along the curve that are sorted by their springs: 16 slices, 8 KB of positions. More: neighbours lie farther apart
+/// in memory. Fewer: more padding. Cost alone.
+constexpr std::size_t vertex_sorting_window = 256;
+
+// ---- model/
+
+/// Radians. A rest shape with smaller angles is flat. 0: rounding makes every flat cloth a curved one, which costs more.
+constexpr double least_rest_angle = 1e-6;
+
+/// Share of a cell's size (of its square, for its corner's cosine). A grid whose cells differ by less is regular and gets hinges
+/// along its lines. Smaller: grids given in single precision get those of triangles. Larger: bending that is off by as much.
+constexpr double grid_cell_error = 1e-6;
+
+/// Share of the shear modulus that a fabric may differ from an isotropic one and count as isotropic.
+constexpr double isotropic_shear_error = 1e-3;
+
+/// Share of the places of all bands. Springs that fill fewer are kept in slices. Cost alone.
+constexpr double least_band_filling = 0.7;
+
+/// Vertices. Wider grids leave the caches: the many arrays that bands read side by side then are slower than slices, which read
+/// one (percale_force_cost at N = 257: a product took 1.5 times as long). Cost alone.
+constexpr std::size_t longest_band_guard = 512;
+
+/// Longest edge of a triangle over its height at rest. Cloth of moduli with more is factorised, or warned of. Larger: iterative
+/// solvers stop too early, with more error than the time step's.
+constexpr double sliver_aspect = 100.0;
+
+/// s. Damping time of the shipped fabrics, which was not measured. Larger: cloth moves as in oil. 0: it rings on.
+constexpr double preset_damping_time = 2e-3;
+
+// ---- forces/
+
+/// Slices. Springs in bands are summed in longer chunks: each begins with the springs of the guard before it once more. Cost
+/// alone; the order of sums depends on it.
+constexpr int band_chunk_slices = 128;
+
+/// Square of the sine between an edge and its neighbour at one vertex. A triangle as narrow as that has no direction any more,
+/// and its hinge no angle. 0: a division by 0.
+constexpr double least_hinge_sine_square = 1e-28;
+
+/// m. Shorter springs have no direction and no force; the kernels hold the square (kernels/spring_kernel.inl). If the two
+/// differ, the ledger counts forces that were none.
+constexpr double least_spring_length = 1e-18;
+
+// ---- contact/
+
+/// Share of h. A smaller change means nothing in contact. Larger: stages end before contact is solved. Smaller: iterations that
+/// change nothing one could see.
+constexpr double contact_accuracy = 2e-4;
+
+/// Share of h. How far a sticking contact gives before it slides. Larger: cloth creeps visibly before it holds. Smaller: the
+/// springs of friction get so stiff that Newton takes longer.
+constexpr double stick_reach_share = 0.01;
+
+/// Times h, the zone that a detector is asked for when contact is projected: rows have to be known before they touch, and cloth
+/// at rest lies at h itself. 1: rows come and go there. Larger: more rows that never touch.
+constexpr double projection_zone = 1.2;
+
+/// Share of its stiffness that a row has to take to be handed forces of others. Smaller: forces go to rows that hardly act.
+constexpr double least_handed_share = 0.5;
+
+/// Cosine between the directions of rows that hand forces over. Less: they may lie on two sides of a gap. 1: forces stay behind
+/// where facets turn.
+constexpr double least_handing_cosine = 0.9;
+
+/// Share of the step matrix that the stiffness of a projected row has. Smaller: more rounds of multipliers. Larger: each takes
+/// Newton longer.
+constexpr double projection_stiffness_share = 1.0;
+
+/// s, in which cloth that starts too near comes back to h. Shorter: it is thrown off. Longer: it stays nearer than it should.
+constexpr double thickness_recovery_time = 0.05;
+
+/// Share of the zone beyond its target within which a row's force has ended. 1: rows that leave the zone still push.
+constexpr double multiplier_zone_share = 0.9;
+
+/// Share of the step matrix that the contact stiffness takes. Smaller: cloth sinks in. Larger: Newton takes longer.
+constexpr double penalty_stiffness_share = 0.5;
+
+/// Times what presses on a row, over h: its least stiffness. At 4 cloth rests at no less than 3/4 h.
+constexpr double static_load_factor = 4.0;
+
+/// Share of h that an obstacle comes or goes in a step; from there on contact stiffness is all that of this step's length.
+/// Smaller: obstacles that hardly move throw up what lies on them. Larger: fast ones meet cloth that is too soft.
+constexpr double moving_obstacle_share = 0.2;
+
+/// h per second. Below it friction between cloths is a damper. Larger: cloth on cloth creeps. Smaller: it flickers between
+/// sticking and sliding.
+constexpr double stick_rate = 0.2;
+
+/// Share of h. A row is not taken to have been nearer at a move's start: the ledger's potential there has no bound.
+constexpr double least_start_share = 1e-3;
+
+// ---- schemes/: the longest stable step of a Runge-Kutta scheme is searched along a ray, in units of 1/|lambda|
+
+/// Shorter stable steps count as none.
+constexpr double least_stable_step = 1e-6;
+
+/// Factor from one trial to the next. Larger: a gap of the stable region may be stepped over. Cost.
+constexpr double stable_step_march = 1.02;
+
+/// Share of |R| that rounding adds to 1. 0: stable steps are found unstable.
+constexpr double growth_rounding = 1e-12;
+
+/// Where the search ends: no Taylor polynomial of degree 4 or less is stable there.
+constexpr double beyond_stable_step = 4.0;
+
+/// Halvings of the interval in which stability is lost; 53 exhaust a double.
+constexpr int stable_step_halvings = 60;
+
+// ---- linear/
+
+/// Iterations of block Jacobi from which multigrid is cheaper, and after which a solve is left to it. Cost alone.
+constexpr int dear_jacobi_iterations = 25, most_jacobi_iterations = 40;
+
+/// Times the iterations of the first solve with coarser levels, and iterations more: from there on these are made anew. Cost
+/// alone.
+constexpr int stale_level_factor = 2, stale_level_excess = 2;
+
+/// Vertices, up to which `automatic` factorises where iterative solvers are not exact enough. More: steps of seconds. Fewer:
+/// small cloth with slivers is not solved exactly.
+constexpr int most_factorised_vertices = 2000;
+
+/// Vertices of the largest bottom level of multigrid, which is inverted densely. Cost alone.
+constexpr int dense_vertices = 30;
+
+/// Damping of the block Jacobi smoother. It leaves eigenvalues up to 2 for springs and up to about 2.8 on coarser levels: damped
+/// by more than 2/2.8 it would amplify them. (Chebyshev polynomials of degree two need fewer cycles, but each reads the matrix
+/// twice as often.)
+constexpr float jacobi_damping = 0.7f;
+
+/// Pairs in a thread's part, and from which the work is shared out. Cost alone.
+constexpr int pair_grain = 2048, least_shared_pairs = 16384;
+
+/// Coefficient of a finer pair's block in a coarser one. Smaller ones are left out. Larger: coarser levels miss stiffness.
+constexpr double least_galerkin_coefficient = 1e-4;
+
+/// Share of vertices that a coarser level may keep; with more it gains nothing and the hierarchy ends.
+constexpr double most_coarse_share = 0.8;
+
+/// Levels of multigrid. Fewer: the bottom may be too large to be inverted.
+constexpr int most_multigrid_levels = 12;
+
+/// Vertices of a coarser level that are sorted by degree together. Cost alone.
+constexpr int level_sorting_window = 128;
+
+/// Share of the strongest pair at one end from which a pair is strong; the second where the first keeps too many vertices.
+/// Larger: coarser levels stay large. Smaller: they are poor where springs differ in stiffness.
+constexpr double strong_pair_share = 0.25, lower_pair_share = 0.03;
+
+/// Share of vertices kept, above which weaker pairs count too.
+constexpr double most_kept_share = 0.4;
+
+/// Share of the largest interpolation weight below which a weight is dropped. Smaller: denser levels.
+constexpr double least_weight_share = 0.03;
+
+/// Added to the second moment for each candidate: all may lie in a plane, or on a line. 0: a singular matrix.
+constexpr double moment_regularisation = 1e-3;
+
+/// m^2. Squares of distances between candidates are at least this, so that none divides by 0.
+constexpr double least_candidate_square = 1e-24;
+
+/// Share of the residual to which floats are trusted. Smaller: iterations that gain nothing. Larger: more refinements.
+constexpr double float_residual = 1e-4;
+
+/// Refinements of a solve in floats by residuals in doubles.
+constexpr int most_refinements = 12;
+
+/// Share of the wanted residual that a solve in floats aims at.
+constexpr double float_aim_share = 0.5;
+
+/// Share of the residual before that a refinement may leave; with more, floats have broken down.
+constexpr double most_refined_share = 0.5;
+
+/// Ratio of energy gains from one window to the next. Below it they fall fast, and what is likely to come is estimated by the
+/// last window alone. Larger: badly conditioned systems count as solved too early. (Inline, as a header reads it.)
+inline constexpr double slow_gain_ratio = 0.8;
+
+/// The largest ratio that the sum of what is to come is taken with. 1: no bound.
+inline constexpr double most_gain_ratio = 0.99;
+
+// ---- plan/
+
+/// Iterations for the highest frequency. Fewer: it is found too low, and the stable step too long.
+constexpr int power_iterations = 40;
+
+/// Share of the estimated stable step that `automatic` takes. 1: the estimate is a bound from above, cloth may fly apart.
+constexpr double stable_step_share = 0.8;
+
+/// s. What `automatic` takes adaptive TR-BDF2 to need where it compares costs.
+constexpr double usual_implicit_step = 1.0 / 240;
+
+/// w dt of trapezoid and implicit midpoint from which a plan warns that they ring.
+constexpr double most_ringing_phase = 3.0;
+
+/// Vertices, above which a plan warns of one Newton iteration a step.
+constexpr int fine_sheet_vertices = 4000;
+
+/// Parts of a step, far more than are cheaper than an implicit one.
+constexpr int most_explicit_parts = 1000;
+
+/// Share of a spring's length by which forces of triangles and hinges are differenced. Smaller: rounding. Larger: curvature.
+constexpr double shape_difference_share = 1e-5;
+
+// ---- solve/
+
+/// Trials of one line search. Fewer: steps are taken that lower nothing.
+constexpr int most_line_trials = 10;
+
+/// Slopes beyond the minimum, over the first one's size, up to which a step is taken whatever the objective says: friction is
+/// not in it, and steps that overshoot by more go to and fro for ever. Less where contact is projected, unless the step changes
+/// little: rows that were in no matrix stop the cloth half-way, and the next step would lead back as far.
+constexpr double most_turned_slope = 0.9, most_projected_slope = 0.3;
+
+/// The same where the objective is flat to rounding or not known, and the slope decides.
+constexpr double gentle_slope = 0.9;
+
+/// Share of the first slope by which the objective has to fall (Armijo's rule). Towards 1: good steps are shortened.
+constexpr double armijo_share = 1e-4;
+
+/// Share of the objective that it may rise and count as flat. 0: rounding refuses the last steps of a solve.
+constexpr double flat_objective = 1e-9;
+
+/// Slope over the objective: what slopes say below is rounding. 0: a search at the solution never ends.
+constexpr double flat_slope = 1e-12;
+
+/// The least and the largest factor of the next trial, and the one where the secant says nothing.
+constexpr double least_shortening = 0.15, most_shortening = 0.6, blind_shortening = 0.5;
+
+/// Share of the first slope that is left after a full step, from where on going further pays for its evaluation.
+constexpr double slope_left_share = 0.6;
+
+/// Steps by the secant, the longest; and the least fall of the slope, as a share of it, that the secant divides by.
+constexpr double longest_secant_step = 3.0, least_secant_fall = 0.1;
+
+/// Share of the time error. Newton has solved for a motion when an iteration changes less; the second where the change is only
+/// estimated. Larger: the solver's error is no longer small beside the time step's. Smaller: more iterations.
+constexpr double share_of_time_error = 0.25, estimated_share_of_time_error = 0.1;
+
+/// Rounds of contact multipliers in one stage. Fewer: projected contact is left inexact.
+constexpr int most_contact_rounds = 6;
+
+/// Share of h at most: contact less exact takes another round, however large the time error is.
+constexpr double contact_round_share = 0.01;
+
+/// h over the smallest change that means something without contact (2e-5 h). Smaller: cloth near rest is left unsolved. Larger:
+/// iterations that are pointless.
+constexpr double thickness_over_smallest_change = 5e4;
+
+/// Share of an adaptive stage's allowance below which a change means nothing.
+constexpr double negligible_allowance_share = 0.1;
+
+/// How much more a cloth's worst vertex may change than its mean: times the share of its time error, times what means nothing.
+constexpr double worst_vertex_factor = 2.0, worst_vertex_floor_factor = 10.0;
+
+/// Energy norm, relative. Accuracy of the linear solve. Larger: more Newton iterations. Smaller: each is dearer.
+constexpr double linear_energy_accuracy = 0.05;
+
+/// Relative residual at which a linear solve ends, whatever its energy.
+constexpr double least_linear_residual = 1e-10;
+
+/// With a residual to reach, the linear residual follows Newton's: factor of the squared ratio, its least and its largest value
+/// (Eisenstat and Walker 1996, choice 2, gamma = 0.9).
+constexpr double forcing_factor = 0.9, least_forcing = 1e-6, most_forcing = 0.1;
+
+/// Share of the residual to reach that the last linear solve aims at, and the largest linear residual at all.
+constexpr double last_forcing_share = 0.3, loosest_forcing = 0.3;
+
+// ---- span/: lengths of adaptive steps
+
+/// s. The first step: short, as a start may let go of something stiff.
+constexpr double first_adaptive_step = 5e-5;
+
+/// s. Shorter steps are accepted whatever their error. Longer: errors go unnoticed. Shorter: impacts take for ever.
+constexpr double shortest_step = 1e-7;
+
+/// Share of the allowance that the next step aims at. Towards 1: more rejected steps. Smaller: more steps.
+constexpr double wanted_error_share = 0.5;
+
+/// The least share that an error counts as, so that no step grows without bound after one without error.
+constexpr double least_error_share = 1e-6;
+
+/// s of allowance: what can be left over, and what a step in contact has at least. Larger: errors exceed the tolerance for as
+/// long. 0 in contact: impacts, whose error goes with dt, force the shortest step.
+constexpr double most_left_allowance = 0.02, least_contact_allowance = 0.005;
+
+/// Exponents of the PI controller (Soderlind 2002), over the order. Larger: lengths swing to and fro.
+constexpr double control_proportional = 0.4, control_integral = 0.7;
+
+/// Factors from one length to the next: the least, the largest; after a rejected step the largest, and a factor of safety.
+constexpr double least_length_factor = 0.2, most_length_factor = 2.0, most_rejected_factor = 0.5, rejected_safety = 0.9;
+
+/// Share of a count of steps. What is left of the time is divided into one step less if it is longer by only this. 0: rounding
+/// adds a step of no length.
+constexpr double step_count_rounding = 1e-9;
+
+// ---- step/
+
+/// s per second: how fast the time step that contact stiffness is made for may become shorter. Stiffness goes as 1/dt^2, and
+/// what a stiffer contact stores nobody has paid for; slowly against its own period, 2 pi sqrt(2) dt, it stores nothing.
+constexpr double fastest_contact_shortening = 0.05;
+
+/// s for which cloth has to be still to sleep, and share of h that it may move meanwhile. Shorter, larger: slow cloth freezes.
+/// Longer, smaller: cloth at rest is solved for ever.
+constexpr double rest_time = 0.5, rest_displacement_share = 0.002;
+
+/// Share of a vertex's weight that forces on it may leave in cloth at rest. Larger: a swing sleeps where it turns.
+constexpr double rest_force_share = 0.02;
+
+/// Halvings of one span, one inside the other: the shortest is 1/64 of it. Fewer: hard impacts end as steps that did not
+/// converge. More: a step that cannot converge costs twice as much with each before it says so.
+constexpr int most_halvings = 6;
+
+// ---- checks/: derivatives against differences, for settings.check_derivatives. Smaller: right forces are found wrong. Larger:
+// wrong ones pass.
+
+/// Share of the vertex's own value, and of the largest of all.
+constexpr double derivative_accuracy = 1e-4, derivative_floor_accuracy = 1e-5;
+
+/// Share that rounding leaves of sums of forces and of energies.
+constexpr double derivative_rounding = 1e-12;
+
+/// Stretches of vertices whose energy slope is compared by itself. Fewer: a wrong force hides among more right ones.
+constexpr int derivative_stretches = 16;
+
+/// Share of the shortest spring, by which vertices are moved.
+constexpr double derivative_reach_share = 1e-5;
+
+/// Times that reach: how near the kinks of wind (as a distance in dt) and of contact a vertex is left out.
+constexpr double wind_kink_reaches = 1e3, contact_kink_reaches = 10.0;
+
+// ---- start/
+
+/// Strain that a repaired start may have (where it had less before), and where relaxing it ends. Larger: torn starts are taken.
+constexpr double most_start_strain = 0.5, good_start_strain = 0.1;
+
+/// Steps of relaxing, and their length in s.
+constexpr int most_relaxations = 60;
+constexpr double relaxation_step = 1.0 / 60.0;
+
+/// Share of h. Vertices that a repair moved by less are not told of.
+constexpr double told_move_share = 0.1;
+
+}  // namespace percale

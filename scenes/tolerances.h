@@ -1,0 +1,193 @@
+#pragma once
+
+#include <cstddef>
+#include <numbers>
+
+/// Every numerical constant of the layer that decides something. What is no choice stands where it is used: sizes of arrays,
+/// limits of keys (format/scene_keys.cpp), measures of shipped shapes and of the stress matrix's cells, layouts of pictures and
+/// tables, and costs that were measured (doctor/doctor_scene.cpp, compare/compare_reference.cpp).
+namespace percale::scenes {
+
+// ---- report/
+
+/// Of a logarithm: a number that is a power of ten but for rounding gets no further decade in a plot.
+constexpr double decade_rounding = 1e-9;
+
+// ---- shapes/
+
+/// Radians. A flip of an edge has to enlarge the smallest angle by more. 0: flips may go to and fro.
+constexpr double least_flip_gain = 1e-6;
+
+/// Cosine of the turn (60 degrees) that a triangle's normal may make by a flip or a merge. Smaller: surfaces fold over.
+constexpr double least_normal_cosine = 0.5;
+
+/// Radians (5 degrees). Merging vertices leaves no smaller angle. 0: needles. Larger: short edges stay.
+constexpr double least_merged_angle = 5.0 * std::numbers::pi / 180.0;
+
+/// Sweeps over all edges in one call. Fewer: meshes are left with flips to make.
+constexpr int most_flip_sweeps = 30;
+
+/// Share of the lattice's spacing by which a filled node lies inside. 0: triangles without area.
+constexpr double filled_depth = 0.1;
+
+/// m. Step of the differences for the mannequin's normals. Smaller: rounding. Larger: corners are rounded.
+constexpr double normal_step = 1e-5;
+
+/// Newton steps to the mannequin's surface at most, and the distance in m at which they end.
+constexpr int most_surface_steps = 20;
+constexpr double surface_error = 1e-12;
+
+/// Rounds of relaxing the mannequin first and after each merge, merges, and the share of the spacing below which edges merge.
+/// Other values give another mesh than the shipped one.
+constexpr int mannequin_first_rounds = 4, mannequin_rounds = 5, mannequin_merges = 3;
+constexpr double mannequin_merge_share = 0.5;
+
+/// Points of a ring of the poncho before it is divided evenly, and directions in which its rows are counted.
+constexpr int poncho_samples = 4096, poncho_directions = 64;
+
+/// As the mannequin's, of the poncho.
+constexpr int poncho_rounds = 10, poncho_last_rounds = 20, poncho_merges = 3;
+constexpr double poncho_merge_share = 0.65;
+
+// ---- meshes/
+
+/// Height of a triangle over its longest edge, in lengths of that. Flat ones have no area, as check_mesh of the engine has it:
+/// if the two differ, `percale doctor` passes what a run refuses. Slivers are warned of.
+constexpr double flat_height = 1e-12, sliver_height = 1e-2;
+
+/// Solids, the largest, that a part turned inside out is held against before it counts as inverted. More: slower.
+constexpr std::size_t most_solids = 100;
+
+/// How often a file may place its parts, in vertices: so many always, or so many times what it holds. Without a limit a short
+/// file fills the memory.
+constexpr std::size_t always_allowed_vertices = 100000, most_part_copies = 64;
+
+/// Divisions of shapes that a scene names: a sphere's (4: 5120 triangles), and around the y axis. Cloth of finer mesh sees the
+/// facets; more triangles cost more.
+constexpr int sphere_level = 4, shape_segments_around = 48;
+
+// ---- format/
+
+/// Dots of a key. Each takes a call inside a call: without a limit a hostile file would exhaust the stack.
+constexpr int deepest_key = 256;
+
+// ---- run/
+
+/// Radians, and times the thickness: what an obstacle turns and moves by in one part of a step. Larger: parts that the path of
+/// vertices on straight lines does not follow, and cloth that is blocked. Smaller: more parts.
+constexpr double largest_part_turn = std::numbers::pi / 12.0, largest_part_displacement = 4.0;
+
+/// Parts of a step. What moves still farther in a part may block the cloth.
+constexpr double most_motion_parts = 1e5;
+
+/// Share of a part that a count of parts may be above a whole number.
+constexpr double part_rounding = 1e-9;
+
+/// Share of a cloth's bounding box, by which the box of a selection grows. 0: vertices on its rim are selected by chance.
+constexpr double box_rounding = 1e-9;
+
+/// Share of a step by which an event may be late for it: times are sums of steps. 0: events come a step late.
+constexpr double event_rounding = 1e-9;
+
+/// Share of a number of steps, up to which a duration is a multiple of the step; and share of a step, up to which a remainder is
+/// taken along by the last one. 0: rounding adds a step of no length.
+constexpr double whole_steps_rounding = 1e-9, least_last_step = 1e-3;
+
+/// Radians. Below it the chord between two turns differs from the arc by less than rounding, and sines would divide 0 by 0.
+constexpr double least_arc = 1e-5;
+
+// ---- program/
+
+/// m/s. Cloth that is slower everywhere, for `rest_steps` steps in a row, has settled for `percale drape`. Larger: it goes on
+/// sliding after the picture. Smaller: cloth that trembles in a fold never ends.
+constexpr double rest_speed = 0.02;
+
+/// Steps in a row. 1: a swing that only turns around is taken for rest.
+constexpr int rest_steps = 10;
+
+// ---- doctor/: from where on it warns. Smaller or larger: warnings of what is right, or none of what is wrong.
+
+/// Elements that a finding names.
+constexpr std::size_t shown_elements = 4;
+
+/// m. Meshes of bodies and garments are 0.1 to some 10 m large; from the first on they look like cm, from the second like mm,
+/// and up to the third like a unit too much.
+constexpr double centimetre_extent = 50.0, millimetre_extent = 500.0, tiny_extent = 2e-3;
+
+/// Times the mesh's size: farther from the origin rounding spoils its shape.
+constexpr double farthest_extents = 1e4;
+
+/// m. Larger coordinates are refused, as the collision layer refuses them.
+constexpr double largest_coordinate = 1e75;
+
+/// Pairs of triangles in a search for crossings: found; tested, for each triangle and at least. Fewer: it is left unknown whether
+/// a mesh crosses itself. More: seconds.
+constexpr long most_crossings = 1000, crossing_tests_per_triangle = 100, least_crossing_tests = 1000000;
+
+/// Longest edge over the shortest.
+constexpr double most_edge_ratio = 1e3;
+
+/// Thickness over the median edge, that is advised where it is above 1.
+constexpr double advised_thickness = 0.5;
+
+/// Thickness over the distance from the origin: with less, gaps of a thousandth of it drown in rounding.
+constexpr double least_thickness_of_place = 1e-5;
+
+/// Size of a cloth over an obstacle's, or the reverse: from the first on they look like metres and centimetres, from the second
+/// like metres and millimetres.
+constexpr double centimetre_ratio = 50.0, millimetre_ratio = 500.0;
+
+/// Edge of a cloth over an obstacle's second largest side: too long to lie around it, and what is advised; and over the
+/// obstacle's median edge.
+constexpr double coarse_edge = 0.5, advised_edge = 0.125, coarse_edge_ratio = 10.0;
+
+/// Parts of a step from which a fast obstacle is a warning.
+constexpr double dear_motion_parts = 100.0;
+
+/// Share of the longest stable step that is advised.
+constexpr double advised_stable_share = 0.8;
+
+/// Thicknesses that a repair of the start may move cloth before that is a warning.
+constexpr double far_start_move = 2.0;
+
+/// s, bytes, bytes: what a long run, much memory and much output are.
+constexpr double much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
+
+// ---- compare/
+
+/// m, how far each free vertex is moved at the start to see how disturbances grow, and the growth from which a scene is chaotic:
+/// positions cannot be compared then. Larger growth: errors of chance are taken for errors of schemes.
+constexpr double disturbance_at_start = 1e-6, chaos_growth = 1000.0;
+
+/// s. The step that searches for a surviving one begin with, and how often it is halved.
+constexpr double largest_compared_step = 1.0 / 60.0;
+constexpr int most_step_halvings = 14;
+
+/// Stretch of an edge beyond which a finite end is none.
+constexpr double torn_stretch = 10.0;
+
+/// Changes that fall by less than this factor, as often in turn as a candidate has patience, have stopped falling.
+constexpr double least_halving_progress = 1.25;
+
+/// How much smaller a change may be than the one before it for Richardson's estimate. Below the least the change itself is
+/// taken; above the largest it would be trusted too much.
+constexpr double least_richardson_ratio = 2.0, most_richardson_ratio = 16.0;
+
+/// Steps of each scheme, and tolerances of adaptive steps in m/s, where none are asked for.
+constexpr int default_steps = 4;
+constexpr double default_tolerances[] = {1e-2, 1e-3, 1e-4};
+
+/// Share of a rate of steps that it may be off a whole number and be written as 1/number.
+constexpr double whole_rate_rounding = 1e-9;
+
+// ---- stress/
+
+/// Steps of a cell, if not said otherwise. Just beyond their limit explicit schemes grow slowly, and their steps are cheap: they
+/// make so many times more of them. Fewer: what grows slowly is taken for stable.
+constexpr int usual_steps = 16, explicit_factor = 8;
+
+/// Shares of the energy put in: rounding; what backward Euler's unfinished solves may add to its bound of 0; and the bound of
+/// schemes without a law of their own. Larger: a gain of energy passes.
+constexpr double energy_rounding = 1e-9, unsolved_energy = 1e-6, doubled_energy = 1.0;
+
+}  // namespace percale::scenes
