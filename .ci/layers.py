@@ -71,6 +71,7 @@ MOST_FOLDER_FILES = 25
 # Folders that may hold more files of their own, and why.
 LARGE_FOLDERS = {
     'tests/fuzz/corpus/*': 'inputs that the fuzzers found and nobody reads',
+    'data/scenes': 'each stands for itself: users pick one by its name, and programs run all',
 }
 
 SNAKE_CASE = re.compile(r'[a-z0-9_]+(?:\.[a-z0-9_]+)*$')

@@ -120,6 +120,20 @@ constexpr Option<Fabric> fabric_list[] = {
      .lowest = 0.0,
      .highest = 10.0,
      .number = [](Fabric& f) { return &f.drag_tangential; }},
+    {.key = "pressure",
+     .unit = "Pa",
+     .sentence = "Pressure inside a closed cloth above that outside, whatever its volume; below 0 it is sucked in.",
+     .lowest = -1e6,
+     .highest = 1e6,
+     .optional_number = [](Fabric& f) { return &f.pressure; }},
+    {.key = "gas_volume",
+     .unit = "m^3",
+     .sentence =
+         "Volume that the gas sealed in a closed cloth has at the pressure of the air, 101325 Pa; instead of pressure. The "
+         "gas resists a change of its volume.",
+     .lowest = 1e-9,
+     .highest = 1e3,
+     .optional_number = [](Fabric& f) { return &f.gas_volume; }},
 };
 
 constexpr Option<StepSettings> step_list[] = {
@@ -262,6 +276,7 @@ void check_exclusions(const Fabric& fabric, const std::string& name) {
     }
     const bool own_damping = fabric.spring_damping != defaults.spring_damping && fabric.spring_damping != 0.0;
     if (fabric.damping_time && own_damping) throw SceneError(name, "spring_damping and damping_time exclude each other");
+    if (fabric.pressure && fabric.gas_volume) throw SceneError(name, "pressure and gas_volume exclude each other");
 }
 
 void check_moduli(const Fabric& fabric, const std::string& name) {

@@ -77,6 +77,10 @@ constexpr double least_hinge_sine_square = 1e-28;
 /// differ, the ledger counts forces that were none.
 constexpr double least_spring_length = 1e-18;
 
+/// Pa, of the air around the cloth (the standard atmosphere at sea level): what an amount of gas is squeezed by. Larger: filled
+/// cloth is stiffer against a change of its volume.
+constexpr double air_pressure = 101325.0;
+
 // ---- contact/
 
 /// Share of h. A smaller change means nothing in contact. Larger: stages end before contact is solved. Smaller: iterations that
@@ -212,6 +216,10 @@ inline constexpr double slow_gain_ratio = 0.8;
 
 /// The largest ratio that the sum of what is to come is taken with. 1: no bound.
 inline constexpr double most_gain_ratio = 0.99;
+
+/// Residual of the solves for blocks of rank one, relative to the right side. Smaller: cost alone. Larger: Newton's directions
+/// move a filled cloth's surface beside its volume, which is right however large it is.
+constexpr double rank_one_residual = 1e-3;
 
 // ---- plan/
 

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <memory>
 
-#include "forces/gravity.h"
-#include "forces/hinge_bending.h"
-#include "forces/membrane_springs.h"
-#include "forces/wind.h"
+#include "forces/springs.h"
+#include "forces/total_force.h"
+#include "linear/rank_one.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -18,189 +17,110 @@ Vec3 symmetric_product(const SymmetricBlock& k, const Vec3& u) {
     return {xx * u.x() + xy * u.y() + xz * u.z(), xy * u.x() + yy * u.y() + yz * u.z(), xz * u.x() + yz * u.y() + zz * u.z()};
 }
 
-/// What the terms of springs and triangles share: the model's adjacency at the end of a step.
-struct SpringCheck {
+/// A term of the list alone, as a function of the positions at the end of the step, with the velocities that lead there.
+struct LoneTerm {
     StepEnd step;
-    StepSprings springs;
-    SpringTerms terms;  // at the state
-    std::vector<bool> exact;
-    Vectors still;  // velocities
+    const ForceTerm& term;
+    StepSprings springs = {};  // without damping by velocity, which has no potential
+    BlockMatrix matrix = {};
+    Forces forces = {};  // with a matrix, at the state
+    std::vector<bool> exact = {};
 
-    explicit SpringCheck(const StepEnd& of) : step(of), exact(of.scene.model.vertex_count(), true) {
-        still.resize(of.scene.model.vertex_count());
+    /// result.total = its forces; returns its potential.
+    double evaluate(const Vectors& positions, bool with_matrix, Forces& result) const {
+        Vectors velocities = step.end.cloth.velocities;
+        add_scaled(velocities, 1.0 / step.dt, positions);
+        add_scaled(velocities, -1.0 / step.dt, step.end.cloth.positions);
+        const ForceInput input = input_at(positions, velocities, with_matrix);
+        result.total.resize(step.scene.model.vertex_count());
+        term.stand_alone(input, result);
+        return term.add(input, result);
     }
 
-    const Adjacency& adjacency() const { return step.scene.model.adjacency; }
-    double dt() const { return step.dt; }
-    SpringMotion motion(const Vectors& positions) const { return {positions, still, dt()}; }
+    void fill(double reach) {
+        const ClothModel& model = step.scene.model;
+        evaluate(step.end.cloth.positions, true, forces);
+        exact.assign(model.vertex_count(), true);
+        term.mark_inexact(input_at(step.end.cloth.positions, step.end.cloth.velocities, true), forces, reach, exact);
+        set_pattern(step.scene.compute, model.adjacency, std::vector<double>(model.vertex_count(), 0.0), matrix);
+        if (forces.spring_terms.values.empty()) forces.spring_terms.values.assign(model.adjacency.value_count(), 0.0f);
+        matrix.springs = &forces.spring_terms;
+    }
 
-    /// product = terms times a direction.
+    /// product = its part of the matrix times a direction.
     void multiply(const Vectors& direction, Vectors& product) const {
-        const std::vector<double> massless(step.scene.model.vertex_count(), 0.0);
-        BlockMatrix matrix;
-        set_pattern(step.scene.compute, adjacency(), massless, matrix);
-        matrix.springs = &terms;
         AlignedVector<double> points;
         percale::multiply(matrix, direction, points, product);
-    }
-
-    void set_inexact(int spring) {
-        exact[step.scene.model.springs.first[spring]] = exact[step.scene.model.springs.second[spring]] = false;
-    }
-};
-
-double evaluate_network(const SpringCheck& check, const Vectors& positions, bool with_matrix, Vectors& forces,
-                        SpringTerms& terms) {
-    return evaluate_springs(check.step.scene.compute, check.springs, check.motion(positions), with_matrix, forces, terms);
-}
-
-/// Triangles alone: the springs of their edges are nothing.
-double evaluate_triangles(const SpringCheck& check, const Vectors& positions, bool with_matrix, Vectors& forces,
-                          SpringTerms& terms) {
-    pack_points(check.step.scene.compute, check.adjacency(), positions, terms.points);
-    if (with_matrix) terms.values.assign(check.adjacency().value_count(), 0.0f);
-    return evaluate_membrane(check.step.scene.compute, check.adjacency(), check.motion(positions), with_matrix, forces, terms);
-}
-
-template <class Evaluate>
-CheckedTerm term_of(const std::string& name, const std::shared_ptr<SpringCheck>& check, Evaluate evaluate_at) {
-    Vectors forces = check->still;
-    evaluate_at(*check, check->step.end.cloth.positions, true, forces, check->terms);
-    CheckedTerm term{.name = name,
-                     .add_forces =
-                         [=](const Vectors& positions, Vectors& sum) {
-                             SpringTerms terms;
-                             evaluate_at(*check, positions, false, sum, terms);
-                         },
-                     .energy =
-                         [=](const Vectors& positions) {
-                             SpringTerms terms;
-                             Vectors unused = check->still;
-                             return evaluate_at(*check, positions, false, unused, terms);
-                         },
-                     .multiply = [=](const Vectors& direction, Vectors& product) { check->multiply(direction, product); },
-                     .exact = [=](int vertex) { return static_cast<bool>(check->exact[vertex]); }};
-    if (!check->step.scene.plan.implicit) term.multiply = {};
-    return term;
-}
-
-/// Springs in one damping form, without damping by velocity, which has no potential. Compressed ones are clamped in the matrix.
-CheckedTerm spring_term(const StepEnd& step, const std::string& name, DampingForm form) {
-    auto check = std::make_shared<SpringCheck>(step);
-    if (form == DampingForm::length_rate) {
-        check->springs = step.work.newton.springs;  // those of the last span, whose start made them what they are
-    } else {
-        set_step_springs(
-            step.scene.compute,
-            {check->adjacency(), step.start.positions, form, check->dt(), step.end.cloth.rest_length, &step.scene.model.springs},
-            check->springs);
-    }
-    check->springs.velocity_damping = false;
-    CheckedTerm term = term_of(name, check, evaluate_network);
-    const SpringNetwork& network = step.scene.model.springs;
-    for (int k = 0; k < network.size(); ++k) {
-        const int place = check->adjacency().place[k];
-        const double length =
-            (step.end.cloth.positions.at(network.first[k]) - step.end.cloth.positions.at(network.second[k])).norm();
-        const bool pulls = length > check->springs.entries.rest_length[place];
-        if (!pulls && check->springs.entries.stiffness[place] > 0.0) check->set_inexact(k);
-    }
-    return term;
-}
-
-/// Edges that push are clamped in the matrix.
-CheckedTerm membrane_term(const StepEnd& step) {
-    auto check = std::make_shared<SpringCheck>(step);
-    CheckedTerm term = term_of("membrane", check, evaluate_triangles);
-    for (int k = 0; k < step.scene.model.springs.size(); ++k) {
-        const SpringBlock block = spring_block(check->adjacency(), check->terms, k);
-        if (block.a == 0.0 && block.w != Vec3::Zero()) check->set_inexact(k);
-    }
-    return term;
-}
-
-/// What rest angles change; the matrix keeps that of flat hinges, which claims nothing here.
-CheckedTerm curved_hinge_term(const StepEnd& step) {
-    return {.name = "curved hinges",
-            .add_forces = [step](const Vectors& positions,
-                                 Vectors& forces) { add_curved_hinges(step.scene.model.hinges, positions, forces); },
-            .energy =
-                [step](const Vectors& positions) {
-                    Vectors unused = positions;
-                    return add_curved_hinges(step.scene.model.hinges, positions, unused);
-                },
-            .multiply = {},
-            .exact = {}};
-}
-
-/// Drag as a function of the positions at the end of the step, with the velocities that lead there.
-struct WindCheck {
-    StepEnd step;
-    WindTerms terms;
-    std::vector<bool> exact;
-
-    /// The drag has a kink where the air does not move along a triangle, or not across it.
-    void set_exact(double slow) {
-        for (std::size_t k = 0; k < step.scene.model.triangles.size(); ++k) {
-            const Vec3& n = step.work.wind.triangles[k].normal;
-            for (const int vertex : step.scene.model.triangles[k]) {
-                const Vec3 u = step.end.cloth.velocities.at(vertex) - step.work.wind.velocity;
-                const double across = n.dot(u);
-                if (std::abs(across) < slow || (u - across * n).norm() < slow) exact[vertex] = false;
-            }
+        for (std::size_t i = 0; i < forces.wind.blocks.size(); ++i) {
+            const int vertex = static_cast<int>(i);
+            product.add(vertex, symmetric_product(forces.wind.blocks[i], direction.at(vertex)));
         }
+        add_rank_one(step.scene.compute, forces.rank_one, direction, product);
     }
 
-    double evaluate(const Vectors& positions, Vectors& forces, WindTerms& result) const {
-        const double dt = step.dt;
-        Vectors velocities = step.end.cloth.velocities;
-        add_scaled(velocities, 1.0 / dt, positions);
-        add_scaled(velocities, -1.0 / dt, step.end.cloth.positions);
-        add_wind(step.scene.model, step.work.wind, velocities, dt, forces, result);
-        return result.potential;
+private:
+    ForceInput input_at(const Vectors& positions, const Vectors& velocities, bool with_matrix) const {
+        return {.compute = &step.scene.compute,
+                .model = &step.scene.model,
+                .springs = &springs,
+                .positions = &positions,
+                .velocities = &velocities,
+                .gravity = step.scene.settings.gravity,
+                .wind = step.scene.plan.wind ? &step.work.wind : nullptr,
+                .dt = step.dt,
+                .with_matrix = with_matrix};
     }
 };
 
-CheckedTerm wind_term(const StepEnd& step, double reach) {
-    auto check = std::make_shared<WindCheck>(WindCheck{step, {}, std::vector<bool>(step.scene.model.vertex_count(), true)});
-    check->set_exact(wind_kink_reaches * reach / step.dt);
-    Vectors forces = step.end.cloth.positions;
-    check->evaluate(step.end.cloth.positions, forces, check->terms);
-    return {.name = "wind",
-            .add_forces =
-                [=](const Vectors& positions, Vectors& sum) {
-                    WindTerms terms;
-                    check->evaluate(positions, sum, terms);
-                },
-            .energy =
-                [=](const Vectors& positions) {
-                    WindTerms terms;
-                    Vectors unused = positions;
-                    return check->evaluate(positions, unused, terms);
-                },
-            .multiply =
-                [=](const Vectors& direction, Vectors& product) {
-                    for (std::size_t i = 0; i < check->terms.blocks.size(); ++i) {
-                        const int vertex = static_cast<int>(i);
-                        product.add(vertex, symmetric_product(check->terms.blocks[i], direction.at(vertex)));
-                    }
-                },
-            .exact = [=](int vertex) { return static_cast<bool>(check->exact[vertex]); },
-            .kinks = true,
-            .internal = false};
+CheckedTerm checked_term(const std::string& name, const std::shared_ptr<LoneTerm>& check) {
+    const ForceTerm& term = check->term;
+    CheckedTerm checked{.name = name,
+                        .add_forces =
+                            [=](const Vectors& positions, Vectors& sum) {
+                                Forces forces;
+                                check->evaluate(positions, false, forces);
+                                add_scaled(sum, 1.0, forces.total);
+                            },
+                        .energy =
+                            [=](const Vectors& positions) {
+                                Forces forces;
+                                return check->evaluate(positions, false, forces);
+                            },
+                        .multiply = {},
+                        .exact = [=](int vertex) { return static_cast<bool>(check->exact[vertex]); },
+                        .kinks = term.may_be_below(),
+                        .internal = term.is_internal()};
+    if (check->step.scene.plan.implicit && term.is_in_matrix()) {
+        checked.multiply = [=](const Vectors& direction, Vectors& product) { check->multiply(direction, product); };
+    }
+    return checked;
 }
 
-CheckedTerm gravity_term(const StepEnd& step) {
-    CheckedTerm term{.name = "gravity", .add_forces = {}, .energy = {}, .multiply = {}, .exact = {}, .internal = false};
-    term.add_forces = [step](const Vectors&, Vectors& forces) {
-        Vectors own = forces;
-        set_gravity_forces(step.scene.model.mass, step.scene.settings.gravity, own);
-        add_scaled(forces, 1.0, own);
+/// What the springs are without damping.
+StepSprings undamped_springs(const StepEnd& step) {
+    const StepScene& scene = step.scene;
+    StepSprings springs;
+    set_step_springs(scene.compute,
+                     {scene.model.adjacency, step.start.positions, DampingForm::velocity, step.dt, step.end.cloth.rest_length,
+                      &scene.model.springs},
+                     springs);
+    springs.velocity_damping = false;
+    return springs;
+}
+
+void add_checked_terms(const StepEnd& step, double reach, std::vector<CheckedTerm>& terms) {
+    const auto add = [&](const ForceTerm& term, const std::string& name, StepSprings springs) {
+        const auto check = std::make_shared<LoneTerm>(LoneTerm{step, term, std::move(springs)});
+        check->fill(reach);
+        terms.push_back(checked_term(name, check));
     };
-    term.energy = [step](const Vectors& positions) {
-        return gravity_energy(step.scene.model.mass, step.scene.settings.gravity, positions);
-    };
-    return term;
+    for (const ForceTerm* term : force_terms()) {
+        if (!term->acts({.model = &step.scene.model, .wind = step.scene.plan.wind ? &step.work.wind : nullptr})) continue;
+        add(*term, std::string(term->name()), undamped_springs(step));
+        if (term != &spring_term() || !step.scene.plan.implicit || step.scene.plan.damping != DampingForm::length_rate) continue;
+        // Those of the last span, whose start made them what they are.
+        add(*term, "damped springs", step.work.newton.springs);
+    }
 }
 
 /// The rows of the last evaluation as planes, without friction, which has no potential.
@@ -305,14 +225,7 @@ std::string text_of(const StepEnd& step, const WrongDerivative& wrong) {
 
 std::vector<CheckedTerm> checked_terms(const StepEnd& step) {
     std::vector<CheckedTerm> terms;
-    terms.push_back(gravity_term(step));
-    terms.push_back(spring_term(step, "springs", DampingForm::velocity));
-    if (step.scene.plan.implicit && step.scene.plan.damping == DampingForm::length_rate) {
-        terms.push_back(spring_term(step, "damped springs", DampingForm::length_rate));
-    }
-    if (!step.scene.model.membrane.empty()) terms.push_back(membrane_term(step));
-    if (!step.scene.model.hinges.curved.empty()) terms.push_back(curved_hinge_term(step));
-    if (step.scene.plan.wind) terms.push_back(wind_term(step, reach_of(step)));
+    add_checked_terms(step, reach_of(step), terms);
     const bool penalty = step.scene.settings.contact_response == ContactResponse::penalty;
     if (step.scene.plan.contacts && penalty && step.work.newton.current.rows.size() > 0) {
         terms.push_back(contact_term(step, reach_of(step)));

@@ -1,13 +1,16 @@
 #include "elastic.h"
 
-#include "hinge_bending.h"
-#include "membrane_springs.h"
+#include <algorithm>
+
 #include "spring_loss.h"
+#include "springs.h"
 
 namespace percale {
 namespace {
 
-bool has_shapes(const ClothModel& model) { return !model.hinges.all.empty() || !model.membrane.empty(); }
+bool is_elastic(const ForceTerm& term, const ClothModel& model) {
+    return term.entry() == &StepEnergy::elastic && term.acts({.model = &model});
+}
 
 void evaluate_at(const Compute& compute, const ClothModel& model, const Vectors& positions, std::span<const double> rest_length,
                  ElasticSpace& space) {
@@ -30,10 +33,16 @@ void evaluate_elastic(const Compute& compute, const ClothModel& model, const Clo
     evaluate_at(compute, model, state.positions, state.rest_length, space);
 }
 
+bool has_shapes(const ClothModel& model) {
+    return std::ranges::any_of(force_terms(),
+                               [&](const ForceTerm* term) { return term != &spring_term() && is_elastic(*term, model); });
+}
+
 double elastic_energy(const ClothModel& model, const Vectors& positions, std::span<const double> rest_length) {
-    double energy = elastic_energy(model.springs, positions, rest_length);
-    if (!model.hinges.all.empty()) energy += hinge_energy(model.hinges, positions);
-    if (!model.membrane.empty()) energy += membrane_energy(model.membrane, positions);
+    double energy = 0.0;
+    for (const ForceTerm* term : force_terms()) {
+        if (is_elastic(*term, model)) energy += term->energy({model, positions, rest_length});
+    }
     return energy;
 }
 

@@ -5,7 +5,8 @@
 
 namespace percale {
 
-/// Elastic energy of springs, hinges and membranes, J. `rest_length`: ClothState::rest_length.
+/// Energy of all terms that count theirs as elastic, J: springs, hinges, membranes, enclosed gas. `rest_length`:
+/// ClothState::rest_length.
 double elastic_energy(const ClothModel& model, const Vectors& positions, std::span<const double> rest_length);
 
 /// Memory for elastic forces.
@@ -15,7 +16,7 @@ struct ElasticSpace {
     Vectors still;  // velocities of 0
 };
 
-/// space.forces.total = elastic forces of springs, hinges and membranes, N.
+/// space.forces.total = the forces of those terms, N.
 void evaluate_elastic(const Compute& compute, const ClothModel& model, const ClothState& state, ElasticSpace& space);
 
 /// A straight move, with the positions at which a scheme took the forces for it, m, and the springs' rest lengths there.
@@ -24,7 +25,10 @@ struct ShapeMove {
     std::span<const double> rest_length;
 };
 
-/// Bregman term of the energy U of hinges and membranes for the force f that the scheme took, -f . (q_end - q_start) - (U(q_end)
+/// Whether there are others of them than springs.
+bool has_shapes(const ClothModel& model);
+
+/// Bregman term of the energy U of those others for the force f that the scheme took, -f . (q_end - q_start) - (U(q_end)
 /// - U(q_start)), J; 0 without such.
 double shape_loss(const Compute& compute, const ClothModel& model, const ShapeMove& move, ElasticSpace& space);
 

@@ -1,6 +1,25 @@
 #include "gravity.h"
 
 namespace percale {
+namespace {
+
+class Gravity final : public ForceTerm {
+public:
+    std::string_view name() const override { return "gravity"; }
+    bool acts(const ForceInput&) const override { return true; }
+    double add(const ForceInput& input, Forces& forces) const override {
+        set_gravity_forces(input.model->mass, input.gravity, forces.total);
+        return gravity_energy(input.model->mass, input.gravity, *input.positions);
+    }
+    double StepEnergy::*entry() const override { return &StepEnergy::gravity; }
+    double energy(const StoredInput& input) const override {
+        return input.gravity == Vec3::Zero() ? 0.0 : gravity_energy(input.model.mass, input.gravity, input.positions);
+    }
+    bool is_internal() const override { return false; }
+    bool is_in_matrix() const override { return false; }
+};
+
+}  // namespace
 
 void set_gravity_forces(std::span<const double> mass, const Vec3& gravity, Vectors& forces) {
     const double gx = gravity.x(), gy = gravity.y(), gz = gravity.z();
@@ -16,6 +35,11 @@ double gravity_energy(std::span<const double> mass, const Vec3& gravity, const V
     const double gx = gravity.x(), gy = gravity.y(), gz = gravity.z();
     const double *m = mass.data(), *x = positions.x.data(), *y = positions.y.data(), *z = positions.z.data();
     return -sum_terms(0, static_cast<int>(mass.size()), [=](int i) { return m[i] * (gx * x[i] + gy * y[i] + gz * z[i]); });
+}
+
+const ForceTerm& gravity_term() {
+    static const Gravity term;
+    return term;
 }
 
 }  // namespace percale

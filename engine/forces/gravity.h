@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "model/vectors.h"
+#include "force_term.h"
 
 namespace percale {
 
@@ -11,5 +11,8 @@ void set_gravity_forces(std::span<const double> mass, const Vec3& gravity, Vecto
 
 /// -sum m g . x, J; zero at the origin.
 double gravity_energy(std::span<const double> mass, const Vec3& gravity, const Vectors& positions);
+
+/// The first term of the list: its forces replace what was there.
+const ForceTerm& gravity_term();
 
 }  // namespace percale

@@ -63,7 +63,39 @@ double flat_energy(const Hinge& hinge, const Vectors& x) {
     return 0.5 * hinge.clamp * hinge.stiffness * bent(hinge, x).squaredNorm();
 }
 
+class HingeBending final : public ForceTerm {
+public:
+    std::string_view name() const override { return "curved hinges"; }
+    bool acts(const ForceInput& input) const override { return !input.model->hinges.all.empty(); }
+    double add(const ForceInput& input, Forces& forces) const override {
+        return add_curved_hinges(input.model->hinges, *input.positions, forces.total);
+    }
+    double StepEnergy::*entry() const override { return &StepEnergy::elastic; }
+    double energy(const StoredInput& input) const override { return hinge_energy(input.model.hinges, input.positions); }
+    bool is_in_matrix() const override { return false; }  // the matrix of flat ones is the springs'
+
+    void identify(const ClothModel& model, ListHash& hash) const override {
+        for (const Hinge& hinge : model.hinges.all) {
+            hash.add(hinge.vertex);
+            hash.add(hinge.weight);
+            for (const double number : {hinge.stiffness, hinge.rest_angle}) hash.add(number);
+        }
+    }
+
+    void add_skips(const ForceFacts& facts, std::vector<Skip>& skipped) const override {
+        for (const ClothFacts& cloth : facts.cloths) {
+            if (cloth.fabric.bend_stiffness.value_or(0.0) == 0.0)
+                skipped.push_back({"hinges of " + cloth.name, "bend_stiffness is not set or 0 N m"});
+        }
+    }
+};
+
 }  // namespace
+
+const ForceTerm& hinge_term() {
+    static const HingeBending term;
+    return term;
+}
 
 double hinge_energy(const Hinges& hinges, const Vectors& positions) {
     return sum_terms(0, static_cast<int>(hinges.all.size()), [&](int k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "force_term.h"
 #include "model/hinges.h"
 #include "model/vectors.h"
 
@@ -12,5 +13,8 @@ double hinge_energy(const Hinges& hinges, const Vectors& positions);
 /// that changes; returns the change of their energy, J. Their matrix stays that of flat ones, c w w^T, which is positive
 /// definite and exact for motion along the normals of a shape whose rest angles are small.
 double add_curved_hinges(const Hinges& hinges, const Vectors& positions, Vectors& forces);
+
+/// Their flat part is among the springs (SpringNetwork::bending).
+const ForceTerm& hinge_term();
 
 }  // namespace percale

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "force_term.h"
 #include "model/membrane.h"
 #include "springs.h"
 
@@ -15,5 +16,8 @@ double evaluate_membrane(const Compute& compute, const Adjacency& adjacency, con
 
 /// Elastic energy of all triangles, J.
 double membrane_energy(const std::vector<MembraneTriangle>& triangles, const Vectors& positions);
+
+/// After springs in the list.
+const ForceTerm& membrane_term();
 
 }  // namespace percale

@@ -32,7 +32,68 @@ void clear_guards(const BandPattern& bands, AlignedVector<float>& values) {
     }
 }
 
+/// What springs of a cloth there are not, and why.
+void add_skips_of(const ClothFacts& cloth, std::vector<Skip>& skipped) {
+    const SpringConstants& springs = cloth.fabric.springs;
+    if (cloth.fabric.has_moduli()) {
+        return skipped.push_back({"springs of " + cloth.name + " other than along edges", "stretch_stiffness is set"});
+    }
+    if (springs.structural == 0.0) skipped.push_back({"structural springs of " + cloth.name, "springs.structural is 0 N/m"});
+    if (!cloth.grid) {
+        skipped.push_back({"shear springs of " + cloth.name, "a free mesh has none"});
+    } else if (springs.shear == 0.0) {
+        skipped.push_back({"shear springs of " + cloth.name, "springs.shear is 0 N/m"});
+    }
+    if (springs.bend == 0.0) skipped.push_back({"bending springs of " + cloth.name, "springs.bend is 0 N/m"});
+}
+
+class Springs final : public ForceTerm {
+public:
+    std::string_view name() const override { return "springs"; }
+    bool acts(const ForceInput&) const override { return true; }
+    double add(const ForceInput& input, Forces& forces) const override {
+        return evaluate_springs(*input.compute, *input.springs, {*input.positions, *input.velocities, input.dt},
+                                input.with_matrix, forces.total, forces.spring_terms);
+    }
+    double StepEnergy::*entry() const override { return &StepEnergy::elastic; }
+    double energy(const StoredInput& input) const override {
+        return elastic_energy(input.model.springs, input.positions, input.rest_length);
+    }
+
+    /// Compressed ones are clamped in the matrix.
+    void mark_inexact(const ForceInput& input, const Forces&, double, std::vector<bool>& exact) const override {
+        const SpringNetwork& network = input.model->springs;
+        for (int k = 0; k < network.size(); ++k) {
+            const int place = input.model->adjacency.place[k];
+            const double length = (input.positions->at(network.first[k]) - input.positions->at(network.second[k])).norm();
+            const bool pulls = length > input.springs->entries.rest_length[place];
+            if (pulls || !(input.springs->entries.stiffness[place] > 0.0)) continue;
+            exact[network.first[k]] = exact[network.second[k]] = false;
+        }
+    }
+
+    void identify(const ClothModel& model, ListHash& hash) const override {
+        const SpringNetwork& springs = model.springs;
+        for (const auto* ends : {&springs.first, &springs.second}) hash.add_all(*ends);
+        for (const auto* constants : {&springs.stiffness, &springs.damping}) hash.add_all(*constants);
+        for (int k = 0; k < springs.size(); ++k) {
+            hash.add(static_cast<int>(springs.kind[k]));
+            if (springs.kind[k] != SpringKind::seam) hash.add(springs.rest_length[k]);
+        }
+    }
+
+    void add_skips(const ForceFacts& facts, std::vector<Skip>& skipped) const override {
+        for (const ClothFacts& cloth : facts.cloths) add_skips_of(cloth, skipped);
+        if (!facts.seams) skipped.push_back({"closing of seams", "the scene has no seam"});
+    }
+};
+
 }  // namespace
+
+const ForceTerm& spring_term() {
+    static const Springs term;
+    return term;
+}
 
 void set_step_springs(const Compute& compute, const SpringStart& start, StepSprings& springs) {
     const Adjacency& adjacency = start.adjacency;

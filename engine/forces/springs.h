@@ -1,8 +1,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "force_term.h"
 #include "kernels/compute.h"
 #include "model/adjacency.h"
 #include "model/spring_network.h"
@@ -10,17 +10,6 @@
 #include "percale/settings.h"
 
 namespace percale {
-
-/// What the springs are during one step, in the layout of the adjacency: tension T = k (l - l_rest) + c (v_ij . d), with
-/// d = x_ij / |x_ij|.
-struct StepSprings {
-    const Adjacency* adjacency = nullptr;
-    SpringEntries entries;                         // k N/m, l_rest m, c N s/m
-    bool velocity_damping = false;                 // there is a c
-    AlignedVector<double> stiffness, rest_length;  // of this step, where they are not those of the model
-    AlignedVector<double> seam_rest_length;        // m, where seams have changed theirs
-    AlignedVector<double> points;                  // work space
-};
 
 /// Where a step begins, and how long it is.
 struct SpringStart {
@@ -38,26 +27,11 @@ struct SpringStart {
 /// Views the adjacency, which must live as long.
 void set_step_springs(const Compute& compute, const SpringStart& start, StepSprings& springs);
 
-/// What an evaluation leaves behind: the blocks of the step matrix, and work space.
-struct SpringTerms {
-    /// kg: -dt^2 Jq - dt Jv between the two vertices of each spring, made positive definite, is a I + w w^T (spring_block).
-    AlignedVector<float> values;
-    AlignedVector<float> corners;  // what couples the edges of membrane triangles (CornerFillPass); empty without
-    AlignedVector<double> points, motion, scratch;
-};
-
-/// The state that springs see; dt in s scales the matrix terms.
-struct SpringMotion {
-    const Vectors& positions;
-    const Vectors& velocities;
-    double dt;
-};
-
 /// forces += spring forces -T d - b x, N (b: the pair's bending); with `with_matrix` also terms.values. Along d the matrix is
 /// dt^2 k + dt c, across it dt^2 T/l, which is taken as 0 where the spring is compressed (T < 0) and capped where damping makes
 /// it exceed the first; dt^2 b in all directions. A spring shorter than 1e-18 m has no direction: it exerts no force, its matrix
-/// is (dt^2 k + dt c) I. Returns the potential sum 1/2 k (l
-/// - l_rest)^2 + 1/2 b l^2, J. Same bits for any instruction set and number of threads.
+/// is (dt^2 k + dt c) I. Returns the potential sum 1/2 k (l - l_rest)^2 + 1/2 b l^2, J. Same bits for any instruction set and
+/// number of threads.
 double evaluate_springs(const Compute& compute, const StepSprings& springs, const SpringMotion& motion, bool with_matrix,
                         Vectors& forces, SpringTerms& terms);
 
@@ -78,5 +52,8 @@ double elastic_energy(const SpringNetwork& network, const Vectors& positions, st
 
 /// Largest (l - l0)/l0 over structural springs; 0 without any.
 double largest_strain(const SpringNetwork& network, const Vectors& positions);
+
+/// Of all kinds, seams among them, and with them the flat part of hinges.
+const ForceTerm& spring_term();
 
 }  // namespace percale

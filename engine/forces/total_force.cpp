@@ -1,27 +1,28 @@
 #include "total_force.h"
 
+#include <array>
+
 #include "gravity.h"
 #include "hinge_bending.h"
 #include "membrane_springs.h"
+#include "pressure.h"
+#include "springs.h"
+#include "wind.h"
 
 namespace percale {
 
+std::span<const ForceTerm* const> force_terms() {
+    static const std::array<const ForceTerm*, 6> terms = {&gravity_term(), &spring_term(), &membrane_term(),
+                                                          &hinge_term(),   &wind_term(),   &pressure_term()};
+    return terms;
+}
+
 void evaluate_forces(const ForceInput& input, Forces& forces) {
-    const ClothModel& model = *input.model;
-    if (forces.total.padded_size() != input.positions->padded_size()) forces.total.resize(model.vertex_count());
-    set_gravity_forces(model.mass, input.gravity, forces.total);
-    forces.potential = gravity_energy(model.mass, input.gravity, *input.positions);
-    const SpringMotion motion{*input.positions, *input.velocities, input.dt};
-    forces.potential +=
-        evaluate_springs(*input.compute, *input.springs, motion, input.with_matrix, forces.total, forces.spring_terms);
-    if (!model.membrane.empty()) {
-        forces.potential +=
-            evaluate_membrane(*input.compute, model.adjacency, motion, input.with_matrix, forces.total, forces.spring_terms);
+    if (forces.total.padded_size() != input.positions->padded_size()) forces.total.resize(input.model->vertex_count());
+    forces.potential = 0.0;
+    for (const ForceTerm* term : force_terms()) {
+        if (term->acts(input)) forces.potential += term->add(input, forces);
     }
-    if (!model.hinges.curved.empty()) forces.potential += add_curved_hinges(model.hinges, *input.positions, forces.total);
-    if (!input.wind || !input.wind->blows) return;
-    add_wind(model, *input.wind, *input.velocities, input.dt, forces.total, forces.wind);
-    forces.potential += forces.wind.potential;
 }
 
 }  // namespace percale

@@ -1,35 +1,15 @@
 #pragma once
 
-#include "model/cloth_model.h"
-#include "percale/report.h"
-#include "springs.h"
-#include "wind.h"
+#include <span>
+
+#include "force_term.h"
 
 namespace percale {
 
-/// What forces act on in one evaluation.
-struct ForceInput {
-    const Compute* compute = nullptr;
-    const ClothModel* model = nullptr;
-    const StepSprings* springs = nullptr;
-    const Vectors* positions = nullptr;
-    const Vectors* velocities = nullptr;
-    Vec3 gravity = Vec3::Zero();
-    const StepWind* wind = nullptr;  // null: there is no air
-    double dt = 0.0;
-    bool with_matrix = false;
-};
+/// Every force but contact, in the order in which they are summed.
+std::span<const ForceTerm* const> force_terms();
 
-/// Forces of one state and what the step matrix is made of.
-struct Forces {
-    Vectors total;  // N
-    SpringTerms spring_terms;
-    WindTerms wind;
-    /// J, of springs (with their damping potential), hinges, wind (dissipation potential times dt) and gravity.
-    double potential = 0.0;
-};
-
-/// All forces but contact.
+/// The sum of all of them.
 void evaluate_forces(const ForceInput& input, Forces& forces);
 
 }  // namespace percale

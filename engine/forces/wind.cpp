@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
@@ -71,7 +73,41 @@ private:
     double dt_;
 };
 
+class Wind final : public ForceTerm {
+public:
+    std::string_view name() const override { return "wind"; }
+    bool acts(const ForceInput& input) const override { return input.wind && input.wind->blows; }
+    double add(const ForceInput& input, Forces& forces) const override {
+        add_wind(*input.model, *input.wind, *input.velocities, input.dt, forces.total, forces.wind);
+        return forces.wind.potential;
+    }
+    bool is_internal() const override { return false; }
+    bool may_be_below() const override { return true; }
+
+    /// The drag has a kink where the air does not move along a triangle, or not across it.
+    void mark_inexact(const ForceInput& input, const Forces&, double reach, std::vector<bool>& exact) const override {
+        const double slow = wind_kink_reaches * reach / input.dt;
+        for (std::size_t k = 0; k < input.model->triangles.size(); ++k) {
+            const Vec3& n = input.wind->triangles[k].normal;
+            for (const int vertex : input.model->triangles[k]) {
+                const Vec3 u = input.velocities->at(vertex) - input.wind->velocity;
+                const double across = n.dot(u);
+                if (std::abs(across) < slow || (u - across * n).norm() < slow) exact[vertex] = false;
+            }
+        }
+    }
+
+    void add_skips(const ForceFacts& facts, std::vector<Skip>& skipped) const override {
+        if (!facts.wind) skipped.push_back({"drag of the air", "no wind was ever set"});
+    }
+};
+
 }  // namespace
+
+const ForceTerm& wind_term() {
+    static const Wind term;
+    return term;
+}
 
 void set_step_wind(const ClothModel& model, const Vec3& velocity, double density, const Vectors& positions, StepWind& wind) {
     wind.blows = true;

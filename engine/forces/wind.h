@@ -1,32 +1,9 @@
 #pragma once
 
-#include <vector>
-
+#include "force_term.h"
 #include "model/cloth_model.h"
-#include "symmetric_block.h"
 
 namespace percale {
-
-/// One triangle in the air, as it lay when the part of a step began.
-struct WindTriangle {
-    Vec3 normal = Vec3::Zero();  // unit; zero if it has no area
-    double area = 0.0;           // m^2
-};
-
-/// Air around all cloth during one part of a step.
-struct StepWind {
-    bool blows = false;                   // false: there is no air, nothing else is set
-    Vec3 velocity = Vec3::Zero();         // m/s
-    double density = 0.0;                 // kg/m^3
-    std::vector<WindTriangle> triangles;  // in the order of the model's
-};
-
-/// What the wind leaves behind besides forces.
-struct WindTerms {
-    double power = 0.0;                  // W, of the air on the cloth
-    double potential = 0.0;              // J, dt times the dissipation potential
-    std::vector<SymmetricBlock> blocks;  // kg, -dt Jv of each vertex
-};
 
 /// Takes the triangles as they lie now.
 void set_step_wind(const ClothModel& model, const Vec3& velocity, double density, const Vectors& positions, StepWind& wind);
@@ -38,5 +15,7 @@ void set_step_wind(const ClothModel& model, const Vec3& velocity, double density
 /// incremental potential stays one. forces += f, N.
 void add_wind(const ClothModel& model, const StepWind& wind, const Vectors& velocities, double dt, Vectors& forces,
               WindTerms& terms);
+
+const ForceTerm& wind_term();
 
 }  // namespace percale

@@ -31,8 +31,12 @@ void StepSolver::set_model(const Compute& compute, const ClothModel& model, Line
     stale_ = true;
 }
 
-void StepSolver::fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts) {
+void StepSolver::fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts, std::span<const RankOne> rank_one) {
     fill_matrix(springs, contacts, matrix);
+    rank_one_.clear();
+    for (const RankOne& block : rank_one) {
+        if (block.factor > 0.0) rank_one_.push_back(&block);
+    }
     if (in_use_ == LinearSolver::multigrid) fill_multigrid();
 }
 
@@ -44,6 +48,14 @@ void StepSolver::fill_multigrid() {
 }
 
 SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vectors& x) {
+    if (rank_one_.empty()) return solve_blocks(b, target, x);
+    const auto solve_rest = [this](const Vectors& right, const SolveTarget& to, Vectors& answer) {
+        return solve_blocks(right, to, answer);
+    };
+    return rank_one_solver_.solve(*matrix.compute, rank_one_, b, target, solve_rest, x);
+}
+
+SolveReport StepSolver::solve_blocks(const Vectors& b, const SolveTarget& target, Vectors& x) {
     int before = 0;
     if (in_use_ == LinearSolver::cg) {
         const bool may_change = wish_ == LinearSolver::automatic && model_->vertex_count() > dense_vertices;

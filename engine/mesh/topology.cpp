@@ -2,7 +2,33 @@
 
 #include <algorithm>
 
+#include "percale/error.h"
+
 namespace percale {
+namespace {
+
+std::string edge_text(std::array<int, 2> edge) {
+    return "edge (" + std::to_string(edge[0]) + ", " + std::to_string(edge[1]) + ")";
+}
+
+/// Edges as triangles run along them, sorted.
+std::vector<std::array<int, 2>> directed_edges(std::span<const Triangle> triangles) {
+    std::vector<std::array<int, 2>> edges;
+    for (const auto& [a, b, c] : triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+double volume_of(const TriangleMesh& mesh) {
+    double sum = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec3 &origin = mesh.vertices.front(), &x = mesh.vertices[a], &y = mesh.vertices[b], &z = mesh.vertices[c];
+        sum += (x - origin).dot((y - origin).cross(z - origin)) / 6.0;
+    }
+    return sum;
+}
+
+}  // namespace
 
 std::vector<MeshEdge> mesh_edges(std::span<const Triangle> triangles) {
     std::vector<MeshEdge> edges;
@@ -24,6 +50,23 @@ std::vector<MeshEdge> mesh_edges(std::span<const Triangle> triangles) {
     }
     edges.resize(kept);
     return edges;
+}
+
+void check_encloses(const TriangleMesh& mesh, const std::string& name, const std::string& reason) {
+    const std::vector<std::array<int, 2>> edges = directed_edges(mesh.triangles);
+    for (const std::array<int, 2>& edge : edges) {
+        const std::array<int, 2> back = {edge[1], edge[0]};
+        if (std::binary_search(edges.begin(), edges.end(), back)) continue;
+        const bool twice = std::count(edges.begin(), edges.end(), edge) > 1;
+        throw SceneError(name, edge_text(edge) +
+                                   (twice ? " has two triangles that are wound against each other; "
+                                          : " belongs to one triangle: the mesh is open there; ") +
+                                   reason);
+    }
+    const double volume = volume_of(mesh);
+    if (volume > 0.0) return;
+    throw SceneError(name,
+                     "encloses " + std::to_string(volume) + " m^3: its triangles are clockwise seen from outside; " + reason);
 }
 
 }  // namespace percale

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "percale/mesh.h"
@@ -16,5 +17,10 @@ struct MeshEdge {
 
 /// Every edge once, ordered by its vertices. The mesh must be edge-manifold (check_mesh).
 std::vector<MeshEdge> mesh_edges(std::span<const Triangle> triangles);
+
+/// Throws SceneError naming `name` and, at its end, `reason` unless the mesh encloses a volume: every edge belongs to two
+/// triangles, which run along it in opposite directions, and triangles are counter-clockwise seen from outside. The mesh must
+/// pass check_mesh.
+void check_encloses(const TriangleMesh& mesh, const std::string& name, const std::string& reason);
 
 }  // namespace percale

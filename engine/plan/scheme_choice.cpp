@@ -75,7 +75,7 @@ double largest_eigenvalue(const StepScene& scene, Multiply multiply) {
 /// Largest square of an angular frequency, 1/s^2.
 double largest_square(const StepScene& scene, const ClothState& state) {
     const ClothModel& model = scene.model;
-    if (model.hinges.all.empty() && model.membrane.empty()) {
+    if (!has_shapes(model)) {
         return largest_eigenvalue(scene, [&](const Vectors& x, Vectors& y) {
             multiply_springs(model, state.positions, model.springs.stiffness, x, y);
         });

@@ -2,29 +2,11 @@
 
 #include <algorithm>
 
+#include "forces/total_force.h"
 #include "schemes/schemes.h"
 
 namespace percale {
 namespace {
-
-void add_springs(const ClothFacts& cloth, std::vector<Skip>& skipped) {
-    const SpringConstants& springs = cloth.fabric.springs;
-    const bool triangles = cloth.fabric.has_moduli() && cloth.fabric.membrane == Membrane::triangle_springs;
-    if (!triangles) {
-        skipped.push_back({"triangle springs of " + cloth.name,
-                           cloth.fabric.has_moduli() ? "membrane is van_gelder" : "stretch_stiffness is not set"});
-    }
-    if (cloth.fabric.has_moduli()) {
-        return skipped.push_back({"springs of " + cloth.name + " other than along edges", "stretch_stiffness is set"});
-    }
-    if (springs.structural == 0.0) skipped.push_back({"structural springs of " + cloth.name, "springs.structural is 0 N/m"});
-    if (!cloth.grid) {
-        skipped.push_back({"shear springs of " + cloth.name, "a free mesh has none"});
-    } else if (springs.shear == 0.0) {
-        skipped.push_back({"shear springs of " + cloth.name, "springs.shear is 0 N/m"});
-    }
-    if (springs.bend == 0.0) skipped.push_back({"bending springs of " + cloth.name, "springs.bend is 0 N/m"});
-}
 
 bool meets_cloth(const SceneFacts& facts) {
     return std::any_of(facts.cloths.begin(), facts.cloths.end(),
@@ -59,15 +41,6 @@ void add_solver(const StepPlan& plan, std::string_view scheme, std::vector<Skip>
         skipped.push_back({"a new matrix in each step", "springs stay the same: its pattern is kept, its blocks are refilled"});
     }
     if (!plan.solve) skipped.push_back({"the whole solve", "no vertex is free to move"});
-}
-
-void add_forces(const StepPlan& plan, const SceneFacts& facts, std::vector<Skip>& skipped) {
-    for (const ClothFacts& cloth : facts.cloths) {
-        if (cloth.fabric.bend_stiffness.value_or(0.0) == 0.0)
-            skipped.push_back({"hinges of " + cloth.name, "bend_stiffness is not set or 0 N m"});
-    }
-    if (!plan.wind && !facts.changes.wind) skipped.push_back({"drag of the air", "no wind was ever set"});
-    if (facts.springs.seam == 0) skipped.push_back({"closing of seams", "the scene has no seam"});
 }
 
 void add_measures(const StepPlan& plan, std::vector<Skip>& skipped) {
@@ -120,11 +93,11 @@ std::vector<Skip> skipped_by(const StepPlan& plan, const StepSettings& settings,
     std::vector<Skip> skipped;
     add_contacts(plan, facts, skipped);
     add_motion(plan, facts, skipped);
-    for (const ClothFacts& cloth : facts.cloths) add_springs(cloth, skipped);
+    const ForceFacts forces{facts.cloths, plan.wind || facts.changes.wind, facts.springs.seam > 0};
+    for (const ForceTerm* term : force_terms()) term->add_skips(forces, skipped);
     if (plan.scheme == Scheme::backward_euler && plan.damping != settings.damping_form) {
         skipped.push_back({"start lengths of springs in each step", "spring_damping is 0 N s/m"});
     }
-    add_forces(plan, facts, skipped);
     add_solver(plan, facts_of(plan.scheme).word, skipped);
     add_measures(plan, skipped);
     return skipped;

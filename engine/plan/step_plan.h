@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "percale/fabric.h"
+#include "model/cloth_facts.h"
 #include "percale/plan.h"
 #include "percale/settings.h"
 
@@ -34,13 +34,6 @@ struct StepPlan {
     bool everything = false;      // nothing is skipped that could be done
 
     bool operator==(const StepPlan&) const = default;
-};
-
-/// What is known of one cloth.
-struct ClothFacts {
-    std::string name = {};
-    bool grid = true;
-    Fabric fabric = {};
 };
 
 /// What the plan is made from.

@@ -1,5 +1,8 @@
 #include "explicit_update.h"
 
+#include "forces/springs.h"
+#include "forces/wind.h"
+
 namespace percale {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include "forces/elastic.h"
 #include "forces/spring_loss.h"
+#include "forces/wind.h"
 #include "schemes/schemes.h"
 #include "state_forces.h"
 #include "targets.h"

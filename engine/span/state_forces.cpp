@@ -1,5 +1,7 @@
 #include "state_forces.h"
 
+#include "forces/springs.h"
+#include "forces/wind.h"
 #include "support/stage_timer.h"
 
 namespace percale {

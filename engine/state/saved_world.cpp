@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forces/total_force.h"
 #include "percale/error.h"
 #include "percale/options.h"
 #include "percale/saved_report.h"
@@ -140,36 +141,6 @@ struct Identity {
     std::uint64_t cloth = 0, obstacles = 0, settings = 0;
 };
 
-/// Hashes lists of numbers and of arrays of them, without a copy.
-class ListHash {
-public:
-    void add(int number) { hash_.add(number); }
-    void add(double number) { hash_.add(number); }
-    void add(const Vec3& x) { add_all(std::span<const double>(x.data(), 3)); }
-    template <class Value, std::size_t count>
-    void add(const std::array<Value, count>& values) {
-        add_all(std::span<const Value>(values));
-    }
-    template <class Values>
-    void add_all(const Values& values) {
-        add(static_cast<int>(values.size()));
-        for (const auto& value : values) add(value);
-    }
-    std::uint64_t value() const { return hash_.value(); }
-
-private:
-    Hash hash_;
-};
-
-void add_springs(const SpringNetwork& springs, ListHash& hash) {
-    for (const auto* ends : {&springs.first, &springs.second}) hash.add_all(*ends);
-    for (const auto* constants : {&springs.stiffness, &springs.damping}) hash.add_all(*constants);
-    for (int k = 0; k < springs.size(); ++k) {
-        hash.add(static_cast<int>(springs.kind[k]));
-        if (springs.kind[k] != SpringKind::seam) hash.add(springs.rest_length[k]);
-    }
-}
-
 std::uint64_t cloth_hash(const ClothModel& model) {
     ListHash hash;
     for (const ClothRange& cloth : model.cloths) {
@@ -181,17 +152,7 @@ std::uint64_t cloth_hash(const ClothModel& model) {
     for (const auto* numbers : {&model.mass, &model.thickness}) hash.add_all(*numbers);
     hash.add_all(model.rest);
     hash.add_all(model.triangles);
-    add_springs(model.springs, hash);
-    for (const MembraneTriangle& t : model.membrane) {
-        hash.add(t.vertex);
-        hash.add(t.rest_square);
-        hash.add_all(std::span<const double>(t.stiffness.data(), 9));
-    }
-    for (const Hinge& hinge : model.hinges.all) {
-        hash.add(hinge.vertex);
-        hash.add(hinge.weight);
-        for (const double number : {hinge.stiffness, hinge.rest_angle}) hash.add(number);
-    }
+    for (const ForceTerm* term : force_terms()) term->identify(model, hash);
     return hash.value();
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "forces/elastic.h"
-#include "forces/gravity.h"
+#include "forces/springs.h"
+#include "forces/total_force.h"
 #include "support/hash.h"
 #include "support/stage_timer.h"
 
@@ -27,18 +27,6 @@ std::uint64_t hash_of(const ContactRows& rows) {
 
 double largest_speed(const Vectors& velocities, int count) {
     return std::sqrt(largest_term(0, count, [&](int i) { return square_at(velocities, i); }));
-}
-
-StepEnergy stored_energy(const StepScene& scene, const StepState& state, bool with_gravity) {
-    const ClothState& cloth = state.cloth;
-    const std::vector<double>& mass = scene.model.mass;
-    StepEnergy energy;
-    energy.kinetic =
-        0.5 * sum_terms(0, scene.model.vertex_count(), [&](int i) { return mass[i] * square_at(cloth.velocities, i); });
-    if (with_gravity) energy.gravity = gravity_energy(mass, scene.settings.gravity, cloth.positions);
-    energy.elastic = elastic_energy(scene.model, cloth.positions, cloth.rest_length);
-    energy.contact = state.contact_energy;
-    return energy;
 }
 
 void leave_out_ledger(StepEnergy& energy) {
@@ -63,7 +51,19 @@ void set_contacts(const StepScene& scene, const StagePoint& last, StepReport& re
 
 }  // namespace
 
-StepEnergy energy_of(const StepScene& scene, const StepState& state) { return stored_energy(scene, state, true); }
+StepEnergy energy_of(const StepScene& scene, const StepState& state) {
+    const ClothState& cloth = state.cloth;
+    const std::vector<double>& mass = scene.model.mass;
+    StepEnergy energy;
+    energy.kinetic =
+        0.5 * sum_terms(0, scene.model.vertex_count(), [&](int i) { return mass[i] * square_at(cloth.velocities, i); });
+    for (const ForceTerm* term : force_terms()) {
+        if (!term->entry() || !term->acts({.model = &scene.model})) continue;
+        energy.*term->entry() += term->energy({scene.model, cloth.positions, cloth.rest_length, scene.settings.gravity});
+    }
+    energy.contact = state.contact_energy;
+    return energy;
+}
 
 bool all_finite(const ClothState& cloth) {
     double sum = 0.0;
@@ -87,7 +87,7 @@ void StepMeasure::set_state(const StepState& state, StepReport& report) const {
         report.energy.work = report.largest_strain = report.largest_speed = unknown;
         return;
     }
-    set_stored(stored_energy(scene_, state, scene_.plan.gravity_energy), report.energy);
+    set_stored(energy_of(scene_, state), report.energy);
     report.largest_strain = largest_strain(scene_.model.springs, state.cloth.positions);
     report.largest_speed = largest_speed(state.cloth.velocities, scene_.model.vertex_count());
 }

@@ -36,6 +36,9 @@ struct Fabric {
     double drag_normal = 1.2;                   // C_n, against air that meets the surface; of both sides together
     double drag_tangential = 0.05;              // C_t, against air that passes along it
 
+    std::optional<double> pressure = {};    // Pa, inside a closed cloth above that outside
+    std::optional<double> gas_volume = {};  // m^3, of the gas sealed in a closed cloth, at the pressure of the air
+
     bool has_moduli() const { return stretch_stiffness.has_value(); }
 };
 

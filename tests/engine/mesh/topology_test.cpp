@@ -62,4 +62,13 @@ TEST_CASE("A grid has as many edges as Euler's formula asks") {
     }
 }
 
+TEST_CASE("Every shape but the plane encloses a volume") {
+    for (const TriangleMesh& mesh :
+         {make_sphere(0.3, 2), make_box({1.0, 2.0, 3.0}), make_cylinder(0.1, 0.5, 12), make_capsule(0.1, 0.4, 12)}) {
+        CHECK_NOTHROW(check_encloses(mesh, "shape", "why"));
+    }
+    CHECK_THROWS_WITH(check_encloses(make_plane(1.0), "plane", "why"),
+                      "plane: edge (0, 2) belongs to one triangle: the mesh is open there; why");
+}
+
 }  // namespace percale::test

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "kernels/compute.h"
+#include "model/cloth_facts.h"
+#include "model/cloth_model.h"
+#include "percale/plan.h"
+#include "percale/report.h"
+#include "spring_terms.h"
+#include "support/list_hash.h"
+#include "wind_terms.h"
+
+namespace percale {
+
+/// What forces act on in one evaluation.
+struct ForceInput {
+    const Compute* compute = nullptr;
+    const ClothModel* model = nullptr;
+    const StepSprings* springs = nullptr;
+    const Vectors* positions = nullptr;
+    const Vectors* velocities = nullptr;
+    Vec3 gravity = Vec3::Zero();
+    const StepWind* wind = nullptr;  // null: there is no air
+    double dt = 0.0;
+    bool with_matrix = false;
+};
+
+/// A part of the step matrix that joins all vertices of a cloth: factor g g^T, kg.
+struct RankOne {
+    double factor = 0.0;  // kg/m^4
+    Vectors gradient;     // g, m^2; 0 at the vertices of other cloth
+};
+
+/// Forces of one state and what the step matrix is made of.
+struct Forces {
+    Vectors total;  // N
+    SpringTerms spring_terms;
+    WindTerms wind;
+    std::vector<RankOne> rank_one;
+    double potential = 0.0;  // J, the sum of what the terms return
+};
+
+/// What energies are functions of.
+struct StoredInput {
+    const ClothModel& model;
+    const Vectors& positions;                  // m
+    std::span<const double> rest_length = {};  // ClothState::rest_length
+    Vec3 gravity = Vec3::Zero();
+};
+
+/// One force on the cloth. total_force.cpp lists all of them; who evaluates, measures, checks, saves or plans forces goes through
+/// that list. Damping, which only springs have, is in spring_loss.h; what else a term takes from the cloth beyond the change of
+/// its energy, the ledger finds from its force and its energy (shape_loss).
+class ForceTerm {
+public:
+    virtual ~ForceTerm() = default;
+    virtual std::string_view name() const = 0;
+
+    /// Whether the scene has it. Where not, nothing else is asked of it but reasons.
+    virtual bool acts(const ForceInput& input) const = 0;
+
+    /// forces.total += its forces, N, and with input.with_matrix its part of the matrix -dt^2 Jq - dt Jv, made positive
+    /// semidefinite. Returns its potential, J: what the forces are minus the gradient of, by the positions at the end of dt.
+    virtual double add(const ForceInput& input, Forces& forces) const = 0;
+
+    /// The entry of the energies in which what it stores is counted; null: it stores nothing.
+    virtual double StepEnergy::*entry() const { return nullptr; }
+    virtual double energy(const StoredInput&) const { return 0.0; }
+
+    /// What check_derivatives asks for. Whether the forces have neither sum nor moment; whether they are in the matrix; whether
+    /// the matrix may be below the derivative at inexact vertices, else it bounds that from above.
+    virtual bool is_internal() const { return true; }
+    virtual bool is_in_matrix() const { return true; }
+    virtual bool may_be_below() const { return false; }
+    /// Makes what earlier terms of the list would have left behind.
+    virtual void stand_alone(const ForceInput&, Forces&) const {}
+    /// exact[i] = false for vertices at which the matrix, added at this state, is not the derivative for moves by `reach`, m.
+    virtual void mark_inexact(const ForceInput&, const Forces&, double /*reach*/, std::vector<bool>& /*exact*/) const {}
+
+    /// What a saved state's cloth must have in common with the one it is restored into.
+    virtual void identify(const ClothModel&, ListHash&) const {}
+
+    /// Why the plan leaves it out of the scene, or parts of it.
+    virtual void add_skips(const ForceFacts&, std::vector<Skip>&) const {}
+};
+
+}  // namespace percale

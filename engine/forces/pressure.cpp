@@ -1,0 +1,110 @@
+#include "pressure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tolerances.h"
+
+namespace percale {
+namespace {
+
+bool is_filled(const Fabric& fabric) { return fabric.pressure || fabric.gas_volume; }
+
+/// Those of one cloth, which follow one another.
+std::span<const Triangle> triangles_of(const ClothModel& model, const ClothRange& cloth) {
+    const auto below = [](int vertex) { return [vertex](const Triangle& t) { return t[0] < vertex; }; };
+    const auto end = model.triangles.end();
+    const auto first = std::partition_point(model.triangles.begin(), end, below(cloth.first));
+    return {first, std::partition_point(first, end, below(cloth.first + cloth.count))};
+}
+
+class Pressure final : public ForceTerm {
+public:
+    std::string_view name() const override { return "pressure"; }
+    bool acts(const ForceInput& input) const override {
+        return std::ranges::any_of(input.model->cloths, [](const ClothRange& cloth) { return is_filled(cloth.fabric); });
+    }
+
+    double add(const ForceInput& input, Forces& forces) const override {
+        std::size_t count = 0;
+        double energy = 0.0;
+        for (const ClothRange& cloth : input.model->cloths) {
+            if (!is_filled(cloth.fabric)) continue;
+            if (count == forces.rank_one.size()) forces.rank_one.emplace_back();
+            RankOne& block = forces.rank_one[count++];
+            const Filling filling = filling_at(cloth.fabric, volume_of(*input.model, cloth, *input.positions));
+            set_volume_gradient(*input.model, cloth, *input.positions, block.gradient);
+            block.factor = input.dt * input.dt * filling.stiffness;
+            add_scaled(forces.total, filling.pressure, block.gradient);
+            energy += filling.energy;
+        }
+        return energy;
+    }
+
+    double StepEnergy::*entry() const override { return &StepEnergy::elastic; }
+    double energy(const StoredInput& input) const override {
+        double energy = 0.0;
+        for (const ClothRange& cloth : input.model.cloths) {
+            if (is_filled(cloth.fabric))
+                energy += filling_at(cloth.fabric, volume_of(input.model, cloth, input.positions)).energy;
+        }
+        return energy;
+    }
+
+    bool may_be_below() const override { return true; }
+    void mark_inexact(const ForceInput&, const Forces&, double, std::vector<bool>& exact) const override {
+        exact.assign(exact.size(), false);
+    }
+
+    void identify(const ClothModel& model, ListHash& hash) const override {
+        for (const ClothRange& cloth : model.cloths) {
+            if (!is_filled(cloth.fabric)) continue;
+            for (const std::optional<double>& number : {cloth.fabric.pressure, cloth.fabric.gas_volume}) {
+                hash.add(static_cast<int>(number.has_value()));
+                hash.add(number.value_or(0.0));
+            }
+        }
+    }
+
+    void add_skips(const ForceFacts& facts, std::vector<Skip>& skipped) const override {
+        for (const ClothFacts& cloth : facts.cloths) {
+            if (!is_filled(cloth.fabric)) skipped.push_back({"pressure in " + cloth.name, "pressure and gas_volume are not set"});
+        }
+    }
+};
+
+}  // namespace
+
+double volume_of(const ClothModel& model, const ClothRange& cloth, const Vectors& positions) {
+    const Vec3 origin = positions.at(cloth.first);  // near the cloth, so that less is rounded
+    const std::span<const Triangle> triangles = triangles_of(model, cloth);
+    return sum_terms(0, static_cast<int>(triangles.size()), [&](int t) {
+        const auto& [i, j, k] = triangles[t];
+        return (positions.at(i) - origin).dot((positions.at(j) - origin).cross(positions.at(k) - origin)) / 6.0;
+    });
+}
+
+void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vectors& positions, Vectors& gradient) {
+    gradient.resize(static_cast<int>(positions.padded_size()));
+    for (const auto& [i, j, k] : triangles_of(model, cloth)) {
+        const Vec3 third = (positions.at(j) - positions.at(i)).cross(positions.at(k) - positions.at(i)) / 6.0;
+        for (const int vertex : {i, j, k}) gradient.add(vertex, third);
+    }
+}
+
+Filling filling_at(const Fabric& fabric, double volume) {
+    if (fabric.pressure) return {*fabric.pressure, -*fabric.pressure * volume, 0.0};
+    const double amount = *fabric.gas_volume;
+    if (!(volume > 0.0)) return {0.0, std::numeric_limits<double>::infinity(), 0.0};
+    const double over = amount / volume;
+    return {air_pressure * (over - 1.0), air_pressure * (volume - amount - amount * std::log(volume / amount)),
+            air_pressure * over / volume};
+}
+
+const ForceTerm& pressure_term() {
+    static const Pressure term;
+    return term;
+}
+
+}  // namespace percale

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "force_term.h"
+
+namespace percale {
+
+/// The volume inside a closed cloth by the divergence theorem, m^3: the sum over its triangles (a, b, c) of a . (b x c)/6,
+/// positive where they are counter-clockwise seen from outside.
+double volume_of(const ClothModel& model, const ClothRange& cloth, const Vectors& positions);
+
+/// gradient = dV/dx, m^2: (b - a) x (c - a)/6 at each corner of a triangle, 0 at the vertices of other cloth.
+void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vectors& positions, Vectors& gradient);
+
+/// What fills a closed cloth at a volume V.
+struct Filling {
+    double pressure;   // Pa, p = -dU/dV, above the air outside
+    double energy;     // J, U
+    double stiffness;  // Pa/m^3, d^2U/dV^2
+};
+/// Fabric::pressure, a given difference: U = -p V. Fabric::gas_volume, an amount of gas that takes up V_0 at the pressure p_0 of
+/// the air, at a steady temperature (Boyle's law): p = p_0 (V_0/V - 1), U = p_0 (V - V_0 - V_0 ln(V/V_0)), infinite where V <= 0.
+Filling filling_at(const Fabric& fabric, double volume);
+
+/// Pushes each vertex by p dV/dx. Of the derivative, dp/dV (dV/dx)(dV/dx)^T is in the matrix; p d^2V/dx^2, which has as many
+/// negative eigenvalues as positive ones, is not.
+const ForceTerm& pressure_term();
+
+}  // namespace percale

@@ -1,0 +1,168 @@
+#include "engine/forces/pressure.h"
+
+#include <cmath>
+
+#include "engine/forces/total_force.h"
+#include "percale/error.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+Fabric filled(std::optional<double> pressure, std::optional<double> gas_volume) {
+    Fabric fabric = free_fabric();
+    fabric.pressure = pressure;
+    fabric.gas_volume = gas_volume;
+    return fabric;
+}
+
+/// A dented ball beside an open sheet, in one model.
+struct Dented {
+    ClothModel model;
+    Vectors positions, velocities;
+
+    explicit Dented(const Fabric& fabric, double dents = 0.02) {
+        append_cloth(model, make_grid(1.0, 1.0, 4, 4), sheet_fabric(), "sheet");
+        append_cloth(model, make_sphere(0.2, 1), fabric, "ball");
+        finish_model(model);
+        Random random(5);
+        std::vector<Vec3> places = model.rest;
+        for (Vec3& x : places) x += Vec3(3.0, -2.0, 1.0) + random.point(dents);
+        positions = to_vectors(places);
+        velocities.resize(model.vertex_count());
+    }
+
+    const ClothRange& ball() const { return model.cloths[1]; }
+    double volume(const Vectors& at) const { return volume_of(model, ball(), at); }
+    ForceInput input(const Vectors& at) const {
+        return {
+            .compute = &compute, .model = &model, .positions = &at, .velocities = &velocities, .dt = 0.01, .with_matrix = true};
+    }
+    double add(const Vectors& at, Forces& forces) const {
+        forces.total.resize(model.vertex_count());
+        return pressure_term().add(input(at), forces);
+    }
+    Vectors moved(double by, const Vectors& along) const {
+        Vectors result = positions;
+        add_scaled(result, by, along);
+        return result;
+    }
+    Vectors direction(unsigned seed) const {
+        Random random(seed);
+        return to_vectors(random_points(random, model.vertex_count(), 1.0));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("The volume of a box is the product of its edges, wherever it is") {
+    const ClothModel model = cloth_model(make_box({0.2, 0.5, 0.3}), filled(1.0, {}));
+    for (const Vec3& place : {Vec3(0.0, 0.0, 0.0), Vec3(5.0, -3.0, 2.0)}) {
+        std::vector<Vec3> places = model.rest;
+        for (Vec3& x : places) x += place;
+        CHECK(volume_of(model, model.cloths[0], to_vectors(places)) == Approx(0.03).epsilon(1e-14));
+    }
+}
+
+TEST_CASE("The gradient of the volume is what differences say, adds up to nothing and is 0 at other cloth") {
+    const Dented scene(filled(1.0, {}));
+    Vectors gradient;
+    set_volume_gradient(scene.model, scene.ball(), scene.positions, gradient);
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        const Vectors d = scene.direction(seed);
+        const double reach = 1e-5;
+        const double slope = (scene.volume(scene.moved(reach, d)) - scene.volume(scene.moved(-reach, d))) / (2.0 * reach);
+        CHECK(dot(compute, gradient, d) == Approx(slope).epsilon(1e-8));
+    }
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < scene.model.vertex_count(); ++i) sum += gradient.at(i);
+    CHECK(sum.norm() <= 1e-15);
+    for (int i = 0; i < 16; ++i) CHECK(gradient.at(i) == Vec3::Zero());
+}
+
+TEST_CASE("A given pressure stays; of an amount of gas pressure times volume does") {
+    for (const double volume : {-0.1, 0.01, 0.02}) {
+        CHECK(filling_at(filled(30.0, {}), volume).pressure == 30.0);
+        CHECK(filling_at(filled(30.0, {}), volume).energy == -30.0 * volume);
+        CHECK(filling_at(filled(30.0, {}), volume).stiffness == 0.0);
+    }
+    const Fabric gas = filled({}, 0.02);
+    const double air = 101325.0;
+    for (const double volume : {0.005, 0.02, 0.03}) {
+        const Filling at = filling_at(gas, volume);
+        const double reach = 1e-6 * volume;
+        const Filling ahead = filling_at(gas, volume + reach), behind = filling_at(gas, volume - reach);
+        CHECK((at.pressure + air) * volume == Approx(air * 0.02).epsilon(1e-14));
+        CHECK(at.pressure == Approx((behind.energy - ahead.energy) / (2.0 * reach)).epsilon(1e-6).margin(1e-4));
+        CHECK(at.stiffness == Approx((behind.pressure - ahead.pressure) / (2.0 * reach)).epsilon(1e-6));
+    }
+    CHECK(filling_at(gas, 0.02).pressure == 0.0);
+    CHECK(filling_at(gas, 0.02).energy == 0.0);
+    CHECK(std::isinf(filling_at(gas, 0.0).energy));
+    CHECK(std::isinf(filling_at(gas, -0.01).energy));
+}
+
+TEST_CASE("Forces of what fills a cloth are minus the slope of its energy, and reach no other cloth") {
+    for (const Fabric& fabric : {filled(40.0, {}), filled(-40.0, {}), filled({}, 0.04), filled({}, 0.02)}) {
+        const Dented scene(fabric);
+        Forces forces, unused;
+        const double energy = scene.add(scene.positions, forces);
+        CHECK(energy == pressure_term().energy({scene.model, scene.positions}));
+        const Vectors d = scene.direction(7);
+        const double reach = 1e-6;
+        const double ahead = scene.add(scene.moved(reach, d), unused), behind = scene.add(scene.moved(-reach, d), unused);
+        CHECK(-dot(compute, forces.total, d) == Approx((ahead - behind) / (2.0 * reach)).epsilon(1e-5));
+        for (int i = 0; i < 16; ++i) CHECK(forces.total.at(i) == Vec3::Zero());
+    }
+}
+
+TEST_CASE("Where the gas presses no more than the air, its block of rank one is the whole derivative") {
+    Fabric fabric = filled({}, 0.02);
+    const double volume = Dented(fabric).volume(Dented(fabric).positions);
+    fabric.gas_volume = volume;
+    const Dented scene(fabric);
+    Forces forces, ahead, behind;
+    scene.add(scene.positions, forces);
+    REQUIRE(forces.rank_one.size() == 1);
+    const RankOne& block = forces.rank_one[0];
+    const Vectors d = scene.direction(9);
+    const double reach = 1e-6, dt = 0.01;
+    scene.add(scene.moved(reach, d), ahead);
+    scene.add(scene.moved(-reach, d), behind);
+    const double along = block.factor * dot(compute, block.gradient, d);
+    double largest = 0.0, wrong = 0.0;
+    for (int i = 0; i < scene.model.vertex_count(); ++i) {
+        const Vec3 expected = dt * dt / (2.0 * reach) * (behind.total.at(i) - ahead.total.at(i));
+        largest = std::max(largest, expected.norm());
+        wrong = std::max(wrong, (along * block.gradient.at(i) - expected).norm());
+    }
+    CHECK(largest > 0.0);
+    CHECK(wrong <= 1e-4 * largest);
+}
+
+TEST_CASE("Only a closed mesh with its normals outward is filled, by one of the two keys") {
+    const auto refusal = [](const TriangleMesh& mesh, const Fabric& fabric) -> std::string {
+        ClothModel model;
+        try {
+            append_cloth(model, mesh, fabric, "bag");
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    TriangleMesh ball = make_sphere(0.2, 1), inward = ball, open = ball, turned = ball;
+    for (Triangle& t : inward.triangles) std::swap(t[0], t[1]);
+    open.triangles.pop_back();
+    std::swap(turned.triangles[3][0], turned.triangles[3][1]);
+    CHECK(refusal(ball, filled(1.0, {})).empty());
+    CHECK(refusal(ball, filled({}, 0.03)).empty());
+    CHECK(refusal(open, filled(1.0, {})).find("the mesh is open there; pressure needs a closed mesh") != std::string::npos);
+    CHECK(refusal(open, filled({}, 0.03)).find("gas_volume needs a closed mesh") != std::string::npos);
+    CHECK(refusal(turned, filled(1.0, {})).find("wound against each other") != std::string::npos);
+    CHECK(refusal(inward, filled(1.0, {})).find("clockwise seen from outside") != std::string::npos);
+    CHECK(refusal(ball, filled(1.0, 0.03)).find("exclude each other") != std::string::npos);
+    CHECK(refusal(ball, filled({}, 0.0)).find("gas_volume = 0 m^3 is outside") != std::string::npos);
+}
+
+}  // namespace percale::test
