@@ -65,7 +65,7 @@ double flat_energy(const Hinge& hinge, const Vectors& x) {
 
 class HingeBending final : public ForceTerm {
 public:
-    std::string_view name() const override { return "curved hinges"; }
+    std::string_view name() const override { return "hinges"; }
     bool acts(const ForceInput& input) const override { return !input.model->hinges.all.empty(); }
     double add(const ForceInput& input, Forces& forces) const override {
         return add_curved_hinges(input.model->hinges, *input.positions, forces.total);
