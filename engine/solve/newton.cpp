@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "direction.h"
 #include "line_search.h"
@@ -14,8 +15,7 @@ namespace {
 
 /// Where the search for a motion stands.
 struct Search {
-    int iteration = 0;                   // over all rounds of multipliers
-    double first_norm = 0.0;             // what residuals are relative to
+    std::optional<double> first_norm;    // what residuals are relative to, of all rounds of multipliers
     double norm = 0.0, last_norm = 0.0;  // of the residual now and one iteration ago, m/s kg^1/2
     bool matrix_is_old = false;          // the line search went on beyond the point that its matrix led to
     bool line_solved = false;            // the last line searched ended at the solution
@@ -39,15 +39,16 @@ double gravity_norm(const ImplicitStage& stage) {
 void measure_residual(const StageEquations& equations, Search& search, NewtonReport& report) {
     const ImplicitStage& stage = equations.stage();
     search.norm = residual_norm(stage.scene, equations.space().current.residual);
-    if (report.newton_iterations == 0 && search.iteration == 0) search.first_norm = std::max(search.norm, gravity_norm(stage));
-    report.residual = search.first_norm > 0.0 ? search.norm / search.first_norm : 0.0;
+    if (!search.first_norm) search.first_norm = std::max(search.norm, gravity_norm(stage));
+    report.residual = *search.first_norm == 0.0 ? 0.0 : search.norm / *search.first_norm;
 }
 
 /// Whether another iteration would change little, by what the preconditioner makes of the residual: far cheaper than the
 /// iteration.
-bool next_change_is_small(const StageEquations& equations, const TimeError& error, const Search& search) {
+bool next_change_is_small(const StageEquations& equations, const TimeError& error, const Search& search,
+                          const NewtonReport& report) {
     const bool by_residual = equations.stage().scene.settings.newton_tolerance.has_value();
-    if (search.iteration == 0 || by_residual || !equations.arrived() || search.matrix_is_old) return false;
+    if (report.newton_iterations == 0 || by_residual || !equations.arrived() || search.matrix_is_old) return false;
     if (!estimate_direction(equations)) return false;
     return change_is_small(error, change_to(equations, equations.space().current.velocities), estimated_share_of_time_error);
 }
@@ -70,15 +71,15 @@ bool is_solution(const StageEquations& equations, const Direction& direction, co
 /// for; false where it is given up.
 bool find_motion(StageEquations& equations, const TimeError& error, Search& search, NewtonReport& report) {
     const StepSettings& settings = equations.stage().scene.settings;
-    for (;; ++search.iteration) {
+    for (;;) {
         measure_residual(equations, search, report);
         if (search.norm == 0.0 || !std::isfinite(search.norm)) return false;
         if (meets_tolerance(equations, report)) return true;
-        if (search.iteration == settings.newton_iterations) return false;
-        if (next_change_is_small(equations, error, search)) return true;
+        if (report.newton_iterations >= settings.newton_iterations) return false;
+        if (next_change_is_small(equations, error, search, report)) return true;
 
-        const double ratio = search.iteration > 0 ? search.norm / search.last_norm : 1.0;
-        const NewtonProgress progress{search.iteration, ratio, report.residual};
+        const double ratio = report.newton_iterations > 0 ? search.norm / search.last_norm : 1.0;
+        const NewtonProgress progress{report.newton_iterations, ratio, report.residual};
         const Vectors& velocities = equations.space().current.velocities;
         const Direction direction =
             newton_direction(equations, solve_target(error, progress, settings.newton_tolerance, velocities));
@@ -152,7 +153,6 @@ NewtonReport solve_stage(const ImplicitStage& stage, NewtonSpace& space, StageEn
     Search search;
     bool solved = find_motion(equations, error, search, report);
     for (int round = 0; solved && round < most_contact_rounds && correct_contact(equations, error); ++round) {
-        ++search.iteration;
         solved = find_motion(equations, error, search, report);
     }
     if (!solved) report.end = end_of(equations, search, report);
