@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # All that a change must pass, in order; stops at the first stage that fails: .ci/check.sh [STAGE...]
-# Stages: format layers release scenes perf consumer engine_only sanitizers fuzz; only on demand: night. Builds are kept under build/ci-*.
-# Each compiler builds what it tests once: g++ all, as the README says, in batches; clang++ the tests, under sanitizers, file by file;
-# engine_only the engine alone.
+# Stages: format layers release scenes perf consumer engine_only alone sanitizers fuzz; only on demand: night. Builds are kept under build/ci-*.
+# Each compiler builds what it tests once, in batches: g++ all, as the README says; clang++ the tests, under sanitizers. That no source
+# leans on its batch is seen by engine_only, which builds the engine file by file, and by alone, which reads the other layers' sources.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
 
-stages=(format layers release scenes perf consumer engine_only sanitizers fuzz)
+stages=(format layers release scenes perf consumer engine_only alone sanitizers fuzz)
 on_demand=(night)
 release_copy="$root/build/ci-release/a path with a space"
 jobs=${PERCALE_JOBS:-2}
@@ -101,9 +101,21 @@ stage_engine_only() {
     ctest --test-dir build/ci-engine-only/consumer --no-tests=error
 }
 
-# build_sanitizers TARGET...: clang++, address and undefined-behaviour sanitizers. Sources one by one, so that none leans on its batch.
+# Sources of collision and scenes, each read by clang++ without the others of its batch; nothing is compiled.
+stage_alone() {
+    configure build/ci-alone -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF -DPERCALE_TESTS=OFF \
+        -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+    python3 - build/ci-alone/compile_commands.json <<'PYTHON' | xargs -0 -P "$jobs" -n 1 bash -c
+import json, re, sys
+for entry in json.load(open(sys.argv[1])):
+    if re.search('/(collision|scenes)/', entry['file']):
+        print('cd ' + entry['directory'] + ' && ' + re.sub(r' -o \S+', ' -fsyntax-only', entry['command']), end='\0')
+PYTHON
+}
+
+# build_sanitizers TARGET...: clang++, address and undefined-behaviour sanitizers. Compiling test code costs more than running it.
 build_sanitizers() {
-    configure build/ci-sanitizers -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF \
+    configure build/ci-sanitizers -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON -DPERCALE_TEST_OPTIMISATION=-O0 \
         -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only"
     cmake --build build/ci-sanitizers --target "$@"
 }
