@@ -218,7 +218,7 @@ private:
             }
             const SelectedPack& at = selected_[i];
             const PackAnswer answer = measure_pack(here, at, thickness_[at.feature().cloth[0]]);
-            for (unsigned lanes = answer.row | (at.list->packs.at[at.index].active & answer.near); lanes != 0;
+            for (unsigned lanes = answer.row | (at.list->packs.at[at.index].standing & answer.near); lanes != 0;
                  lanes &= lanes - 1) {
                 lanes_.push_back({at, std::countr_zero(lanes)});
                 __builtin_prefetch(&packs_for(at.feature()).packs[at.number()].feature);
@@ -250,14 +250,14 @@ private:
             if (moved_[i]) forgotten_at_[i] = positions[i];
         }
         for (ClusterList& list : lists_->lists()) {
-            if (!list.has_active) continue;
-            list.has_active = false;
+            if (!list.has_standing) continue;
+            list.has_standing = false;
             for (std::size_t i = 0; i < list.packs.size(); ++i) {
-                if (list.packs.at[i].active == 0) continue;
+                if (list.packs.at[i].standing == 0) continue;
                 const std::span<const int> cloth = list.features[list.packs.at[i].feature].vertices();
                 if (std::any_of(cloth.begin(), cloth.end(), [&](int vertex) { return moved_[vertex]; }))
-                    list.packs.at[i].active = 0;
-                list.has_active = list.has_active || list.packs.at[i].active != 0;
+                    list.packs.at[i].standing = 0;
+                list.has_standing = list.has_standing || list.packs.at[i].standing != 0;
             }
         }
     }
@@ -297,9 +297,9 @@ private:
         const auto& [list, pack] = at.place;
         if (contact.local_minimum) {
             list->packs.activate(pack, at.lane, thickness);
-            list->has_active = true;
+            list->has_standing = true;
         }
-        if ((list->packs.at[pack].active >> at.lane & 1U) != 0) add_row(pair, contact, thickness, rows);
+        if ((list->packs.at[pack].standing >> at.lane & 1U) != 0) add_row(pair, contact, thickness, rows);
     }
 
     void add_row(const ContactPair& pair, const PairContact& contact, double thickness, ContactRows& rows) const {

@@ -46,10 +46,11 @@ Pose normalised(Pose pose) {
     return pose;
 }
 
-void check_range(double value, double lowest, double highest, const std::string& what, const std::string& unit) {
+void check_range(const std::string& owner, const std::string& what, const std::string& unit, double value, double lowest,
+                 double highest) {
     if (value >= lowest && value <= highest) return;
-    throw SceneError(what + " = " + number_text(value) + " " + unit + " is outside the allowed range " + number_text(lowest) +
-                     " ... " + number_text(highest));
+    throw SceneError(owner, what + " = " + number_text(value) + " " + unit + " is outside the allowed range " +
+                                number_text(lowest) + " ... " + number_text(highest));
 }
 
 /// Of springs that are new in the network, where the state has rest lengths of its own.
@@ -289,8 +290,8 @@ void Simulation::set_wind(const Vec3& velocity) {
 void Simulation::add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices,
                           const SeamSettings& settings) {
     World& world = implementation_->world;
-    check_range(settings.over, 0.0, 1e6, settings.name + ": over", "s");
-    check_range(settings.stiffness, 1e-3, 1e9, settings.name + ": stiffness", "N/m");
+    check_range(settings.name, "over", "s", settings.over, 0.0, 1e6);
+    check_range(settings.name, "stiffness", "N/m", settings.stiffness, 1e-3, 1e9);
     if (vertices.empty()) throw SceneError(settings.name, "no vertices, a seam joins at least one pair");
     std::vector<std::array<int, 2>> pairs;
     for (const auto& [one, other] : vertices) {

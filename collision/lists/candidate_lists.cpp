@@ -33,7 +33,7 @@ void ListedPacks::add(int cloth_feature, int number, double apart, double thickn
 }
 
 void ListedPacks::activate(std::size_t i, unsigned lane, double thickness) {
-    at[i].active |= 1U << lane & 0xffU;
+    at[i].standing |= 1U << lane & 0xffU;
     wake[i] = below(static_cast<double>(reach[i]) - thickness);
 }
 
@@ -207,11 +207,11 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) 
     advance(move.from, move.fraction.from, obstacles);
     set_displacements(move);
     dirty_.clear();
-    active_pairs_.clear();
+    standing_pairs_.clear();
     for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
         if (covers(i, move, version)) continue;
         dirty_.push_back(i);
-        collect_active(i, obstacles);
+        collect_standing(i, obstacles);
         memory_.lists[i].version = version;
     }
     if (dirty_.empty()) return 1.0;
@@ -238,7 +238,7 @@ void CandidateLists::empty_dirty(const ClothMove& move) {
         ClusterList& list = memory_.lists[i];
         list.features.clear();
         list.packs.clear();
-        list.has_active = false;
+        list.has_standing = false;
         list.travel = 0.0;
         asked_.push_back(set_boxes(i, move));
     }
@@ -271,22 +271,22 @@ bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, 
     return true;
 }
 
-void CandidateLists::collect_active(std::size_t cluster, const Obstacles& obstacles) {
+void CandidateLists::collect_standing(std::size_t cluster, const Obstacles& obstacles) {
     const ClusterList& list = memory_.lists[cluster];
-    if (!list.has_active) return;
+    if (!list.has_standing) return;
     for (std::size_t i = 0; i < list.packs.size(); ++i) {
-        if (list.packs.at[i].active == 0) continue;
+        if (list.packs.at[i].standing == 0) continue;
         const ContactPair& feature = list.features[list.packs.at[i].feature];
         const FeaturePack& pack = obstacles[feature.obstacle]->packs().packs[list.packs.at[i].number];
-        for (unsigned active = list.packs.at[i].active; active != 0; active &= active - 1) {
-            active_pairs_.emplace_back(cluster, feature.with(pack, std::countr_zero(active)));
+        for (unsigned standing = list.packs.at[i].standing; standing != 0; standing &= standing - 1) {
+            standing_pairs_.emplace_back(cluster, feature.with(pack, std::countr_zero(standing)));
         }
     }
 }
 
 /// What was a contact in a list stays one in the list that replaces it.
 void CandidateLists::activate_again(const Obstacles& obstacles) {
-    for (const auto& [cluster, contact] : active_pairs_) {
+    for (const auto& [cluster, contact] : standing_pairs_) {
         ClusterList& list = memory_.lists[cluster];
         const int place = obstacles[contact.obstacle]->packs().place_of[static_cast<int>(contact.kind)][contact.feature];
         for (std::size_t f = 0; f < list.features.size(); ++f) {
@@ -297,7 +297,7 @@ void CandidateLists::activate_again(const Obstacles& obstacles) {
     }
 }
 
-/// Makes active the lane at a place of ObstaclePacks::place_of, if the feature is listed with its pack.
+/// Makes standing the lane at a place of ObstaclePacks::place_of, if the feature is listed with its pack.
 void CandidateLists::activate(ClusterList& list, std::size_t feature, int place) const {
     std::vector<ListedPack>& packs = list.packs.at;
     const auto first = std::partition_point(
@@ -306,7 +306,7 @@ void CandidateLists::activate(ClusterList& list, std::size_t feature, int place)
         if (static_cast<int>(packs[i].number) != place / pack_lanes) continue;
         list.packs.activate(i, place % pack_lanes, thickness_[list.features[feature].cloth[0]]);
         list.quiet_until = std::min(list.quiet_until, static_cast<double>(list.packs.wake[i]));
-        list.has_active = true;
+        list.has_standing = true;
     }
 }
 

@@ -24,9 +24,9 @@ inline float above(double x) { return static_cast<float>(x + tolerances::rounded
 
 /// A pack of obstacle features that can come near a cloth feature.
 struct ListedPack {
-    int feature = 0;           // of the cluster's list
-    unsigned number : 24 = 0;  // of the pack, among those of the feature's obstacle
-    unsigned active : 8 = 0;   // lanes that have been contacts since the last refresh: they stay so while they are near
+    int feature = 0;            // of the cluster's list
+    unsigned number : 24 = 0;   // of the pack, among those of the feature's obstacle
+    unsigned standing : 8 = 0;  // lanes that have been contacts since the last refresh: they stay so while they are near
 };
 
 /// The packs of a cluster, in the order of its features, with lower bounds that the list's travel uses up. Each bound has an
@@ -44,7 +44,7 @@ struct ListedPacks {
     void raise(std::size_t i, double distance_bound, double to_contact, double thickness, double travel) {
         reach[i] = std::max(reach[i], below(distance_bound + travel));
         const float near = below(static_cast<double>(reach[i]) - thickness);
-        wake[i] = std::max(wake[i], at[i].active != 0 ? near : std::max(near, below(to_contact + travel)));
+        wake[i] = std::max(wake[i], at[i].standing != 0 ? near : std::max(near, below(to_contact + travel)));
     }
     void activate(std::size_t i, unsigned lane, double thickness);
 };
@@ -63,7 +63,7 @@ struct ClusterList {
     double smallest_reach = 0.0;  // smallest ListedPacks::reach
     double quiet_until = 0.0;     // smallest ListedPacks::wake
     double inside_until = -1.0;   // m, travel up to which all vertices are surely in their boxes
-    bool has_active = false;      // some lane is active
+    bool has_standing = false;    // some lane is standing
     int version = no_version;     // of the obstacles' motion it was built for
 };
 
@@ -122,7 +122,7 @@ private:
     bool stays_above(const PackHull& hull, std::span<const int> vertices, double thickness) const;
     bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes);
     void empty_dirty(const ClothMove& move);
-    void collect_active(std::size_t cluster, const Obstacles& obstacles);
+    void collect_standing(std::size_t cluster, const Obstacles& obstacles);
     void activate_again(const Obstacles& obstacles);
     void activate(ClusterList& list, std::size_t feature, int place) const;
     bool is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version);
@@ -139,7 +139,7 @@ private:
     std::span<const int> near_patches_;                        // likewise, ascending
     std::vector<std::size_t> dirty_;
     std::vector<Box> asked_;
-    std::vector<std::pair<std::size_t, ContactPair>> active_pairs_;  // of the lists being replaced, with their clusters
+    std::vector<std::pair<std::size_t, ContactPair>> standing_pairs_;  // of the lists being replaced, with their clusters
     IdLists found_;
     std::vector<Vec3> shortened_;  // the end of the part of a long move that is covered
     long listed_ = 0;              // packs, while lists are built

@@ -17,11 +17,11 @@ void exchange(Archive& archive, Value& pair) {
 
 template <class Archive, OfType<ListedPack> Value>
 void exchange(Archive& archive, Value& pack) {
-    std::uint32_t number_and_active = pack.number | static_cast<std::uint32_t>(pack.active) << 24;
-    archive(pack.feature, number_and_active);
+    std::uint32_t number_and_standing = pack.number | static_cast<std::uint32_t>(pack.standing) << 24;
+    archive(pack.feature, number_and_standing);
     if constexpr (Archive::reads) {
-        pack.number = number_and_active & 0xffffffU;
-        pack.active = number_and_active >> 24;
+        pack.number = number_and_standing & 0xffffffU;
+        pack.standing = number_and_standing >> 24;
     }
 }
 
@@ -78,7 +78,7 @@ bool has_good_packs(const ClusterList& list, const Obstacles& obstacles) {
 }
 
 bool has_active_contact(const ClusterList& list) {
-    return std::any_of(list.packs.at.begin(), list.packs.at.end(), [](const ListedPack& pack) { return pack.active != 0; });
+    return std::any_of(list.packs.at.begin(), list.packs.at.end(), [](const ListedPack& pack) { return pack.standing != 0; });
 }
 
 void check(const ListsMemory& memory, const ClothClusters& clusters, const Obstacles& obstacles, const StateReader& state) {
@@ -148,7 +148,7 @@ CandidateLists restored_lists(std::span<const Triangle> triangles, std::span<con
     check(memory, clusters, obstacles, state);
     for (ClusterList& list : memory.lists) {
         CandidateLists::set_smallest_bounds(list);
-        list.has_active = has_active_contact(list);
+        list.has_standing = has_active_contact(list);
     }
     return {triangles, vertex_thickness, std::move(clusters), std::move(memory)};
 }

@@ -17,8 +17,8 @@ std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vect
 /// Poses of the obstacles at the start and the end of a step, as they were saved. Throws SceneError for those of another size.
 std::vector<std::array<Pose, 2>> restored_poses(const Obstacles& obstacles, StateReader& state);
 
-/// Everything that later calls depend on, all bounds and active contacts: a resumed run does not depend on when lists were made.
-/// With the obstacles as they are now.
+/// Everything that later calls depend on, all bounds and standing contacts: a resumed run does not depend on when lists were
+/// made. With the obstacles as they are now.
 void save(const CandidateLists& candidates, const Obstacles& obstacles, StateWriter& state);
 
 /// Lists as they were saved, of the same cloth and obstacles. Throws SceneError for what is none of these. Obstacles may still be

@@ -9,18 +9,18 @@
 
 namespace percale {
 
-/// Motion of an obstacle over a whole step: its point that is at p when the part begins moves by turn p + shift, m.
+/// Motion of an obstacle over a whole step: its point that is at p when the stage begins moves by turn p + shift, m.
 struct ObstacleFlow {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
     Vec3 shift = Vec3::Zero();
 };
 
-/// Of an obstacle whose vertices go straight from `start` to `end`, for a part of the step that begins at `fraction`.
+/// Of an obstacle whose vertices go straight from `start` to `end`, for a stage that begins at `fraction` of the step.
 ObstacleFlow obstacle_flow(const Pose& start, const Pose& end, double fraction);
 
-/// What all evaluations of one part of a step know of friction.
+/// What all evaluations of one stage know of friction.
 struct FrictionStart {
-    const Vectors* positions = nullptr;   // m, when the part begins
+    const Vectors* positions = nullptr;   // m, when the stage begins
     double fraction = 0.0;                // of the whole step, then
     std::span<const Grip> grips;          // then; sorted by vertex and obstacle
     std::span<const ObstacleFlow> flows;  // of each obstacle; those not listed stay
@@ -32,7 +32,7 @@ struct Touch {
     int next = -1;                // touch of the same vertex with another obstacle
     Vec3 press = Vec3::Zero();    // N, friction coefficient times normal force
     double reach = 0.0;           // m, slip up to which it sticks
-    bool old = false;             // it held on when the part began
+    bool old = false;             // it held on when the stage began
     Vec3 flow = Vec3::Zero();     // m, how far the point held moves in the whole step
     Vec3 slip = Vec3::Zero();     // m, along the surface, from the point held
     Vec3 heading = Vec3::Zero();  // unit, where the matrix lets it slide; zero: nowhere

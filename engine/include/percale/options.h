@@ -13,8 +13,8 @@
 
 namespace percale {
 
-/// One field of an options struct, described once: the scene loader, the validator, `percale explain`
-/// its settings in report.json and the key table of scenes/README.md all walk these lists.
+/// One field of an options struct, described once: the scene loader, the checks, `percale explain`, the settings in report.json
+/// and the key table scenes/scene_keys.md all walk these lists.
 template <class Owner>
 struct Option {
     std::string_view key;                                      // dotted key inside the owner's table of a scene file

@@ -207,7 +207,7 @@ TEST_CASE("bounds of a listed pack only rise, and a held one wakes as soon as it
     CHECK(packs.reach[0] == Approx(0.02));
     CHECK(packs.wake[0] == Approx(0.034));
     packs.activate(0, 3, 0.005);
-    CHECK(packs.at[0].active == 8U);
+    CHECK(packs.at[0].standing == 8U);
     CHECK(packs.wake[0] == Approx(0.015));
     packs.raise(0, 0.03, 0.5, 0.005, 0.004);
     CHECK(packs.reach[0] == Approx(0.034));
