@@ -113,9 +113,9 @@ for entry in json.load(open(sys.argv[1])):
 PYTHON
 }
 
-# build_sanitizers TARGET...: clang++, address and undefined-behaviour sanitizers. Compiling test code costs more than running it.
+# build_sanitizers TARGET...: clang++, address and undefined-behaviour sanitizers.
 build_sanitizers() {
-    configure build/ci-sanitizers -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON -DPERCALE_TEST_OPTIMISATION=-O0 \
+    configure build/ci-sanitizers -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_FUZZ=ON -DPERCALE_WERROR=ON \
         -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only"
     cmake --build build/ci-sanitizers --target "$@"
 }
