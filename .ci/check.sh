@@ -101,14 +101,14 @@ stage_engine_only() {
     ctest --test-dir build/ci-engine-only/consumer --no-tests=error
 }
 
-# Sources of collision and scenes, each read by clang++ without the others of its batch; nothing is compiled.
+# Sources of collision and scenes, each read by clang++ without the others of its batch, and the programs that measure, which nothing
+# else builds; nothing is compiled.
 stage_alone() {
-    configure build/ci-alone -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF -DPERCALE_TESTS=OFF \
-        -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
-    python3 - build/ci-alone/compile_commands.json <<'PYTHON' | xargs -0 -P "$jobs" -n 1 bash -c
+    configure build/ci-alone -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF
+    python3 - build/ci-alone/compile_commands.json "$root" <<'PYTHON' | xargs -0 -P "$jobs" -n 1 bash -c
 import json, re, sys
 for entry in json.load(open(sys.argv[1])):
-    if re.search('/(collision|scenes)/', entry['file']):
+    if re.match(sys.argv[2] + '/(collision|scenes|tests/bench)/', entry['file']):
         print('cd ' + entry['directory'] + ' && ' + re.sub(r' -o \S+', ' -fsyntax-only', entry['command']), end='\0')
 PYTHON
 }
@@ -185,7 +185,7 @@ stage_perf() {
 # five minutes a fuzz target.
 stage_night() {
     configure build/ci-night -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DCMAKE_BUILD_TYPE=Release
-    cmake --build build/ci-night
+    cmake --build build/ci-night --target all benches
     ctest --test-dir build/ci-night --no-tests=error
     build/ci-night/percale_validation_tests '[.soak]'
     PERCALE_FUZZ_SECONDS=${PERCALE_FUZZ_SECONDS:-300} stage_fuzz

@@ -63,7 +63,8 @@ struct StageTimes {
 /// Energies at the end of a step and what became of energy during it, J. All but the first five entries are NaN unless
 /// StepSettings::measure is `ledger`.
 struct StepEnergy {
-    double kinetic = 0.0, gravity = 0.0, elastic = 0.0;
+    double kinetic = 0.0, gravity = 0.0;
+    double elastic = 0.0;  // of springs, hinges, membranes and what fills closed cloth; under Fabric::pressure -pressure volume
     double contact = 0.0;  // of contact and of the springs by which friction holds
     double work = 0.0;     // of pins and obstacles on the cloth
 
