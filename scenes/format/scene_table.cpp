@@ -121,7 +121,8 @@ const FieldTable<Fabric>& fabric_table() {
                                                        .exclude = {{"springs", "preset"},
                                                                    {"springs", "stretch_stiffness"},
                                                                    {"springs.bend", "bend_stiffness"},
-                                                                   {"spring_damping", "damping_time"}}},
+                                                                   {"spring_damping", "damping_time"},
+                                                                   {"pressure", "gas_volume"}}},
                                              .finish = finish_fabric};
     return table;
 }

@@ -85,7 +85,8 @@ private:
         banned_.insert("fabric.preset");
         if (presets || moduli) banned_ = {"fabric.springs", "fabric.membrane", presets ? "" : "fabric.preset"};
         const std::pair<std::string, std::string> either[] = {{"fabric.springs.bend", "fabric.bend_stiffness"},
-                                                              {"fabric.spring_damping", "fabric.damping_time"}};
+                                                              {"fabric.spring_damping", "fabric.damping_time"},
+                                                              {"fabric.pressure", "fabric.gas_volume"}};
         for (const auto& [one, other] : either) banned_.insert(wanted == one || (wanted != other && below(2) == 0) ? other : one);
     }
 

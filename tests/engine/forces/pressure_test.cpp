@@ -81,7 +81,7 @@ TEST_CASE("The gradient of the volume is what differences say, adds up to nothin
     for (int i = 0; i < 16; ++i) CHECK(gradient.at(i) == Vec3::Zero());
 }
 
-TEST_CASE("A given pressure stays; of an amount of gas pressure times volume does") {
+TEST_CASE("A given pressure stays, and of an amount of gas pressure times volume does") {
     for (const double volume : {-0.1, 0.01, 0.02}) {
         CHECK(filling_at(filled(30.0, {}), volume).pressure == 30.0);
         CHECK(filling_at(filled(30.0, {}), volume).energy == -30.0 * volume);
