@@ -70,12 +70,11 @@ public:
     virtual double StepEnergy::*entry() const { return nullptr; }
     virtual double energy(const StoredInput&) const { return 0.0; }
 
-    /// What check_derivatives asks for. Whether the forces have neither sum nor moment; whether they are in the matrix; whether
-    /// the matrix may be below the derivative at inexact vertices, else it bounds that from above.
-    virtual bool is_internal() const { return true; }
-    virtual bool is_in_matrix() const { return true; }
-    virtual bool may_be_below() const { return false; }
-    /// Makes what earlier terms of the list would have left behind.
+    // What check_derivatives asks for.
+    virtual bool is_internal() const { return true; }    // the forces add up to no force and no moment
+    virtual bool is_in_matrix() const { return true; }   // `add` makes a part of the matrix
+    virtual bool may_be_below() const { return false; }  // where inexact; else the matrix bounds the derivative from above
+    /// Fills in what this term reads from earlier ones of the list, so that it can be evaluated alone.
     virtual void stand_alone(const ForceInput&, Forces&) const {}
     /// exact[i] = false for vertices at which the matrix, added at this state, is not the derivative for moves by `reach`, m.
     virtual void mark_inexact(const ForceInput&, const Forces&, double /*reach*/, std::vector<bool>& /*exact*/) const {}

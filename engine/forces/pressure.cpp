@@ -11,7 +11,7 @@ namespace {
 
 bool is_filled(const Fabric& fabric) { return fabric.pressure || fabric.gas_volume; }
 
-/// Those of one cloth, which follow one another.
+/// The triangles of one cloth: the model has them together, in the order of the cloths.
 std::span<const Triangle> triangles_of(const ClothModel& model, const ClothRange& cloth) {
     const auto below = [](int vertex) { return [vertex](const Triangle& t) { return t[0] < vertex; }; };
     const auto end = model.triangles.end();
@@ -31,11 +31,11 @@ public:
         double energy = 0.0;
         for (const ClothRange& cloth : input.model->cloths) {
             if (!is_filled(cloth.fabric)) continue;
-            if (count == forces.rank_one.size()) forces.rank_one.emplace_back();
+            if (count == forces.rank_one.size()) forces.rank_one.emplace_back();  // kept from one evaluation to the next
             RankOne& block = forces.rank_one[count++];
             const Filling filling = filling_at(cloth.fabric, volume_of(*input.model, cloth, *input.positions));
             set_volume_gradient(*input.model, cloth, *input.positions, block.gradient);
-            block.factor = input.dt * input.dt * filling.stiffness;
+            block.factor = input.with_matrix ? input.dt * input.dt * filling.stiffness : 0.0;
             add_scaled(forces.total, filling.pressure, block.gradient);
             energy += filling.energy;
         }
@@ -53,13 +53,17 @@ public:
     }
 
     bool may_be_below() const override { return true; }
-    void mark_inexact(const ForceInput&, const Forces&, double, std::vector<bool>& exact) const override {
-        exact.assign(exact.size(), false);
+    /// p d^2V/dx^2 is left out.
+    void mark_inexact(const ForceInput& input, const Forces&, double, std::vector<bool>& exact) const override {
+        for (const ClothRange& cloth : input.model->cloths) {
+            if (is_filled(cloth.fabric)) std::fill_n(exact.begin() + cloth.first, cloth.count, false);
+        }
     }
 
     void identify(const ClothModel& model, ListHash& hash) const override {
         for (const ClothRange& cloth : model.cloths) {
             if (!is_filled(cloth.fabric)) continue;
+            hash.add(cloth.first);
             for (const std::optional<double>& number : {cloth.fabric.pressure, cloth.fabric.gas_volume}) {
                 hash.add(static_cast<int>(number.has_value()));
                 hash.add(number.value_or(0.0));
@@ -69,7 +73,8 @@ public:
 
     void add_skips(const ForceFacts& facts, std::vector<Skip>& skipped) const override {
         for (const ClothFacts& cloth : facts.cloths) {
-            if (!is_filled(cloth.fabric)) skipped.push_back({"pressure in " + cloth.name, "pressure and gas_volume are not set"});
+            if (!is_filled(cloth.fabric))
+                skipped.push_back({"pressure in " + cloth.name, "neither pressure nor gas_volume is set"});
         }
     }
 };
@@ -95,11 +100,11 @@ void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const
 
 Filling filling_at(const Fabric& fabric, double volume) {
     if (fabric.pressure) return {*fabric.pressure, -*fabric.pressure * volume, 0.0};
-    const double amount = *fabric.gas_volume;
+    const double free_volume = *fabric.gas_volume;
     if (!(volume > 0.0)) return {0.0, std::numeric_limits<double>::infinity(), 0.0};
-    const double over = amount / volume;
-    return {air_pressure * (over - 1.0), air_pressure * (volume - amount - amount * std::log(volume / amount)),
-            air_pressure * over / volume};
+    const double ratio = free_volume / volume;
+    return {air_pressure * (ratio - 1.0), air_pressure * (volume - free_volume + free_volume * std::log(ratio)),
+            air_pressure * ratio / volume};
 }
 
 const ForceTerm& pressure_term() {

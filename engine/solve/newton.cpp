@@ -15,7 +15,7 @@ namespace {
 
 /// Where the search for a motion stands.
 struct Search {
-    std::optional<double> first_norm;    // what residuals are relative to, of all rounds of multipliers
+    std::optional<double> first_norm;    // what residuals are relative to, in all rounds of contact correction
     double norm = 0.0, last_norm = 0.0;  // of the residual now and one iteration ago, m/s kg^1/2
     bool matrix_is_old = false;          // the line search went on beyond the point that its matrix led to
     bool line_solved = false;            // the last line searched ended at the solution
@@ -66,11 +66,12 @@ bool is_solution(const StageEquations& equations, const Direction& direction, co
     return by_change || line.stuck;
 }
 
-/// Newton's method with what contact holds fixed: from space.current, dv of A dv = -r, then as far along dv as lowers the
-/// objective and crosses nothing (Nocedal and Wright, Numerical Optimization, chapters 3 and 7). True once the motion is solved
-/// for; false where it is given up.
+/// Newton's method with the multipliers of contact held constant: from space.current, dv of A dv = -r, then as far along dv as
+/// lowers the objective and crosses nothing (Nocedal and Wright, Numerical Optimization, chapters 3 and 7). True once the motion
+/// is solved for; false where it is given up, and at a residual of exactly 0.
 bool find_motion(StageEquations& equations, const TimeError& error, Search& search, NewtonReport& report) {
     const StepSettings& settings = equations.stage().scene.settings;
+    search.line_solved = false;
     for (;;) {
         measure_residual(equations, search, report);
         if (search.norm == 0.0 || !std::isfinite(search.norm)) return false;
@@ -97,8 +98,8 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
     return search.line_solved;
 }
 
-/// Contact less exact than this, in m, is corrected: a quarter of the time error h/2 sqrt(sum m |v - v_n|^2/sum m), within shares
-/// of the thickness.
+/// Contact less exact than this, in m, is corrected: a share of the time error h/2 sqrt(sum m |v - v_n|^2/sum m), no finer and
+/// no coarser than shares of the thickness.
 double enough_contact(const ImplicitStage& stage, const TimeError& error, const Vectors& velocities) {
     const ClothModel& model = stage.scene.model;
     const double square = squared_error(error, 0, model.vertex_count(), velocities);

@@ -26,8 +26,8 @@ void advance_time(double time_step, StepState& state) {
     state.time = sum;
 }
 
-/// What the step needs and what moves in it; contact stiffness follows the time step. Returns the work of pins that came or went,
-/// J.
+/// Renews an outdated plan and sets what moves in this step. contact_dt, which sets the stiffness of contact, grows at once with
+/// the time step and falls gradually. Returns the work of pins that came or went, J.
 double plan_step(World& world) {
     StepScene& scene = world.scene;
     const double work = world.plan_outdated ? renew_plan(scene, world.state.cloth) : 0.0;
@@ -69,13 +69,13 @@ StepReport step(World& world) {
     tell_obstacles(scene);  // where they have to be at the end of the step; nothing moves yet
     const StepMeasure measure(scene, state, report.energy.work);
 
-    // Explicit, or Newton on the implicit scheme; every move is cut safe. The end lies in the workspace; null: the report says
-    // why.
+    // Explicit, or Newton on the implicit scheme; every move is shortened until it crosses nothing. The end lies in the
+    // workspace; null: the report says why.
     StepState* end = solve_step(scene, state, work, report);
     if (end) check_end(scene, state, *end, work, report);
 
     if (report.ok()) {
-        std::swap(state, *end);
+        std::swap(state, *end);  // `state` is the end of the step from here, the workspace keeps its start
         finish_motion(scene);
         advance_time(dt, state);
         measure.accepted(state, work, report);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/forces/springs.h"
 #include "engine/forces/total_force.h"
 #include "engine/model/cloth_model.h"
 #include "percale/detectors.h"
