@@ -106,10 +106,13 @@ stage_engine_only() {
 stage_alone() {
     configure build/ci-alone -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF
     python3 - build/ci-alone/compile_commands.json "$root" <<'PYTHON' | xargs -0 -P "$jobs" -n 1 bash -c
-import json, re, sys
+import json, re, shlex, sys
 for entry in json.load(open(sys.argv[1])):
-    if re.match(sys.argv[2] + '/(collision|scenes|tests/bench)/', entry['file']):
-        print('cd ' + entry['directory'] + ' && ' + re.sub(r' -o \S+', ' -fsyntax-only', entry['command']), end='\0')
+    if re.match(re.escape(sys.argv[2]) + '/(collision|scenes|tests/bench)/', entry['file']):
+        words = shlex.split(entry['command'])
+        output = words.index('-o')
+        words[output:output + 2] = ['-fsyntax-only']
+        print('cd ' + shlex.quote(entry['directory']) + ' && ' + shlex.join(words), end='\0')
 PYTHON
 }
 

@@ -29,6 +29,9 @@ constexpr int most_spins = 1000;
 /// triangle without a direction gets into the model. Larger: real needles are refused.
 constexpr double least_triangle_area = 1e-12;
 
+/// Volume over area^1.5 of a closed mesh (0.094 of a ball). With less it is flat: what its volume is, is rounding.
+constexpr double least_enclosed_share = 1e-9;
+
 /// Bits of each axis along the curve that vertices are ordered by; three axes fit into 63. Fewer: vertices of a fine mesh share a
 /// cell and keep their order. Cost alone.
 constexpr int curve_key_bits = 20;
@@ -216,10 +219,6 @@ inline constexpr double slow_gain_ratio = 0.8;
 
 /// The largest ratio that the sum of what is to come is taken with. 1: no bound.
 inline constexpr double most_gain_ratio = 0.99;
-
-/// Residual of the solves for blocks of rank one, relative to the right side. Smaller: cost alone. Larger: Newton's directions
-/// move a filled cloth's surface beside its volume, which is right however large it is.
-constexpr double rank_one_residual = 1e-3;
 
 // ---- plan/
 

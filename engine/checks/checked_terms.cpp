@@ -6,7 +6,7 @@
 
 #include "forces/springs.h"
 #include "forces/total_force.h"
-#include "linear/rank_one.h"
+#include "linear/block_matrix.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -45,6 +45,8 @@ struct LoneTerm {
         set_pattern(step.scene.compute, model.adjacency, std::vector<double>(model.vertex_count(), 0.0), matrix);
         if (forces.spring_terms.values.empty()) forces.spring_terms.values.assign(model.adjacency.value_count(), 0.0f);
         matrix.springs = &forces.spring_terms;
+        matrix.enclosed = forces.enclosed;
+        matrix.positions = &step.end.cloth.positions;
     }
 
     /// product = its part of the matrix times a direction.
@@ -55,7 +57,6 @@ struct LoneTerm {
             const int vertex = static_cast<int>(i);
             product.add(vertex, symmetric_product(forces.wind.blocks[i], direction.at(vertex)));
         }
-        add_rank_one(step.scene.compute, forces.rank_one, direction, product);
     }
 
 private:

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "coupled_block.h"
 #include "kernels/compute.h"
 #include "model/cloth_facts.h"
 #include "model/cloth_model.h"
@@ -28,18 +29,12 @@ struct ForceInput {
     bool with_matrix = false;
 };
 
-/// A part of the step matrix that joins all vertices of a cloth: factor g g^T, kg.
-struct RankOne {
-    double factor = 0.0;  // kg/m^4
-    Vectors gradient;     // g, m^2; 0 at the vertices of other cloth
-};
-
 /// Forces of one state and what the step matrix is made of.
 struct Forces {
     Vectors total;  // N
     SpringTerms spring_terms;
     WindTerms wind;
-    std::vector<RankOne> rank_one;
+    std::vector<EnclosedBlock> enclosed;
     double potential = 0.0;  // J, the sum of what the terms return
 };
 

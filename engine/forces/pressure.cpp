@@ -31,11 +31,13 @@ public:
         double energy = 0.0;
         for (const ClothRange& cloth : input.model->cloths) {
             if (!is_filled(cloth.fabric)) continue;
-            if (count == forces.rank_one.size()) forces.rank_one.emplace_back();  // kept from one evaluation to the next
-            RankOne& block = forces.rank_one[count++];
+            if (count == forces.enclosed.size()) forces.enclosed.emplace_back();  // kept from one evaluation to the next
+            EnclosedBlock& block = forces.enclosed[count++];
             const Filling filling = filling_at(cloth.fabric, volume_of(*input.model, cloth, *input.positions));
             set_volume_gradient(*input.model, cloth, *input.positions, block.gradient);
-            block.factor = input.with_matrix ? input.dt * input.dt * filling.stiffness : 0.0;
+            block.stiffness = input.dt * input.dt * filling.stiffness;
+            block.load = input.dt * input.dt * filling.pressure;
+            block.triangles = triangles_of(*input.model, cloth);
             add_scaled(forces.total, filling.pressure, block.gradient);
             energy += filling.energy;
         }
@@ -50,14 +52,6 @@ public:
                 energy += filling_at(cloth.fabric, volume_of(input.model, cloth, input.positions)).energy;
         }
         return energy;
-    }
-
-    bool may_be_below() const override { return true; }
-    /// p d^2V/dx^2 is left out.
-    void mark_inexact(const ForceInput& input, const Forces&, double, std::vector<bool>& exact) const override {
-        for (const ClothRange& cloth : input.model->cloths) {
-            if (is_filled(cloth.fabric)) std::fill_n(exact.begin() + cloth.first, cloth.count, false);
-        }
     }
 
     void identify(const ClothModel& model, ListHash& hash) const override {
@@ -100,11 +94,11 @@ void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const
 
 Filling filling_at(const Fabric& fabric, double volume) {
     if (fabric.pressure) return {*fabric.pressure, -*fabric.pressure * volume, 0.0};
-    const double free_volume = *fabric.gas_volume;
-    if (!(volume > 0.0)) return {0.0, std::numeric_limits<double>::infinity(), 0.0};
-    const double ratio = free_volume / volume;
-    return {air_pressure * (ratio - 1.0), air_pressure * (volume - free_volume + free_volume * std::log(ratio)),
-            air_pressure * ratio / volume};
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (!(volume > 0.0)) return {none, std::numeric_limits<double>::infinity(), none};
+    const double amount = *fabric.gas_volume, more = (volume - amount) / amount;
+    return {-air_pressure * more * amount / volume, air_pressure * amount * (more - std::log1p(more)),
+            air_pressure * amount / (volume * volume)};
 }
 
 const ForceTerm& pressure_term() {

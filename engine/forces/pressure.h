@@ -18,11 +18,12 @@ struct Filling {
     double stiffness;  // Pa/m^3, d^2U/dV^2
 };
 /// Fabric::pressure, a given difference: U = -p V. Fabric::gas_volume, an amount of gas that takes up V_0 at the pressure p_0 of
-/// the air, at a steady temperature (Boyle's law): p = p_0 (V_0/V - 1), U = p_0 (V - V_0 - V_0 ln(V/V_0)), infinite where V <= 0.
+/// the air, at a steady temperature (Boyle's law): p = p_0 (V_0/V - 1), U = p_0 V_0 (d - ln(1 + d)) with d = V/V_0 - 1, infinite,
+/// and p not a number, where V <= 0.
 Filling filling_at(const Fabric& fabric, double volume);
 
-/// Pushes each vertex by p dV/dx. Of the derivative, dp/dV (dV/dx)(dV/dx)^T is in the matrix; p d^2V/dx^2, which has as many
-/// negative eigenvalues as positive ones, is not.
+/// Pushes each vertex by p dV/dx. All of its derivative is in the matrix: without p d^2V/dx^2, which takes off what the cloth's
+/// tension adds, that would resist the turning of a ball.
 const ForceTerm& pressure_term();
 
 }  // namespace percale

@@ -121,6 +121,7 @@ void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, Diagon
 void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, BlockMatrix& matrix) {
     matrix.springs = &springs;
     matrix.contacts = contacts;
+    matrix.enclosed = {};
     fill_diagonal(matrix, springs, matrix.diagonal, matrix.inverse);
     gather_contacts(matrix);
     invert_with_contacts(matrix);
@@ -140,7 +141,25 @@ double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<doubl
         sum += sum_chunks(compute, matrix.slices(),
                           [&](Slices range) { return compute.kernels->multiply_corners(corners, product, range); });
     }
-    return sum + add_contact_product(matrix, x, y);
+    sum += add_contact_product(matrix, x, y);
+    if (matrix.enclosed.empty()) return sum;
+    add_enclosed_product(matrix, x, y);
+    filter(matrix, y);
+    return dot(compute, x, y);
+}
+
+void add_enclosed_product(const BlockMatrix& matrix, const Vectors& x, Vectors& y) {
+    const Vectors& q = *matrix.positions;
+    for (const EnclosedBlock& block : matrix.enclosed) {
+        if (block.stiffness > 0.0) add_scaled(y, block.stiffness * dot(*matrix.compute, block.gradient, x), block.gradient);
+        // The change of the gradient (b - a) x (c - a)/6 that each corner has.
+        const double factor = -block.load / 6.0;
+        for (const auto& [i, j, k] : block.triangles) {
+            const Vec3 a = q.at(i), u = x.at(i);
+            const Vec3 change = factor * ((x.at(j) - u).cross(q.at(k) - a) + (q.at(j) - a).cross(x.at(k) - u));
+            for (const int vertex : {i, j, k}) y.add(vertex, change);
+        }
+    }
 }
 
 void set_residual(const BlockMatrix& matrix, const Vectors& b, const Vectors& x, AlignedVector<double>& points, Vectors& r) {

@@ -36,7 +36,9 @@ struct BlockMatrix {
     AlignedVector<float> inverse;            // of the diagonal blocks with contact, six arrays; 0 at prescribed vertices
     std::span<const CoupledBlock> contacts;  // viewed, not copied
     std::vector<VertexContact> contacts_by_vertex;
-    std::vector<int> contact_slot;  // of a vertex in contacts_by_vertex, or -1
+    std::span<const EnclosedBlock> enclosed;  // viewed, not copied; in no preconditioner
+    const Vectors* positions = nullptr;       // m, at which they were taken
+    std::vector<int> contact_slot;            // of a vertex in contacts_by_vertex, or -1
 
     std::size_t padded() const { return free.size(); }
     int slices() const { return pattern->slices(); }
@@ -49,8 +51,11 @@ void set_pattern(const Compute& compute, const Adjacency& pattern, std::span<con
 void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, DiagonalBlocks& diagonal,
                    AlignedVector<float>& inverse);
 
-/// Takes springs and contacts of a state.
+/// Takes springs and contacts of a state; no enclosed blocks.
 void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, BlockMatrix& matrix);
+
+/// y += A_e x at all vertices, the part of the enclosed blocks.
+void add_enclosed_product(const BlockMatrix& matrix, const Vectors& x, Vectors& y);
 
 /// y = A x on the free vertices, 0 at prescribed ones; returns x . y over the free ones. `points` is work space.
 double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y);

@@ -10,7 +10,8 @@ namespace {
 /// One solve: functions that share the system and its work space.
 class Solve {
 public:
-    Solve(const BlockMatrix& matrix, SolveSpace& space) : matrix_(matrix), compute_(*matrix.compute), space_(space) {}
+    Solve(const BlockMatrix& matrix, const Preconditioner& preconditioner, SolveSpace& space)
+        : matrix_(matrix), preconditioner_(preconditioner), compute_(*matrix.compute), space_(space) {}
 
     SolveReport run(const Vectors& b, const SolveTarget& target, Vectors& x) {
         const double first_square = start(b, x);
@@ -23,7 +24,10 @@ public:
         while (report.iterations < target.most_iterations) {
             ++report.iterations;
             const double curvature = multiply(matrix_, space_.p, space_.points, space_.q);
-            if (!(curvature > 0.0) || !std::isfinite(rz)) return report;
+            if (!(curvature > 0.0) || !std::isfinite(rz)) {
+                if (!matrix_.enclosed.empty() && report.iterations == 1) add_scaled(x, 1.0, space_.p);
+                return report;
+            }
             const double alpha = rz / curvature;
             gains.add(alpha * rz);
             const double square = sum_chunks(compute_, matrix_.slices(), [&](Slices range) {
@@ -55,19 +59,25 @@ private:
 
     /// z = preconditioned r; returns r . z.
     double apply_preconditioner() {
-        precondition(matrix_, space_.r, space_.z);
+        if (preconditioner_) {
+            preconditioner_(space_.r, space_.z);
+        } else {
+            precondition(matrix_, space_.r, space_.z);
+        }
         return dot(compute_, space_.r, space_.z);
     }
 
     const BlockMatrix& matrix_;
+    const Preconditioner& preconditioner_;
     const Compute& compute_;
     SolveSpace& space_;
 };
 
 }  // namespace
 
-SolveReport solve_cg(const BlockMatrix& matrix, const Vectors& b, const SolveTarget& target, SolveSpace& space, Vectors& x) {
-    return Solve(matrix, space).run(b, target, x);
+SolveReport solve_cg(const BlockMatrix& matrix, const Vectors& b, const SolveTarget& target, SolveSpace& space, Vectors& x,
+                     const Preconditioner& preconditioner) {
+    return Solve(matrix, preconditioner, space).run(b, target, x);
 }
 
 }  // namespace percale

@@ -104,7 +104,7 @@ struct DirectSolver::Factor {
     Sparse matrix;
     Triplets entries;
     std::vector<int> columns, rows;  // of the matrix that was analysed
-    Vectors residual;
+    Vectors residual, step;
     AlignedVector<double> points;
 
     void factorise(const BlockMatrix& from) {
@@ -126,19 +126,29 @@ DirectSolver::~DirectSolver() = default;
 DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
 DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
 
-bool DirectSolver::solve(const BlockMatrix& matrix, const Vectors& b, Vectors& x) {
-    Factor& factor = *factor_;
-    factor.factorise(matrix);
-    if (factor.ldlt.info() != Eigen::Success || !(factor.ldlt.vectorD().array() > 0.0).all()) return false;
-    factor.residual.resize(static_cast<int>(x.padded_size()));
-    set_residual(matrix, b, x, factor.points, factor.residual);
+bool DirectSolver::factorise(const BlockMatrix& matrix) {
+    factor_->factorise(matrix);
+    return factor_->ldlt.info() == Eigen::Success && (factor_->ldlt.vectorD().array() > 0.0).all();
+}
+
+void DirectSolver::apply(const BlockMatrix& matrix, const Vectors& r, Vectors& x) const {
     const int count = matrix.pattern->vertex_count;
     Eigen::VectorXd right(3 * count);
-    for (int i = 0; i < count; ++i) right.segment<3>(3 * i) = factor.residual.at(i);
-    const Eigen::VectorXd solution = factor.ldlt.solve(right);
+    for (int i = 0; i < count; ++i) right.segment<3>(3 * i) = r.at(i);
+    const Eigen::VectorXd solution = factor_->ldlt.solve(right);
+    x.resize(static_cast<int>(r.padded_size()));
     for (int i = 0; i < count; ++i) {
-        if (matrix.free[i] > 0.0) x.add(i, solution.segment<3>(3 * i));
+        if (matrix.free[i] > 0.0) x.set(i, solution.segment<3>(3 * i));
     }
+}
+
+bool DirectSolver::solve(const BlockMatrix& matrix, const Vectors& b, Vectors& x) {
+    if (!factorise(matrix)) return false;
+    Factor& factor = *factor_;
+    factor.residual.resize(static_cast<int>(x.padded_size()));
+    set_residual(matrix, b, x, factor.points, factor.residual);
+    apply(matrix, factor.residual, factor.step);
+    add_scaled(x, 1.0, factor.step);
     return true;
 }
 

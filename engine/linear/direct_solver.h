@@ -19,6 +19,11 @@ public:
     /// definite.
     bool solve(const BlockMatrix& matrix, const Vectors& b, Vectors& x);
 
+    /// The two halves of it: false if the matrix is not positive definite; x = A^-1 r on the free vertices, 0 at the others, with
+    /// the matrix factorised last. Enclosed blocks are not in it.
+    bool factorise(const BlockMatrix& matrix);
+    void apply(const BlockMatrix& matrix, const Vectors& r, Vectors& x) const;
+
 private:
     struct Factor;
     std::unique_ptr<Factor> factor_;

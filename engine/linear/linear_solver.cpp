@@ -31,13 +31,14 @@ void StepSolver::set_model(const Compute& compute, const ClothModel& model, Line
     stale_ = true;
 }
 
-void StepSolver::fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts, std::span<const RankOne> rank_one) {
+void StepSolver::fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts) {
     fill_matrix(springs, contacts, matrix);
-    rank_one_.clear();
-    for (const RankOne& block : rank_one) {
-        if (block.factor > 0.0) rank_one_.push_back(&block);
-    }
     if (in_use_ == LinearSolver::multigrid) fill_multigrid();
+}
+
+void StepSolver::add_enclosed(std::span<const EnclosedBlock> blocks, const Vectors& positions) {
+    matrix.enclosed = blocks;
+    matrix.positions = &positions;
 }
 
 void StepSolver::fill_multigrid() {
@@ -47,15 +48,30 @@ void StepSolver::fill_multigrid() {
     stale_ = false;
 }
 
-SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vectors& x) {
-    if (rank_one_.empty()) return solve_blocks(b, target, x);
-    const auto solve_rest = [this](const Vectors& right, const SolveTarget& to, Vectors& answer) {
-        return solve_blocks(right, to, answer);
-    };
-    return rank_one_solver_.solve(*matrix.compute, rank_one_, b, target, solve_rest, x);
+SolveReport StepSolver::solve_enclosed(const Vectors& b, const SolveTarget& target, Vectors& x) {
+    if (in_use_ == LinearSolver::cg) {
+        const SolveReport report = solve_cg(matrix, b, target, space_, x);
+        const bool dear = wish_ == LinearSolver::automatic && model_->vertex_count() > dense_vertices;
+        if (dear && report.iterations > dear_jacobi_iterations) {
+            in_use_ = LinearSolver::multigrid;
+            fill_multigrid();
+        }
+        return report;
+    }
+    if (in_use_ == LinearSolver::multigrid) {
+        return solve_cg(matrix, b, target, space_, x, [this](const Vectors& r, Vectors& z) {
+            z.resize(static_cast<int>(r.padded_size()));
+            estimate(r, z);
+        });
+    }
+    if (!direct_) direct_ = std::make_unique<DirectSolver>();
+    const bool factorised = direct_->factorise(matrix);
+    const Preconditioner direct = [this](const Vectors& r, Vectors& z) { direct_->apply(matrix, r, z); };
+    return solve_cg(matrix, b, target, space_, x, factorised ? direct : Preconditioner());
 }
 
-SolveReport StepSolver::solve_blocks(const Vectors& b, const SolveTarget& target, Vectors& x) {
+SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vectors& x) {
+    if (!matrix.enclosed.empty()) return solve_enclosed(b, target, x);
     int before = 0;
     if (in_use_ == LinearSolver::cg) {
         const bool may_change = wish_ == LinearSolver::automatic && model_->vertex_count() > dense_vertices;

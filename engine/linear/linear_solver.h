@@ -7,7 +7,6 @@
 #include "model/cloth_model.h"
 #include "multigrid_solve.h"
 #include "percale/settings.h"
-#include "rank_one.h"
 
 namespace percale {
 
@@ -31,15 +30,19 @@ public:
     /// A new stage begins: what is taken over from earlier matrices is made anew.
     void start_stage() { stale_ = true; }
 
-    /// Takes springs, contacts and blocks of rank one of a state; the latter are viewed.
-    void fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts, std::span<const RankOne> rank_one = {});
+    /// Takes springs and contacts of a state.
+    void fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts);
+    /// After that: enclosed blocks, taken at these positions, which join in every product of A but in no preconditioner. They are
+    /// few directions, in which conjugate gradient needs an iteration or two more.
+    void add_enclosed(std::span<const EnclosedBlock> blocks, const Vectors& positions);
 
     /// A x = b on the free vertices, prescribed entries of x kept. Where multigrid or the factorisation does not get there,
     /// conjugate gradient with block Jacobi in double precision goes on.
     SolveReport solve(const Vectors& b, const SolveTarget& target, Vectors& x);
 
     /// A cheap estimate of A^-1 r with the matrix last filled in: z = one application of the preconditioner. False where that is
-    /// no good estimate, as with block Jacobi. Blocks of rank one are left out: z is too large rather than too small.
+    /// no good estimate, as with block Jacobi. Enclosed blocks are left out: of what fills a cloth z is too large rather than too
+    /// small.
     bool estimate(const Vectors& r, Vectors& z);
 
     /// What `automatic` begins with for the next model; cg unless said.
@@ -62,7 +65,7 @@ public:
 
 private:
     void fill_multigrid();
-    SolveReport solve_blocks(const Vectors& b, const SolveTarget& target, Vectors& x);
+    SolveReport solve_enclosed(const Vectors& b, const SolveTarget& target, Vectors& x);
 
     const ClothModel* model_ = nullptr;
     LinearSolver wish_ = LinearSolver::automatic;
@@ -70,10 +73,8 @@ private:
     LinearSolver in_use_ = LinearSolver::cg;
     std::unique_ptr<Multigrid> multigrid_;
     std::unique_ptr<DirectSolver> direct_;
-    bool stale_ = true;                     // multigrid's coarser levels are to be made anew
-    int fresh_iterations_ = 0;              // of the first solve with them
-    std::vector<const RankOne*> rank_one_;  // those that are not 0
-    RankOneSolver rank_one_solver_;
+    bool stale_ = true;         // multigrid's coarser levels are to be made anew
+    int fresh_iterations_ = 0;  // of the first solve with them
     SolveSpace space_;
     MultigridSpace multigrid_space_;
 };

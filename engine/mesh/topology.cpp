@@ -1,8 +1,10 @@
 #include "topology.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -19,13 +21,20 @@ std::vector<std::array<int, 2>> directed_edges(std::span<const Triangle> triangl
     return edges;
 }
 
-double volume_of(const TriangleMesh& mesh) {
-    double sum = 0.0;
+/// Of a closed mesh, m^3; its area, m^2.
+struct Extent {
+    double volume = 0.0, area = 0.0;
+};
+
+Extent extent_of(const TriangleMesh& mesh) {
+    Extent extent;
+    const Vec3& origin = mesh.vertices.front();
     for (const auto& [a, b, c] : mesh.triangles) {
-        const Vec3 &origin = mesh.vertices.front(), &x = mesh.vertices[a], &y = mesh.vertices[b], &z = mesh.vertices[c];
-        sum += (x - origin).dot((y - origin).cross(z - origin)) / 6.0;
+        const Vec3 x = mesh.vertices[a] - origin, y = mesh.vertices[b] - origin, z = mesh.vertices[c] - origin;
+        extent.volume += x.dot(y.cross(z)) / 6.0;
+        extent.area += 0.5 * (y - x).cross(z - x).norm();
     }
-    return sum;
+    return extent;
 }
 
 }  // namespace
@@ -63,10 +72,12 @@ void check_encloses(const TriangleMesh& mesh, const std::string& name, const std
                                           : " belongs to one triangle: the mesh is open there; ") +
                                    reason);
     }
-    const double volume = volume_of(mesh);
-    if (volume > 0.0) return;
-    throw SceneError(name,
-                     "encloses " + std::to_string(volume) + " m^3: its triangles are clockwise seen from outside; " + reason);
+    const auto [volume, area] = extent_of(mesh);
+    const double least = least_enclosed_share * area * std::sqrt(area);
+    if (volume > least) return;
+    throw SceneError(
+        name,
+        (volume < -least ? "its triangles are clockwise seen from outside; " : "it is flat and encloses nothing; ") + reason);
 }
 
 }  // namespace percale

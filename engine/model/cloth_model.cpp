@@ -45,8 +45,9 @@ std::vector<Body> make_bodies(const ClothModel& model) {
 void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fabric, const std::string& name) {
     check_mesh(rest, name, true);
     check_options(fabric, name);
-    if (fabric.pressure) check_encloses(rest, name, "pressure needs a closed mesh");
-    if (fabric.gas_volume) check_encloses(rest, name, "gas_volume needs a closed mesh");
+    if (fabric.pressure || fabric.gas_volume) {
+        check_encloses(rest, name, fabric.pressure ? "pressure needs a closed mesh" : "gas_volume needs a closed mesh");
+    }
     const int first = model.vertex_count();
     if (fabric.has_moduli()) {
         append_membrane(model.springs, model.membrane, rest, fabric, first, name);

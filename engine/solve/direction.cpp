@@ -27,7 +27,8 @@ void fill_system(const StageEquations& equations) {
     NewtonSpace& space = equations.space();
     const StagePoint& point = space.current;
     StageTimer timer(equations.times().setup);
-    space.solver.fill(point.forces.spring_terms, point.contact.blocks, point.forces.rank_one);
+    space.solver.fill(point.forces.spring_terms, point.contact.blocks);
+    space.solver.add_enclosed(point.forces.enclosed, point.positions);
     space.right_side.resize(stage.scene.model.vertex_count());
     add_scaled(space.right_side, -1.0, point.residual);
     if (!stage.scene.plan.obstacles_move || equations.arrived()) return;

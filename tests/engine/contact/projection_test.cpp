@@ -213,6 +213,25 @@ TEST_CASE("Projected cloth thrown at a plane never crosses it and gains no energ
     }
 }
 
+TEST_CASE("However many rounds contact takes, Newton makes no more iterations than allowed, and says so") {
+    for (const int limit : {2, 3, 5}) {
+        int used_up = 0;
+        SolverScene scene = sheet_on_plane(0.0, 0.3, 0.02, projected());
+        scene.settings.newton_iterations = limit;
+        for (int i = 0; i < 16; ++i) scene.state.velocities.set(i, Vec3(0.3, -10.0, 0.1 * i));
+        for (int n = 0; n < 20; ++n) {
+            const NewtonReport report = scene.step_implicit();
+            CAPTURE(limit, n, report.newton_iterations);
+            REQUIRE(report.newton_iterations <= limit);
+            if (report.end == NewtonEnd::iterations_used) {
+                REQUIRE(report.newton_iterations == limit);
+                ++used_up;
+            }
+        }
+        CHECK(used_up > 0);
+    }
+}
+
 TEST_CASE("On an incline flatter than friction's angle projected cloth does not move at all") {
     const double angle = 20.0 * std::numbers::pi / 180.0;
     for (const double mu : {1.01 * std::tan(angle), 0.6, 1.0}) {

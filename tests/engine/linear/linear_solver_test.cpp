@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "engine/forces/pressure.h"
 #include "tests/support/catch.h"
 #include "tests/support/forces/sheet_system.h"
 
@@ -238,6 +239,85 @@ TEST_CASE("A new part of a step starts with coarser levels of its own matrix") {
     reused.solver.fill(later.terms, later.contacts);
     CHECK(reused.solve(later, 1e-6, x).iterations == fresh.solve(later, 1e-6, expected).iterations);
     CHECK(same_bits(x, expected));
+}
+
+namespace {
+
+/// A ball of an amount of gas that presses it out, stretched by a tenth, and what the gas is in the matrix.
+struct FilledBall {
+    SheetSystem system;
+    Vectors positions;
+    Forces forces;
+
+    FilledBall() : system(5, filled_model(), 0.0, 1.1 * Vec3::Ones()) {
+        std::vector<Vec3> places = system.model.rest;
+        for (Vec3& x : places) x *= 1.1;
+        positions = to_vectors(places);
+        forces.total.resize(system.count());
+        pressure_term().add({.compute = &compute,
+                             .model = &system.model,
+                             .positions = &positions,
+                             .velocities = &positions,
+                             .dt = SheetSystem::dt,
+                             .with_matrix = true},
+                            forces);
+        system.pin_share(0.1);
+        system.matrix.enclosed = forces.enclosed;
+        system.matrix.positions = &positions;
+    }
+
+    /// What prescribed vertices do, 0 at the others.
+    Vectors moving_pins() const {
+        Random own(8);
+        Vectors x = system.zeros();
+        for (int i = 0; i < system.count(); ++i) {
+            if (system.matrix.free[i] == 0.0) x.set(i, own.point(0.1));
+        }
+        return x;
+    }
+
+    static ClothModel filled_model() {
+        Fabric fabric = free_fabric();
+        fabric.gas_volume = 0.0443;  // some 200 Pa above the air
+        return cloth_model(make_sphere(0.2, 3), fabric);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("Every choice takes enclosed blocks into account, beside pins that move") {
+    FilledBall ball;
+    const Vectors pins = ball.moving_pins();
+    const double before = ball.system.residual(ball.system.right, pins);
+    for (const LinearSolver choice : all_choices) {
+        StepSolver solver;
+        solver.set_model(compute, ball.system.model, choice);
+        solver.matrix.free = ball.system.matrix.free;
+        for (int solves = 0; solves < 2; ++solves) {
+            solver.fill(ball.system.terms, {});
+            solver.add_enclosed(ball.forces.enclosed, ball.positions);
+            Vectors x = pins;
+            const SolveReport report = solver.solve(ball.system.right, {.relative_residual = 1e-8}, x);
+            CAPTURE(static_cast<int>(choice), report.iterations);
+            CHECK(report.converged);
+            CHECK(ball.system.residual(ball.system.right, x) <= 2e-8 * before);
+        }
+    }
+}
+
+TEST_CASE("Where enclosed blocks leave no positive definite matrix, the answer still leads downhill") {
+    FilledBall ball;
+    ball.forces.enclosed[0].load = 1e3;  // far beyond what tension holds
+    for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct}) {
+        StepSolver solver;
+        solver.set_model(compute, ball.system.model, choice);
+        solver.matrix.free = ball.system.matrix.free;
+        solver.fill(ball.system.terms, {});
+        solver.add_enclosed(ball.forces.enclosed, ball.positions);
+        Vectors x = ball.system.zeros();
+        CHECK_FALSE(solver.solve(ball.system.right, {.relative_residual = 1e-8}, x).converged);
+        CHECK(dot(compute, ball.system.right, x) > 0.0);
+    }
 }
 
 }  // namespace percale::test

@@ -67,6 +67,9 @@ TEST_CASE("Every shape but the plane encloses a volume") {
          {make_sphere(0.3, 2), make_box({1.0, 2.0, 3.0}), make_cylinder(0.1, 0.5, 12), make_capsule(0.1, 0.4, 12)}) {
         CHECK_NOTHROW(check_encloses(mesh, "shape", "why"));
     }
+    TriangleMesh flat = make_sphere(0.3, 1);
+    for (Vec3& x : flat.vertices) x.y() = 0.0;
+    CHECK_THROWS_WITH(check_encloses(flat, "bag", "why"), "bag: it is flat and encloses nothing; why");
     CHECK_THROWS_WITH(check_encloses(make_plane(1.0), "plane", "why"),
                       "plane: edge (0, 2) belongs to one triangle: the mesh is open there; why");
 }
