@@ -47,8 +47,8 @@ struct StoredInput {
 };
 
 /// One force on the cloth. total_force.cpp lists all of them; who evaluates, measures, checks, saves or plans forces goes through
-/// that list. Damping, which only springs have, is in spring_loss.h; what else a term takes from the cloth beyond the change of
-/// its energy, the ledger finds from its force and its energy (shape_loss).
+/// that list. The ledger (span/) finds what a term takes beyond the change of its energy from its force and its energy
+/// (shape_loss); damping of springs (spring_loss.h) and the power of the wind it asks for by name.
 class ForceTerm {
 public:
     virtual ~ForceTerm() = default;
@@ -58,7 +58,8 @@ public:
     virtual bool acts(const ForceInput& input) const = 0;
 
     /// forces.total += its forces, N, and with input.with_matrix its part of the matrix -dt^2 Jq - dt Jv, made positive
-    /// semidefinite. Returns its potential, J: what the forces are minus the gradient of, by the positions at the end of dt.
+    /// semidefinite but for enclosed blocks, which are whole. Returns its potential, J: what the forces are minus the gradient
+    /// of, by the positions at the end of dt.
     virtual double add(const ForceInput& input, Forces& forces) const = 0;
 
     /// The entry of the energies in which what it stores is counted; null: it stores nothing.

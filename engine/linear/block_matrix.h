@@ -23,9 +23,9 @@ struct VertexContact {
 };
 
 /// The step matrix A = M - dt Jv - dt^2 Jq, kg. Springs act on differences of vertices by blocks a I + w w^T, held in single
-/// precision: each is then a spring whose stiffness is right to 6e-8, and the matrix is exactly symmetric and positive definite.
-/// What couples the edges of a membrane's triangle comes in addition, corner by corner (SpringTerms::corners).
-/// Masses and contact rows are in double precision, contacts kept apart.
+/// precision: each is then a spring whose stiffness is right to 6e-8, and the matrix is exactly symmetric and, without enclosed
+/// blocks, positive definite. What couples the edges of a membrane's triangle comes in addition, corner by corner
+/// (SpringTerms::corners). Masses and contact rows are in double precision, contacts kept apart.
 struct BlockMatrix {
     const Adjacency* pattern = nullptr;
     const Compute* compute = nullptr;

@@ -11,7 +11,7 @@ struct Direction {
     bool exact = true;  // the solver got where it should
 };
 
-/// The Newton direction dv at space.current: A dv = -r with the positive definite matrix A of forces/springs.h, M without
+/// The Newton direction dv at space.current: A dv = -r with the matrix A of linear/block_matrix.h, M without
 /// Jacobians; prescribed vertices head for their targets, contact foresees what obstacles have still to go.
 Direction newton_direction(const StageEquations& equations, const SolveTarget& target);
 
