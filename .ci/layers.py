@@ -28,7 +28,7 @@ ENGINE_PARTS = ['support', 'kernels', 'mesh', 'model', 'forces', 'contact', 'sch
 MAY_INCLUDE = {
     'public': {'public'},
     'public_collision': PUBLIC,
-    'support': {'support'},
+    'support': {'public', 'support'},  # its pool of threads is what the public header of workers promises
     **{part: {'public', *ENGINE_PARTS[:order + 1]} for order, part in enumerate(ENGINE_PARTS) if order},
     'engine': {'public', 'engine', *ENGINE_PARTS},
     'collision': PUBLIC | {'collision'},

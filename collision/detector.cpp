@@ -10,6 +10,7 @@
 #include "lists/list_passes.h"
 #include "lists/pack_measure.h"
 #include "percale/certify.h"
+#include "percale/workers.h"
 #include "self/self_contact_detection.h"
 #include "tolerances.h"
 #include "untangle/untangle.h"
@@ -44,6 +45,8 @@ public:
         lists_.reset();
         between_cloths_.reset();
     }
+
+    void set_workers(Workers* workers) override { workers_ = workers; }
 
     void set_self_contact(const SelfContact& cloth) override { between_cloths_.emplace(triangles_, thickness_, cloth); }
 
@@ -131,73 +134,130 @@ public:
     }
 
 private:
-    /// Each pass asks memory for what the next places need: lists, packs and the obstacle's surface are too large for the
-    /// nearest caches.
+    /// Near clusters in stretches, each on a thread; what they found is joined in the order of the clusters, so rows do not
+    /// depend on the threads.
     void add_rows(std::span<const Vec3> positions, double fraction, ContactRows& rows) {
-        find_near();
-        find_candidates();
-        select_packs(positions);
-        measure_selected({positions, positions, {fraction, fraction}});
-        for (std::size_t i = 0; i < lanes_.size(); ++i) {
-            fetch_ahead(i);
-            add_lane(positions, fraction, lanes_[i], rows);
-        }
-        for (ClusterList* list : near_clusters_) CandidateLists::set_smallest_bounds(*list);
-    }
-
-    void find_near() {
         near_clusters_.clear();
         for (ClusterList& list : lists_->lists()) {
             if (list.quiet_until <= list.travel) near_clusters_.push_back(&list);
         }
-    }
-
-    /// The packs whose bounds are used up.
-    void find_candidates() {
-        candidates_.clear();
-        for (std::size_t i = 0; i < near_clusters_.size(); ++i) {
-            if (i + 2 < near_clusters_.size()) {
-                const std::vector<float>& wake = near_clusters_[i + 2]->packs.wake;
-                fetch(wake.data(), wake.size());
-            }
-            ClusterList& list = *near_clusters_[i];
-            for (const int pack : packs_up_to(list.packs.wake, list.travel)) candidates_.push_back({&list, pack});
+        const std::span<ClusterList* const> near = near_clusters_;
+        const std::size_t grain = workers_ ? tolerances::clusters_a_part : near.size() + 1;
+        const std::size_t parts = (near.size() + grain - 1) / grain;
+        if (searches_.size() < parts) searches_.resize(parts);
+        auto search = [&](std::size_t part, int) {
+            RowSearch& own = searches_[part];
+            const auto clusters = near.subspan(part * grain, std::min(grain, near.size() - part * grain));
+            own.run(*this, clusters, positions, fraction, parts == 1 ? rows : own.rows);
+        };
+        run_parts(workers_, static_cast<int>(parts), search);
+        for (std::size_t part = 0; part < parts; ++part) {
+            const RowSearch& own = searches_[part];
+            smallest_distance_ = std::min(smallest_distance_, own.smallest_distance);
+            if (parts > 1) rows.append(own.rows);
         }
     }
 
-    /// Where one of a list's bounds is at most `limit`. Valid until the next call.
-    std::span<const int> packs_up_to(const std::vector<float>& bounds, double limit) {
-        if (found_.size() < bounds.size()) found_.resize(bounds.size());
-        const long count =
-            pack_kernels().find_up_to(bounds.data(), static_cast<long>(bounds.size()), above(limit), found_.data());
-        return std::span<const int>(found_).first(static_cast<std::size_t>(count));
+    /// Where one of a list's bounds is at most `limit`. Valid until `found` is used again.
+    static std::span<const int> packs_up_to(const std::vector<float>& bounds, double limit, std::vector<int>& found) {
+        if (found.size() < bounds.size()) found.resize(bounds.size());
+        const long count = pack_kernels().find_up_to(bounds.data(), static_cast<long>(bounds.size()), above(limit), found.data());
+        return std::span<const int>(found).first(static_cast<std::size_t>(count));
     }
 
-    /// Those of them that have to be measured: most are told to be far by their hulls.
-    void select_packs(std::span<const Vec3> positions) {
-        selected_.clear();
-        const ContactPair* last = nullptr;
-        Box box;  // of the last cloth feature
-        for (std::size_t i = 0; i < candidates_.size(); ++i) {
-            if (i + 16 < candidates_.size()) __builtin_prefetch(&candidates_[i + 16].list->packs.at[candidates_[i + 16].index]);
-            if (i + 8 < candidates_.size()) __builtin_prefetch(&hull_of(candidates_[i + 8]));
-            const auto& [list, pack] = candidates_[i];
-            const ContactPair& feature = candidates_[i].feature();
-            const double thickness = thickness_[feature.cloth[0]];
-            const PackHull& hull = hull_of(candidates_[i]);
-            double apart = height_above(hull, feature.vertices(), positions);
-            if (apart < thickness) {
-                if (last != &feature) box = box_of(feature, positions);
-                last = &feature;
-                apart = std::max(apart, hull.box().gap(box));
+    /// The rows of some clusters. Each pass asks memory for what the next places need: lists, packs and the obstacle's surface
+    /// are too large for the nearest caches.
+    class RowSearch {
+    public:
+        ContactRows rows;  // where the caller wants them here
+        double smallest_distance = std::numeric_limits<double>::infinity();
+
+        void run(const MeshDetector& detector, std::span<ClusterList* const> clusters, std::span<const Vec3> positions,
+                 double fraction, ContactRows& to) {
+            rows.clear();
+            smallest_distance = std::numeric_limits<double>::infinity();
+            find_candidates(clusters);
+            select_packs(detector, positions);
+            measure_selected(detector, {positions, positions, {fraction, fraction}});
+            for (std::size_t i = 0; i < lanes_.size(); ++i) {
+                fetch_ahead(detector, i);
+                smallest_distance = std::min(smallest_distance, detector.add_lane(positions, fraction, lanes_[i], to));
             }
-            if (apart < thickness) {
-                selected_.push_back(candidates_[i]);
-            } else {
-                list->packs.raise(pack, apart, apart - thickness, thickness, list->travel);
+            for (ClusterList* list : clusters) CandidateLists::set_smallest_bounds(*list);
+        }
+
+    private:
+        /// The packs whose bounds are used up.
+        void find_candidates(std::span<ClusterList* const> clusters) {
+            candidates_.clear();
+            for (std::size_t i = 0; i < clusters.size(); ++i) {
+                if (i + 2 < clusters.size()) {
+                    const std::vector<float>& wake = clusters[i + 2]->packs.wake;
+                    fetch(wake.data(), wake.size());
+                }
+                ClusterList& list = *clusters[i];
+                for (const int pack : packs_up_to(list.packs.wake, list.travel, found_)) candidates_.push_back({&list, pack});
             }
         }
-    }
+
+        /// Those of them that have to be measured: most are told to be far by their hulls.
+        void select_packs(const MeshDetector& detector, std::span<const Vec3> positions) {
+            selected_.clear();
+            const ContactPair* last = nullptr;
+            Box box;  // of the last cloth feature
+            for (std::size_t i = 0; i < candidates_.size(); ++i) {
+                if (i + 16 < candidates_.size())
+                    __builtin_prefetch(&candidates_[i + 16].list->packs.at[candidates_[i + 16].index]);
+                if (i + 8 < candidates_.size()) __builtin_prefetch(&detector.hull_of(candidates_[i + 8]));
+                const auto& [list, pack] = candidates_[i];
+                const ContactPair& feature = candidates_[i].feature();
+                const double thickness = detector.thickness_[feature.cloth[0]];
+                const PackHull& hull = detector.hull_of(candidates_[i]);
+                double apart = height_above(hull, feature.vertices(), positions);
+                if (apart < thickness) {
+                    if (last != &feature) box = box_of(feature, positions);
+                    last = &feature;
+                    apart = std::max(apart, hull.box().gap(box));
+                }
+                if (apart < thickness) {
+                    selected_.push_back(candidates_[i]);
+                } else {
+                    list->packs.raise(pack, apart, apart - thickness, thickness, list->travel);
+                }
+            }
+        }
+
+        /// Finds the lanes that can be contacts.
+        void measure_selected(const MeshDetector& detector, const ClothMove& here) {
+            lanes_.clear();
+            for (std::size_t i = 0; i < selected_.size(); ++i) {
+                if (i + 4 < selected_.size()) {
+                    const SelectedPack& next = selected_[i + 4];
+                    detector.packs_for(next.feature()).placed[next.number()].prefetch(next.feature().kind);
+                }
+                const SelectedPack& at = selected_[i];
+                const PackAnswer answer = detector.measure_pack(here, at, detector.thickness_[at.feature().cloth[0]]);
+                for (unsigned lanes = answer.row | (at.list->packs.at[at.index].standing & answer.near); lanes != 0;
+                     lanes &= lanes - 1) {
+                    lanes_.push_back({at, std::countr_zero(lanes)});
+                    __builtin_prefetch(&detector.packs_for(at.feature()).packs[at.number()].feature);
+                }
+            }
+        }
+
+        void fetch_ahead(const MeshDetector& detector, std::size_t lane) const {
+            for (int depth = 0; depth < pair_fetches; ++depth) {
+                const std::size_t ahead = lane + 4 * static_cast<std::size_t>(pair_fetches - depth);
+                if (ahead >= lanes_.size()) continue;
+                const ContactPair pair = detector.pair_of(lanes_[ahead]);
+                fetch_pair(pair, *detector.obstacles_[pair.obstacle], depth);
+            }
+        }
+
+        std::vector<int> found_;
+        std::vector<SelectedPack> candidates_, selected_;
+        std::vector<SelectedLane> lanes_;
+    };
 
     static Box box_of(const ContactPair& feature, std::span<const Vec3> positions) {
         Box box;
@@ -208,31 +268,25 @@ private:
     const ObstaclePacks& packs_for(const ContactPair& feature) const { return obstacles_[feature.obstacle]->packs(); }
     const PackHull& hull_of(const SelectedPack& at) const { return packs_for(at.feature()).hulls[at.number()]; }
 
-    /// Finds the lanes that can be contacts.
-    void measure_selected(const ClothMove& here) {
-        lanes_.clear();
-        for (std::size_t i = 0; i < selected_.size(); ++i) {
-            if (i + 4 < selected_.size()) {
-                const SelectedPack& next = selected_[i + 4];
-                packs_for(next.feature()).placed[next.number()].prefetch(next.feature().kind);
-            }
-            const SelectedPack& at = selected_[i];
-            const PackAnswer answer = measure_pack(here, at, thickness_[at.feature().cloth[0]]);
-            for (unsigned lanes = answer.row | (at.list->packs.at[at.index].standing & answer.near); lanes != 0;
-                 lanes &= lanes - 1) {
-                lanes_.push_back({at, std::countr_zero(lanes)});
-                __builtin_prefetch(&packs_for(at.feature()).packs[at.number()].feature);
-            }
-        }
-    }
-
     /// Lowers `safe` to what all clusters allow.
     double cut(const ClothMove& move, double safe) {
         double obstacle_displacement = 0.0;
         for (const auto& obstacle : obstacles_)
             obstacle_displacement = std::max(obstacle_displacement, obstacle->largest_displacement());
         obstacle_displacement *= move.fraction.to - move.fraction.from;
-        for (std::size_t i = 0; i < lists_->lists().size(); ++i) safe = cut_cluster(move, obstacle_displacement, i, safe);
+        // Stretches of clusters, the same for any number of threads; within one, what a cluster allows is all that the next ones
+        // look at.
+        const std::size_t count = lists_->lists().size();
+        const std::size_t grain = tolerances::clusters_a_cut;
+        cuts_.resize((count + grain - 1) / grain);
+        auto cut_part = [&](int part, int) {
+            StretchCut& own = cuts_[static_cast<std::size_t>(part)];
+            own.safe = safe;
+            const std::size_t first = static_cast<std::size_t>(part) * grain;
+            for (std::size_t i = first; i < std::min(first + grain, count); ++i) cut_cluster(move, obstacle_displacement, i, own);
+        };
+        run_parts(workers_, static_cast<int>(cuts_.size()), cut_part);
+        for (const StretchCut& own : cuts_) safe = std::min(safe, own.safe);
         return safe;
     }
 
@@ -262,7 +316,7 @@ private:
         }
     }
 
-    PackAnswer measure_pack(const ClothMove& move, const SelectedPack& at, double near) {
+    PackAnswer measure_pack(const ClothMove& move, const SelectedPack& at, double near) const {
         const ContactPair& feature = at.feature();
         const double thickness = thickness_[feature.cloth[0]];
         const PlacedPack& placed = obstacles_[feature.obstacle]->placed(at.number(), move.fraction.from);
@@ -277,21 +331,12 @@ private:
         return feature.with(packs_for(feature).packs[at.place.number()], at.lane);
     }
 
-    void fetch_ahead(std::size_t lane) const {
-        for (int depth = 0; depth < pair_fetches; ++depth) {
-            const std::size_t ahead = lane + 4 * static_cast<std::size_t>(pair_fetches - depth);
-            if (ahead >= lanes_.size()) continue;
-            const ContactPair pair = pair_of(lanes_[ahead]);
-            fetch_pair(pair, *obstacles_[pair.obstacle], depth);
-        }
-    }
-
-    void add_lane(std::span<const Vec3> positions, double fraction, const SelectedLane& at, ContactRows& rows) {
+    /// The distance of the pair.
+    double add_lane(std::span<const Vec3> positions, double fraction, const SelectedLane& at, ContactRows& rows) const {
         const ContactPair pair = pair_of(at);
         const double thickness = thickness_[pair.cloth[0]];
         const PairContact contact = pair_contact(pair, positions, *obstacles_[pair.obstacle], fraction);
-        smallest_distance_ = std::min(smallest_distance_, contact.distance);
-        if (contact.distance >= thickness || row_share(contact, thickness) == 0.0) return;
+        if (contact.distance >= thickness || row_share(contact, thickness) == 0.0) return contact.distance;
         // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
         // that the force is continuous where closest points pass from one feature to the next.
         const auto& [list, pack] = at.place;
@@ -300,6 +345,7 @@ private:
             list->has_standing = true;
         }
         if ((list->packs.at[pack].standing >> at.lane & 1U) != 0) add_row(pair, contact, thickness, rows);
+        return contact.distance;
     }
 
     void add_row(const ContactPair& pair, const PairContact& contact, double thickness, ContactRows& rows) const {
@@ -334,15 +380,22 @@ private:
         own.room.grow(tolerances::cut_floor * own.thickness);
     }
 
-    /// Lowers `safe` where a pair of the cluster needs it. `obstacle_displacement`: how far obstacles go during the whole move.
-    double cut_cluster(const ClothMove& move, double obstacle_displacement, std::size_t cluster, double safe) {
+    /// What a stretch of clusters allows, and memory to find it.
+    struct StretchCut {
+        double safe = 1.0;
+        std::vector<int> found;
+    };
+
+    /// Lowers own.safe where a pair of the cluster needs it. `obstacle_displacement`: how far obstacles go during the whole move.
+    void cut_cluster(const ClothMove& move, double obstacle_displacement, std::size_t cluster, StretchCut& stretch) {
+        double& safe = stretch.safe;
         ClusterList& list = lists_->lists()[cluster];
         const double limit =
             list.travel +
             distance_that_keeps_floor((lists_->cluster_displacement(cluster) + obstacle_displacement) * safe, list.thickness);
-        if (list.smallest_reach >= limit) return safe;
+        if (list.smallest_reach >= limit) return;
         FeatureMove own;
-        for (const int pack : packs_up_to(list.packs.reach, limit)) {
+        for (const int pack : packs_up_to(list.packs.reach, limit, stretch.found)) {
             const SelectedPack at{&list, pack};
             const ContactPair& feature = at.feature();
             if (own.number != list.packs.at[pack].feature) {
@@ -357,10 +410,9 @@ private:
             if (may_cross) safe = cut_pack(move, near, at, safe);
         }
         CandidateLists::set_smallest_bounds(list);
-        return safe;
     }
 
-    double cut_pack(const ClothMove& move, double near, const SelectedPack& at, double safe) {
+    double cut_pack(const ClothMove& move, double near, const SelectedPack& at, double safe) const {
         const PackAnswer answer = measure_pack(move, at, near);
         const Obstacle& obstacle = *obstacles_[at.feature().obstacle];
         for (unsigned lanes = answer.near; lanes != 0; lanes &= lanes - 1) {
@@ -382,9 +434,9 @@ private:
     Obstacles obstacles_;
     std::optional<CandidateLists> lists_;
     std::vector<ClusterList*> near_clusters_;
-    std::vector<int> found_;
-    std::vector<SelectedPack> candidates_, selected_;
-    std::vector<SelectedLane> lanes_;
+    std::vector<RowSearch> searches_;
+    std::vector<StretchCut> cuts_;
+    Workers* workers_ = nullptr;
     std::vector<Vec3> forgotten_at_;                      // m, where each vertex was when its contacts were last forgotten
     std::vector<unsigned char> moved_;                    // whether they are to be forgotten now
     std::optional<SelfContactDetection> between_cloths_;  // if any cloth meets cloth

@@ -239,4 +239,8 @@ constexpr int most_uneven_split = 8;
 /// boxes are first held against.
 constexpr double quantised_box = 1e-6;
 
+/// Clusters in a thread's part: of rows (cost alone), and of cuts, within which what one cluster allows narrows the search of the
+/// next. More: threads have to wait for the last part. Fewer: cuts measure pairs that an earlier cluster would have ruled out.
+constexpr unsigned clusters_a_part = 8, clusters_a_cut = 32;
+
 }  // namespace percale::tolerances

@@ -17,7 +17,7 @@ constexpr std::string_view solver_words[] = {"auto", "cg", "multigrid", "direct"
 constexpr std::string_view response_words[] = {"penalty", "projection"};
 constexpr std::string_view damping_words[] = {"length_rate", "velocity"};
 constexpr std::string_view start_words[] = {"repair", "refuse"};
-constexpr std::string_view measure_words[] = {"all", "none", "ledger"};
+constexpr std::string_view measure_words[] = {"auto", "all", "none", "ledger"};
 constexpr std::string_view membrane_words[] = {"triangle_springs", "van_gelder"};
 
 constexpr Option<Fabric> fabric_list[] = {
@@ -165,10 +165,16 @@ constexpr Option<StepSettings> step_list[] = {
     {.key = "newton_tolerance",
      .unit = "",
      .sentence =
-         "Residual relative to the first of the step; auto keeps the solver's error below a quarter of the step's time error.",
+         "Residual relative to the first of the step; auto keeps the solver's error below newton_share of the step's time error.",
      .lowest = 1e-12,
      .highest = 1.0,
      .number_or_auto = [](StepSettings& s) { return &s.newton_tolerance; }},
+    {.key = "newton_share",
+     .unit = "",
+     .sentence = "How large the solver's error may be beside the step's time error, where newton_tolerance is auto.",
+     .lowest = 1e-3,
+     .highest = 100.0,
+     .number = [](StepSettings& s) { return &s.newton_share; }},
     {.key = "newton_iterations",
      .unit = "",
      .sentence = "Newton iterations at most; 1 is linearly implicit.",
@@ -192,11 +198,13 @@ constexpr Option<StepSettings> step_list[] = {
      .set_choice = [](StepSettings& s, int i) { s.contact_response = static_cast<ContactResponse>(i); }},
     {.key = "threads",
      .unit = "",
-     .sentence = "Threads of one simulation, worth it from about ten thousand vertices; results are the same for any number.",
+     .sentence = "Threads of one simulation; auto = as many of the machine's cores as pay for this number of vertices. Results "
+                 "are the same for any number.",
      .lowest = 1,
      .highest = 64,
      .changes_steps = false,
-     .integer = [](StepSettings& s) { return &s.threads; }},
+     .integer = [](StepSettings& s) { return &s.threads; },
+     .zero_is_auto = true},
     {.key = "damping_form",
      .unit = "",
      .sentence = "Spring damping as the rate of the length over the step (backward Euler only) or by the relative velocity.",
@@ -206,8 +214,8 @@ constexpr Option<StepSettings> step_list[] = {
     {.key = "measure",
      .unit = "",
      .sentence =
-         "What each step reports besides contacts: all = energy, strain and speed; none leaves them out; ledger = all and "
-         "what became of energy.",
+         "What each step reports besides contacts: all = energy, strain and speed; ledger = all and what became of energy; none "
+         "leaves them out; auto = what [expect] reads, and for the rest the states of output frames alone.",
      .choices = measure_words,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.measure); },
      .set_choice = [](StepSettings& s, int i) { s.measure = static_cast<StepMeasures>(i); }},
@@ -253,7 +261,7 @@ void check_fields(Owner owner, std::string_view name, std::span<const Option<Own
             check_number(name, option.key, option.unit, value, option.lowest, option.highest);
         };
         if (option.number) check(*option.number(owner));
-        if (option.integer) check(*option.integer(owner));
+        if (option.integer && !(option.zero_is_auto && *option.integer(owner) == 0)) check(*option.integer(owner));
         if (option.number_or_auto && option.number_or_auto(owner)->has_value()) check(**option.number_or_auto(owner));
         if (option.optional_number && option.optional_number(owner)->has_value()) check(**option.optional_number(owner));
         if (option.optional_pair && option.optional_pair(owner)->has_value()) {

@@ -7,7 +7,6 @@
 #include "percale/error.h"
 #include "percale/options.h"
 #include "plan/planning.h"
-#include "schemes/schemes.h"
 #include "start/start_check.h"
 #include "state/saved_world.h"
 #include "step/measure.h"
@@ -104,18 +103,13 @@ struct Simulation::Implementation {
         world.scene.settings = settings;
     }
 
-    bool meets_cloth() const {
-        return std::any_of(world.scene.model.cloths.begin(), world.scene.model.cloths.end(),
-                           [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
-    }
-
     void pass_cloth_to_detector() {
         if (!world.scene.detector) return;
         std::vector<double> zone = world.scene.model.thickness;
         const double factor = world.work.newton.law(world.scene.settings.contact_response).zone();
         for (double& thickness : zone) thickness *= factor;
         world.scene.detector->set_cloth(world.scene.model.triangles, zone);
-        if (!meets_cloth()) return;
+        if (!meets_cloth(world.scene)) return;
         std::vector<int> owner;
         std::vector<double> friction;
         for (std::size_t c = 0; c < world.scene.model.cloths.size(); ++c) {
@@ -144,32 +138,17 @@ struct Simulation::Implementation {
         world.views.masses.resize(world.scene.model.mass.size());
         for (int i = 0; i < range.count; ++i) world.views.masses[range.first + i] = world.scene.model.mass[range.index_of(i)];
     }
-
-    void check_scheme() const {
-        if (world.scene.settings.scheme == Scheme::automatic) return;
-        const SchemeFacts& scheme = facts_of(world.scene.settings.scheme);
-        const bool meets = meets_cloth(), any = meets || !world.scene.script.obstacles.empty();
-        if (!any) return;
-        if (!scheme.contact) {
-            const std::string kind = scheme.implicit ? std::string(scheme.word) : "an explicit scheme";
-            throw SceneError(kind + " takes no " + (meets ? "self_contact" : "obstacles") +
-                             "; use scheme backward_euler or tr_bdf2");
-        }
-        if (world.scene.settings.contact_response == ContactResponse::projection && scheme.scheme != Scheme::backward_euler) {
-            throw SceneError("contact_response projection needs scheme backward_euler, not " + std::string(scheme.word));
-        }
-    }
 };
 
-Simulation::Simulation(const StepSettings& settings, std::unique_ptr<ContactDetector> detector)
+Simulation::Simulation(const StepSettings& settings, std::unique_ptr<ContactDetector> detector, std::shared_ptr<Workers> workers)
     : implementation_(std::make_unique<Implementation>()) {
     check_options(settings, "settings");
-    implementation_->world.scene.settings = settings;
-    implementation_->world.scene.detector = std::move(detector);
-    if (settings.threads > 1) {
-        implementation_->world.pool = std::make_unique<ThreadPool>(settings.threads);
-        implementation_->world.scene.compute.pool = implementation_->world.pool.get();
-    }
+    World& world = implementation_->world;
+    world.scene.settings = settings;
+    world.scene.detector = std::move(detector);
+    world.own_workers = workers == nullptr;
+    world.workers = std::move(workers);
+    set_workers(world);
 }
 
 Simulation::~Simulation() = default;
@@ -191,6 +170,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     finish_model(model);
     world.scene.model = std::move(model);
     world.work.newton.solver.forget_model();
+    set_workers(world);
     // The vertices of earlier cloths keep state and pins.
     ClothState state;
     for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(world.scene.model.vertex_count());
@@ -230,11 +210,13 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
         throw SceneError(settings.name,
                          "friction = " + number_text(settings.friction) + " is outside the allowed range 0 ... 10");
     }
+    check_range(settings.name, "restitution", "", settings.restitution, 0.0, 1.0);
     check_pose(pose, settings.name);
     check_mesh(mesh, settings.name, false);
     const Pose placed = normalised(pose);
     world.scene.detector->add_obstacle(mesh, placed, settings.friction);
-    world.scene.script.obstacles.push_back({settings.name, placed, placed, static_cast<int>(mesh.triangles.size())});
+    world.scene.script.obstacles.push_back(
+        {settings.name, placed, placed, static_cast<int>(mesh.triangles.size()), settings.restitution});
     world.changed = true;
     scene_changed(world);
     return {static_cast<int>(world.scene.script.obstacles.size()) - 1};
@@ -359,9 +341,9 @@ void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities)
 void Simulation::prepare() {
     World& world = implementation_->world;
     if (!world.changed) return;
-    implementation_->check_scheme();
+    check_scheme(implementation_->world.scene);
     const bool obstacles = !world.scene.script.obstacles.empty() && !world.scene.model.cloths.empty();
-    if (world.scene.detector && (obstacles || implementation_->meets_cloth())) {
+    if (world.scene.detector && (obstacles || meets_cloth(world.scene))) {
         implementation_->start_moves = clear_start(world);
         implementation_->update_views();
     }
@@ -373,7 +355,7 @@ std::span<const StartMove> Simulation::start_repair() const { return implementat
 
 StepReport Simulation::step() {
     World& world = implementation_->world;
-    const auto cpu_seconds = [&] { return thread_cpu_seconds() + (world.pool ? world.pool->other_cpu_seconds() : 0.0); };
+    const auto cpu_seconds = [&] { return thread_cpu_seconds() + (world.workers ? world.workers->other_cpu_seconds() : 0.0); };
     const double start = cpu_seconds();
     prepare();
     StepReport report = percale::step(world);
@@ -417,6 +399,15 @@ Pose Simulation::obstacle_pose(ObstacleId obstacle) const { return implementatio
 
 StepEnergy Simulation::energy() const { return energy_of(implementation_->world.scene, implementation_->world.state); }
 
+double Simulation::largest_strain() const {
+    return percale::largest_strain(implementation_->world.scene.model.springs, implementation_->world.state.cloth.positions);
+}
+
+double Simulation::largest_speed() const {
+    return percale::largest_speed(implementation_->world.state.cloth.velocities,
+                                  implementation_->world.scene.model.vertex_count());
+}
+
 std::uint64_t Simulation::state_hash() const {
     Hash hash;
     const ClothState& state = implementation_->world.state.cloth;
@@ -437,7 +428,7 @@ std::uint64_t Simulation::state_hash() const {
 std::vector<std::byte> Simulation::save() const { return saved_world(implementation_->world, implementation_->start_moves); }
 
 void Simulation::restore(std::span<const std::byte> saved) {
-    implementation_->check_scheme();
+    check_scheme(implementation_->world.scene);
     implementation_->start_moves = restore_world(saved, implementation_->world);
     implementation_->update_views();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 
 /// Every numerical constant of the layer that decides something. What is no choice stands where it is used: sizes of arrays,
@@ -19,9 +20,17 @@ constexpr double unit_length_error = 1e-6, unit_square_error = 1e-6;
 
 // ---- support/
 
-/// Looks at a counter before a thread goes to sleep: regions are tens of microseconds long, and sleeping between them would cost
-/// as much again. Cost alone.
-constexpr int most_spins = 1000;
+/// How long a thread looks for more work before it goes to sleep: regions follow each other within microseconds, and waking a
+/// thread takes tens of them. Longer: cores are kept from others. Shorter: every region waits for threads to wake. And looks
+/// between two looks at the clock. Cost alone.
+constexpr std::chrono::microseconds longest_spin(20);
+constexpr int spins_between_looks = 8;
+
+/// Of one pool.
+constexpr int most_threads = 64;
+
+/// What a thread should have to do before `threads = auto` uses another one. Cost alone.
+constexpr int least_vertices_a_thread = 1000;
 
 // ---- mesh/
 
@@ -274,9 +283,12 @@ constexpr double slope_left_share = 0.6;
 /// Steps by the secant, the longest; and the least fall of the slope, as a share of it, that the secant divides by.
 constexpr double longest_secant_step = 3.0, least_secant_fall = 0.1;
 
-/// Share of the time error. Newton has solved for a motion when an iteration changes less; the second where the change is only
-/// estimated. Larger: the solver's error is no longer small beside the time step's. Smaller: more iterations.
-constexpr double share_of_time_error = 0.25, estimated_share_of_time_error = 0.1;
+/// Share of what a change may be (StepSettings::newton_share) where it is only estimated. Larger: changes that are not small are
+/// taken for small. Smaller: more iterations.
+constexpr double estimate_safety = 0.4;
+
+/// Of StepSettings::newton_share in adaptive steps. Larger: the tolerance is missed by the solver's error.
+constexpr double most_adaptive_share = 0.25;
 
 /// Rounds of contact multipliers in one stage. Fewer: projected contact is left inexact.
 constexpr int most_contact_rounds = 6;
@@ -306,6 +318,16 @@ constexpr double forcing_factor = 0.9, least_forcing = 1e-6, most_forcing = 0.1;
 
 /// Share of the residual to reach that the last linear solve aims at, and the largest linear residual at all.
 constexpr double last_forcing_share = 0.3, loosest_forcing = 0.3;
+
+// ---- span/: impacts
+
+/// h per second. Beside what gravity makes in a stage: what comes more slowly is in no impact. Larger: bounces end early. 0: they
+/// never do, and contacts that last are taken for impacts.
+constexpr double least_impact_rate = 2.0;
+
+/// What is left of an impact's speed in each step after it was stopped; until it is slow, contact cannot make it leave. Larger:
+/// contacts that last are taken for impacts. Smaller: contact that is still compressed throws it off.
+constexpr double impact_fading = 0.9;
 
 // ---- span/: lengths of adaptive steps
 

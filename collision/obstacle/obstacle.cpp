@@ -18,6 +18,7 @@ Vec3 inverse_transform(const Pose& pose, const Vec3& x) {
 
 Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree)
     : mesh_(mesh), built_(pose), start_pose_(pose), end_pose_(pose), friction_(friction) {
+    placing_ = std::make_unique<std::array<std::mutex, 16>>();
     surface_ = make_surface(mesh.vertices, mesh.triangles);
     local_ = surface_.vertices;
     start_ = transform(pose, local_);
@@ -76,6 +77,13 @@ Box Obstacle::to_tree(const Box& box) const {
     // Two rotations round off.
     turned.grow(tolerances::turned_box * (turned.low.cwiseAbs().maxCoeff() + turned.high.cwiseAbs().maxCoeff()));
     return turned;
+}
+
+const PlacedPack& Obstacle::placed(int pack, double fraction) {
+    const PlacedPack& known = packs_.placed[pack];
+    if (is_placed(known, paths(), fraction)) return known;
+    const std::lock_guard lock((*placing_)[static_cast<std::size_t>(pack) % placing_->size()]);
+    return place(packs_, pack, surface_, paths(), fraction);
 }
 
 void Obstacle::find(std::span<const Box> boxes, IdLists& found) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <mutex>
 
 #include "obstacle/obstacle_packs.h"
 #include "obstacle/obstacle_surface.h"
@@ -39,8 +41,8 @@ public:
     const ObstaclePacks& packs() const { return packs_; }
     /// Box of everything during the whole step, m, world.
     const Box& whole_box() const { return whole_box_; }
-    /// A pack at a fraction of the step; placed when first asked for.
-    const PlacedPack& placed(int pack, double fraction) { return place(packs_, pack, surface_, paths(), fraction); }
+    /// A pack at a fraction of the step; placed when first asked for. Threads may ask at the same time, for the same fraction.
+    const PlacedPack& placed(int pack, double fraction);
 
     /// Patches whose boxes come near each world box during the step, ascending and the same for every kind of tree.
     void find(std::span<const Box> boxes, IdLists& found);
@@ -63,7 +65,8 @@ private:
     std::vector<Vec3> stand_in_corners_;
     std::vector<Triangle> stand_ins_;  // one triangle for each patch, with the patch's box: what the tree holds
     std::unique_ptr<ObstacleTree> tree_;
-    std::vector<Box> asked_;  // work space of find
+    std::unique_ptr<std::array<std::mutex, 16>> placing_;  // each guards the packs that it is the remainder of
+    std::vector<Box> asked_;                               // work space of find
     IdLists raw_;
     Pose built_, start_pose_, end_pose_;
     double friction_ = 0.0;

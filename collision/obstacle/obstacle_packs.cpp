@@ -1,6 +1,7 @@
 #include "obstacle/obstacle_packs.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -118,12 +119,18 @@ Cone cone_at(const ObstacleSurface& surface, int vertex, const VertexPaths& path
     return cone.cosine > tolerances::widest_cone ? cone : Cone{};
 }
 
-void place_points(const FeaturePack& pack, const ObstacleSurface& surface, const VertexPaths& paths, int lane,
-                  PlacedPack& placed) {
-    const std::span<const int> vertices = vertices_of(surface, pack.kind, pack.feature[lane]);
+/// Where a pack's features are at a fraction of the step.
+struct PlacedPaths {
+    const ObstacleSurface& surface;
+    const VertexPaths& paths;
+    double fraction;
+};
+
+void place_points(const FeaturePack& pack, const PlacedPaths& there, int lane, PlacedPack& placed) {
+    const std::span<const int> vertices = vertices_of(there.surface, pack.kind, pack.feature[lane]);
     std::array<Vec3, 3> x;
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-        x[k] = paths.at(vertices[k], placed.fraction) - placed.centre;
+        x[k] = there.paths.at(vertices[k], there.fraction) - placed.centre;
         set_row(placed.lanes, 3 * static_cast<int>(k), lane, x[k]);
         placed.radius = std::max(placed.radius, tolerances::rounded_up * static_cast<float>(x[k].cwiseAbs().maxCoeff()));
     }
@@ -226,26 +233,32 @@ void set_boxes(ObstaclePacks& packs, const ObstacleSurface& surface, const Verte
     for (PlacedPack& placed : packs.placed) placed.fraction = -1.0;
 }
 
+bool is_placed(const PlacedPack& placed, const VertexPaths& paths, double fraction) {
+    const double there = std::atomic_ref(const_cast<double&>(placed.fraction)).load(std::memory_order_acquire);
+    return there >= 0.0 && (paths.rest() || there == fraction);
+}
+
 const PlacedPack& place(ObstaclePacks& packs, int number, const ObstacleSurface& surface, const VertexPaths& paths,
                         double fraction) {
     PlacedPack& placed = packs.placed[number];
-    const bool is_there = placed.fraction >= 0.0 && (paths.rest() || placed.fraction == fraction);
-    if (is_there) return placed;
+    if (is_placed(placed, paths, fraction)) return placed;
     const FeaturePack& pack = packs.packs[number];
     Box box;
     for (const int feature : pack.feature) {
         for (const int vertex : vertices_of(surface, pack.kind, feature)) box.add(paths.at(vertex, fraction));
     }
-    placed = {.fraction = fraction,
+    placed = {.fraction = -1.0,
               .centre = 0.5 * (box.low + box.high),
               .shortest_edge = std::numeric_limits<float>::infinity(),
               .all = static_cast<unsigned char>((1U << pack.count) - 1U),
               .lanes = {}};
     for (int lane = 0; lane < pack_lanes; ++lane) {
-        place_points(pack, surface, paths, lane, placed);
+        place_points(pack, {surface, paths, fraction}, lane, placed);
         if (pack.kind == PairKind::face_vertex) placed.lanes.at[6][lane] = -1.0F;
         if (paths.rest()) place_directions(pack, surface, paths, lane, placed.lanes);
     }
+    // Last: threads that see it may read the rest.
+    std::atomic_ref(placed.fraction).store(fraction, std::memory_order_release);
     return placed;
 }
 

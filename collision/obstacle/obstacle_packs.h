@@ -92,6 +92,9 @@ struct VertexPaths {
 /// Sets all boxes and hulls for a step and makes every pack be placed anew.
 void set_boxes(ObstaclePacks& packs, const ObstacleSurface& surface, const VertexPaths& paths);
 
+/// Whether the pack is where it is at a fraction of the step. Threads that see so may read it while others place other packs.
+bool is_placed(const PlacedPack& placed, const VertexPaths& paths, double fraction);
+
 /// The pack at a fraction of the step. Only obstacles at rest get normals and cones: those of moving ones turn.
 const PlacedPack& place(ObstaclePacks& packs, int pack, const ObstacleSurface& surface, const VertexPaths& paths,
                         double fraction);

@@ -151,7 +151,8 @@ struct ContactCheck {
                                   .mass = &step.scene.model.mass,
                                   .diagonal = &step.work.newton.frozen_diagonal,
                                   .load = &step.work.newton.frozen_load};
-        add_contact(moved, contact, positions, forces, result);
+        std::vector<RowForce> row_forces;
+        add_contact(moved, contact, positions, forces, result, row_forces);
         return result.energy;
     }
 

@@ -55,7 +55,7 @@ struct ContactForces {
     Vectors& total;                     // N, contact is added
     double& potential;                  // J, likewise
     ContactTerms& terms;                // filled anew
-    std::vector<RowForce>& row_forces;  // filled anew, one a row; penalty has none
+    std::vector<RowForce>& row_forces;  // filled anew, one a row
 };
 
 /// What contact hands on from one span to the next.

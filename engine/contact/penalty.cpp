@@ -157,13 +157,15 @@ void add_touch_loss(const ContactMove& move, const Touch& touch, PenaltyLoss& lo
 
 }  // namespace
 
-void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces,
-                 ContactTerms& terms) {
+void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces, ContactTerms& terms,
+                 std::vector<RowForce>& row_forces) {
     terms.clear();
+    row_forces.clear();
     terms.touches.clear(positions.padded_size());
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const double stiffness = row_stiffness(rows, row, step);
         const ContactPotential potential = contact_potential(rows.distance[row], rows.thickness[row], stiffness);
+        row_forces.push_back({.normal = potential.slope, .stiffness = stiffness});
         CoupledBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}, .row = static_cast<int>(row)};
         add_normal_block(block.k, step.dt * step.dt * potential.curvature, rows.direction[row]);
         Vec3 force = potential.slope * rows.direction[row];
@@ -184,7 +186,7 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
 }
 
 void PenaltyContact::evaluate(const ContactPoint& point, ContactForces forces) const {
-    add_contact(point.rows, point.step, point.positions, forces.total, forces.terms);
+    add_contact(point.rows, point.step, point.positions, forces.total, forces.terms, forces.row_forces);
     forces.potential += forces.terms.energy;
 }
 

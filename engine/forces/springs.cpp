@@ -127,7 +127,7 @@ double evaluate_springs(const Compute& compute, const StepSprings& springs, cons
     if (with_matrix) clear_guards(bands, terms.values);
     const int grain = bands.count > 0 ? band_chunk_slices : chunk_slices;
     const std::size_t scratch = 3 * bands.count * (bands.guard + std::min(slices, grain) * slice_lanes);
-    terms.scratch.resize(scratch * (compute.pool ? compute.pool->threads() : 1));
+    terms.scratch.resize(scratch * compute.threads());
     const SpringPass pass{.springs = springs.entries,
                           .positions = motion.positions.axes(),
                           .velocities = motion.velocities.axes(),

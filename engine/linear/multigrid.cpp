@@ -122,10 +122,15 @@ void Multigrid::pack(Level& level, const AlignedVector<float>& from) const {
 }
 
 void Multigrid::copy_guarded(const BandPattern& bands, const AlignedVector<float>& from) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto first = from.begin() + axis * bands.padded;
-        std::copy(first, first + bands.padded, guarded_.begin() + axis * (bands.padded + 2 * bands.guard) + bands.guard);
-    }
+    const int slices = static_cast<int>(bands.padded / slice_lanes);
+    for_chunks(compute_, slices, [&](Slices range) {
+        const std::size_t first = static_cast<std::size_t>(range.first) * slice_lanes;
+        const std::size_t count = static_cast<std::size_t>(range.last - range.first) * slice_lanes;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float* source = from.data() + axis * bands.padded + first;
+            std::copy_n(source, count, &guarded_[axis * (bands.padded + 2 * bands.guard) + bands.guard + first]);
+        }
+    });
 }
 
 void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {

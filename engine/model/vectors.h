@@ -37,6 +37,21 @@ struct Vectors {
     }
 };
 
+/// to(i) = value(a_i, b_i) for each number of the three axes, on all threads; `to` may be a or b.
+template <class Value>
+void set_each(const Compute& compute, const Vectors& a, const Vectors& b, Vectors& to, Value value) {
+    if (to.padded_size() != a.padded_size()) to.resize(static_cast<int>(a.padded_size()));
+    for_chunks(compute, a.slices(), [&](Slices range) {
+        const std::size_t first = static_cast<std::size_t>(range.first) * slice_lanes;
+        const std::size_t last = static_cast<std::size_t>(range.last) * slice_lanes;
+        for (auto axis : {&Vectors::x, &Vectors::y, &Vectors::z}) {
+            const double *p = (a.*axis).data(), *q = (b.*axis).data();
+            double* r = (to.*axis).data();
+            for (std::size_t i = first; i < last; ++i) r[i] = value(p[i], q[i]);
+        }
+    });
+}
+
 /// y += factor x
 inline void add_scaled(Vectors& y, double factor, const Vectors& x) {
     const auto add = [factor](AlignedVector<double>& to, const AlignedVector<double>& from) {
@@ -90,6 +105,15 @@ inline double square_at(const Vectors& a, int i) { return a.x[i] * a.x[i] + a.y[
 
 inline void copy_out(const Vectors& from, std::span<Vec3> to) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = {from.x[i], from.y[i], from.z[i]};
+}
+
+inline void copy_out(const Compute& compute, const Vectors& from, std::span<Vec3> to) {
+    for_chunks(compute, from.slices(), [&](Slices range) {
+        const std::size_t last = std::min(static_cast<std::size_t>(range.last) * slice_lanes, to.size());
+        for (std::size_t i = static_cast<std::size_t>(range.first) * slice_lanes; i < last; ++i) {
+            to[i] = {from.x[i], from.y[i], from.z[i]};
+        }
+    });
 }
 
 inline void copy_in(std::span<const Vec3> from, Vectors& to) {

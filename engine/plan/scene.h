@@ -17,6 +17,7 @@ struct ObstacleState {
     std::string name;
     Pose start, end;  // of the coming step
     int triangles = 0;
+    double restitution = 0.0;
     bool settled = true;  // the detector knows that it stays at `start`
 };
 

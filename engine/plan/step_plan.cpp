@@ -43,14 +43,18 @@ void add_solver(const StepPlan& plan, std::string_view scheme, std::vector<Skip>
     if (!plan.solve) skipped.push_back({"the whole solve", "no vertex is free to move"});
 }
 
-void add_measures(const StepPlan& plan, std::vector<Skip>& skipped) {
+std::string why_unmeasured(const StepSettings& settings) {
+    return settings.measure == StepMeasures::none ? "step.measure is none" : "nothing reads them after each step";
+}
+
+void add_measures(const StepPlan& plan, const StepSettings& settings, std::vector<Skip>& skipped) {
     if (!plan.measures) {
-        skipped.push_back({"energy, strain and speed of each step", "step.measure is none"});
+        skipped.push_back({"energy, strain and speed of each step", why_unmeasured(settings)});
     } else if (!plan.gravity_energy) {
         skipped.push_back({"energy of gravity", "gravity is zero"});
     }
     if (!plan.ledger) {
-        skipped.push_back({"ledger of energy", std::string("step.measure is ") + (plan.measures ? "all" : "none")});
+        skipped.push_back({"ledger of energy", plan.measures ? "step.measure is all" : why_unmeasured(settings)});
     }
     if (plan.rest) skipped.push_back({"steps while all cloth is at rest", "nothing moves until something is changed"});
 }
@@ -74,7 +78,7 @@ StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts) {
     plan.still_obstacles = everything;
     plan.gravity_energy = settings.gravity != Vec3::Zero() || facts.changes.gravity || everything;
     plan.keep_work_space = !everything;
-    plan.measures = settings.measure != StepMeasures::none || everything;
+    plan.measures = settings.measure == StepMeasures::all || settings.measure == StepMeasures::ledger || everything;
     plan.ledger = settings.measure == StepMeasures::ledger || everything;
     plan.rest = plan.implicit && !everything;
     plan.free_vertices = facts.pinned_vertices < facts.cloth_vertices;
@@ -99,7 +103,7 @@ std::vector<Skip> skipped_by(const StepPlan& plan, const StepSettings& settings,
         skipped.push_back({"start lengths of springs in each step", "spring_damping is 0 N s/m"});
     }
     add_solver(plan, facts_of(plan.scheme).word, skipped);
-    add_measures(plan, skipped);
+    add_measures(plan, settings, skipped);
     return skipped;
 }
 

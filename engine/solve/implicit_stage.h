@@ -47,7 +47,7 @@ struct StagePoint {
     Forces forces;          // contact included
     ContactRows rows;       // empty without contact
     ContactTerms contact;
-    std::vector<RowForce> row_forces;  // with contact_response projection
+    std::vector<RowForce> row_forces;  // one a row
     Vectors residual;                  // r = M (v - v*) - h f, kg m/s; 0 at prescribed vertices
     double objective = 0.0;            // J: 1/2 |v - v*|_M^2 + potential; r is its gradient by v
 };

@@ -71,7 +71,7 @@ LineResult search_line(StageEquations& equations, const TimeError& error) {
     const bool was_arrived = equations.arrived();
     LineResult result;
     equations.aim(1.0);
-    result.small = change_is_small(error, change_to(equations, space.trial.velocities), share_of_time_error);
+    result.small = change_is_small(error, change_to(equations, space.trial.velocities), allowed_share(stage.scene.settings));
     LineTrial line = line_from(equations, result.small);
     double fraction = 1.0, kept = 1.0;
     bool accepted = false;

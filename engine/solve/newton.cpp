@@ -50,7 +50,8 @@ bool next_change_is_small(const StageEquations& equations, const TimeError& erro
     const bool by_residual = equations.stage().scene.settings.newton_tolerance.has_value();
     if (report.newton_iterations == 0 || by_residual || !equations.arrived() || search.matrix_is_old) return false;
     if (!estimate_direction(equations)) return false;
-    return change_is_small(error, change_to(equations, equations.space().current.velocities), estimated_share_of_time_error);
+    return change_is_small(error, change_to(equations, equations.space().current.velocities),
+                           estimate_safety * allowed_share(equations.stage().scene.settings));
 }
 
 bool meets_tolerance(const StageEquations& equations, const NewtonReport& report) {
@@ -105,7 +106,8 @@ double enough_contact(const ImplicitStage& stage, const TimeError& error, const 
     const double square = squared_error(error, 0, model.vertex_count(), velocities);
     const double time_error = 0.5 * stage.base.h * std::sqrt(square / total_mass(stage.scene));
     const double thickness = *std::min_element(model.thickness.begin(), model.thickness.end());
-    return std::clamp(share_of_time_error * time_error, contact_accuracy * thickness, contact_round_share * thickness);
+    return std::clamp(allowed_share(stage.scene.settings) * time_error, contact_accuracy * thickness,
+                      contact_round_share * thickness);
 }
 
 bool correct_contact(StageEquations& equations, const TimeError& error) {
@@ -136,6 +138,7 @@ void leave(const StageEquations& equations, StageEnd end) {
         set_grips(point.contact.touches, end.cloth.grips);
     } else {
         end.cloth.grips = stage.start.grips;
+        end.cloth.impacts = stage.start.impacts;
     }
     end.cloth.points.resize(stage.start.points.size());
     update_points(end.cloth);

@@ -33,6 +33,10 @@ double squared_error(const TimeError& error, int first, int count, const Vectors
     return std::min(change, error.foreseen_share * error.foreseen_share * unforeseen);
 }
 
+double allowed_share(const StepSettings& settings) {
+    return settings.adaptive ? std::min(settings.newton_share, most_adaptive_share) : settings.newton_share;
+}
+
 TimeError time_error_of(const ImplicitStage& stage) {
     const Vectors& foreseen = stage.base.foreseen;
     const StepSettings& settings = stage.scene.settings;

@@ -18,6 +18,10 @@ struct TimeError {
     double allowance = std::numeric_limits<double>::infinity();  // m, that adaptive steps give the stage
 };
 
+/// How large a change may be beside the time error: StepSettings::newton_share, in adaptive steps a quarter at most, as they are
+/// as long as the time error alone allows.
+double allowed_share(const StepSettings& settings);
+
 /// Of a stage.
 TimeError time_error_of(const ImplicitStage& stage);
 

@@ -76,17 +76,18 @@ void StageEquations::predict() {
 
 void StageEquations::aim(double factor) {
     StagePoint& trial = space_.trial;
-    trial.velocities = space_.current.velocities;
-    add_scaled(trial.velocities, factor, space_.direction);
+    set_each(stage_.scene.compute, space_.current.velocities, space_.direction, trial.velocities,
+             [factor](double v, double dv) { return v + factor * dv; });
     place(trial);
     const double reached = space_.current.fraction;
     trial.fraction = factor == 1.0 ? stage_.span.to : reached + factor * (stage_.span.to - reached);
 }
 
 void StageEquations::place(StagePoint& point) const {
-    point.positions = stage_.base.positions;
-    add_scaled(point.positions, stage_.base.h, point.velocities);
-    if (stage_.scene.plan.contacts) copy_out(point.positions, point.points);
+    const Compute& compute = stage_.scene.compute;
+    const double h = stage_.base.h;
+    set_each(compute, stage_.base.positions, point.velocities, point.positions, [h](double q, double v) { return q + h * v; });
+    if (stage_.scene.plan.contacts) copy_out(compute, point.positions, point.points);
 }
 
 double StageEquations::cut() {
@@ -181,13 +182,16 @@ void StageEquations::set_residual(StagePoint& point) const {
     const double *free = scene.script.free.data(), *mass = scene.model.mass.data();
     const int count = scene.model.vertex_count();
     const double dt = stage_.base.h;
-    const auto set_axis = [=](const double* f, const double* v, const double* v_start, double* r) {
-        for (int i = 0; i < count; ++i) r[i] = free[i] * (mass[i] * (v[i] - v_start[i]) - dt * f[i]);
+    const auto set_axis = [=](const double* f, const double* v, const double* v_start, double* r, int first, int last) {
+        for (int i = first; i < last; ++i) r[i] = free[i] * (mass[i] * (v[i] - v_start[i]) - dt * f[i]);
     };
-    set_axis(force.x.data(), velocity.x.data(), start.x.data(), point.residual.x.data());
-    set_axis(force.y.data(), velocity.y.data(), start.y.data(), point.residual.y.data());
-    set_axis(force.z.data(), velocity.z.data(), start.z.data(), point.residual.z.data());
-    const double distance = sum_terms(0, count, [&](int i) { return free[i] * mass[i] * square_between(velocity, start, i); });
+    const double distance = sum_chunks(scene.compute, velocity.slices(), [&](Slices range) {
+        const int first = range.first * slice_lanes, last = std::min(range.last * slice_lanes, count);
+        set_axis(force.x.data(), velocity.x.data(), start.x.data(), point.residual.x.data(), first, last);
+        set_axis(force.y.data(), velocity.y.data(), start.y.data(), point.residual.y.data(), first, last);
+        set_axis(force.z.data(), velocity.z.data(), start.z.data(), point.residual.z.data(), first, last);
+        return sum_terms(first, last - first, [&](int i) { return free[i] * mass[i] * square_between(velocity, start, i); });
+    });
     point.objective = 0.5 * distance + point.forces.potential;
 }
 

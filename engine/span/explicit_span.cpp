@@ -20,6 +20,7 @@ void make_step(const Span& span, const StepState& start, Workspace& work, StepSt
     end.cloth.velocities = start.cloth.velocities;
     end.cloth.points.resize(start.cloth.points.size());
     end.cloth.grips = start.cloth.grips;
+    end.cloth.impacts = start.cloth.impacts;
     const ExplicitStep step{.scene = scene,
                             .targets = work.targets,
                             .dt = span.length(),

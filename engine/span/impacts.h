@@ -8,12 +8,40 @@ namespace percale {
 /// A stage that was just solved.
 struct StageMove {
     const StagePoint& contacts;  // at its end
-    const Vectors& start;        // m, where it began
-    double length;               // s
+    const ClothState& start;     // where it began
+    double length = 0.0;         // s
+    double impulse_time = 0.0;   // s: what contact gave is its force times this
+    /// In the stages of TR-BDF2 contact gives twice what stops cloth: there a point that is pressed leaves no faster than it went
+    /// in the mean of the stage, be it in an impact or not.
+    bool keeps_to_mean = false;
+    /// m/s, where the scheme goes on with the change of the stage before, contact's included: what it starts from.
+    const Vectors* extrapolated = nullptr;
 };
 
-/// What contact gives a cloth in a stage of the trapezoid is twice what stops it there. A point that is pressed leaves no faster
-/// than it went in the mean of the stage, and not at all if it came nearer. Changes the velocities of `end`; `order` is memory.
-void settle_impacts(const StepScene& scene, const StageMove& move, ClothState& end, std::vector<std::size_t>& order);
+/// A vertex whose velocity has jumped.
+struct ThrownVertex {
+    int vertex = -1;
+    Vec3 direction = Vec3::Zero();  // unit
+};
+
+/// Memory that settling uses again and again.
+struct ImpactSpace {
+    std::vector<std::size_t> order;  // of rows
+    std::vector<Impact> found;
+    std::vector<ThrownVertex> thrown;  // by the last settling
+};
+
+/// What settling did to energy, J.
+struct ImpactFlows {
+    double work = 0.0;  // of obstacles on the cloth
+    double loss = 0.0;  // what the cloth lost beyond that
+};
+
+/// Restitution (Newton's law of impact). Contact stops what comes; it does not make it leave, however stiff it is and however
+/// long the step. What came at a speed u, faster than gravity makes it in the stage (and 2 h a second), is in an impact. Once it
+/// has been stopped it leaves an obstacle with restitution e at e u, and beside that, until u has faded, it loses of the speed at
+/// which it leaves what contact gave it. Row by row, the nearest first. Contacts that last are left alone. Changes velocities and
+/// impacts of `end`.
+ImpactFlows settle_impacts(const StepScene& scene, const StageMove& move, ClothState& end, ImpactSpace& space);
 
 }  // namespace percale

@@ -37,6 +37,7 @@ public:
         if (!usable()) return result_;
         set_rest_length(span_, start_, work_.rest_length, end_.cloth);
         account_implicit(span_, {start_, end_, middle_, obstacle_work_}, work_, result_.flows);
+        if (scene_.plan.scheme == Scheme::backward_euler) settle_end();
         return result_;
     }
 
@@ -136,6 +137,26 @@ private:
         add_scaled(end_.past.unbalanced, 1.0 / work_.base.h, work_.newton.current.residual);
     }
 
+    /// Of backward Euler in contact: the momentum that the last solve left unbalanced in each cloth that nothing holds comes back
+    /// with the other sign, so that what solvers leave does not add up from step to step.
+    void return_unbalanced() {
+        const Vectors& unbalanced = start_.past.unbalanced;
+        if (unbalanced.padded_size() == 0) return;
+        for (const ClothRange& cloth : scene_.model.cloths) {
+            const int last = cloth.first + cloth.count;
+            Vec3 force = Vec3::Zero();
+            double mass = 0.0;
+            bool held = false;
+            for (int i = cloth.first; i < last; ++i) {
+                force += unbalanced.at(i);
+                mass += scene_.model.mass[i];
+                held = held || !scene_.is_free(i);
+            }
+            if (held) continue;
+            for (int i = cloth.first; i < last; ++i) work_.base.velocities.add(i, -length() / mass * force);
+        }
+    }
+
     /// By the contacts of the stage just solved, over a length in s.
     double obstacle_work(double length) const {
         return scene_.plan.contacts ? length * work_.newton.current.contact.obstacle_power : 0.0;
@@ -144,7 +165,9 @@ private:
     void make_backward_euler() {
         aim_at(whole());
         set_euler_base(start_.cloth, length(), work_.base);
+        if (scene_.plan.contacts) return_unbalanced();
         result_.error = solve(whole(), end_.cloth);
+        if (scene_.plan.contacts && usable()) keep_unbalanced();
         obstacle_work_ = obstacle_work(work_.base.h);
     }
 
@@ -184,22 +207,56 @@ private:
         seam_place_ = trapezoid_share;
         solve_steadily({start_.cloth, {span_.fraction.from, between}, 2.0}, middle);
         if (!usable()) return;
-        settle(start_.cloth, first, middle);
-        obstacle_work_ = obstacle_work(length() - work_.base.h);
+        settle({work_.newton.current, start_.cloth, first, first, true}, middle);
+        obstacle_work_ += obstacle_work(length() - work_.base.h);
         set_end_acceleration(middle, work_.acceleration);
         set_bdf2_base(middle, work_.acceleration, start_.cloth, length() - first, first, work_.base);
+        stop_at_jumps(middle);
         seam_place_ = 1.0;
         solve_steadily({middle, {between, span_.fraction.to}}, end_.cloth);
         if (!usable()) return;
         if (scene_.settings.adaptive) result_.error = companion_error();
-        settle(middle, length() - first, end_.cloth);
+        settle({work_.newton.current, middle, length() - first, work_.base.h, true, &work_.base.velocities}, end_.cloth);
         obstacle_work_ += obstacle_work(work_.base.h);
         keep_unbalanced();
+        // What a hard contact leaves unbalanced at a vertex in an impact is no force that the next step begins with.
+        for (const Impact& impact : end_.cloth.impacts) end_.past.unbalanced.set(impact.vertex, Vec3::Zero());
     }
 
-    void settle(const ClothState& start, double stage_length, ClothState& end) {
+    /// The account has what it does to energy in what contact took.
+    void settle(const StageMove& move, ClothState& end) {
+        if (scene_.plan.contacts) obstacle_work_ += settle_impacts(scene_, move, end, work_.impacts).work;
+    }
+
+    /// A velocity that has jumped is not extrapolated from what it was before.
+    void stop_at_jumps(const ClothState& from) {
         if (!scene_.plan.contacts) return;
-        settle_impacts(scene_, {work_.newton.current, start.positions, stage_length}, end, work_.row_order);
+        for (const auto& [vertex, direction] : work_.impacts.thrown) {
+            const Vec3 beyond = work_.base.velocities.at(vertex) - from.velocities.at(vertex);
+            work_.base.velocities.add(vertex, -direction.dot(beyond) * direction);
+        }
+    }
+
+    /// Of backward Euler, behind its account: velocities are those that positions had until then.
+    void settle_end() {
+        if (!scene_.plan.contacts) return;
+        const ImpactFlows flows =
+            settle_impacts(scene_, {work_.newton.current, start_.cloth, length(), length()}, end_.cloth, work_.impacts);
+        result_.flows.work += flows.work;
+        if (scene_.plan.ledger) result_.flows.dissipated_contact += flows.loss;
+        forget_unbalanced_impacts();
+    }
+
+    /// Of cloth in an impact: what a hard contact leaves unbalanced is no momentum that it lacks.
+    void forget_unbalanced_impacts() {
+        const std::vector<Impact>& impacts = end_.cloth.impacts;
+        for (const ClothRange& cloth : scene_.model.cloths) {
+            const int last = cloth.first + cloth.count;
+            const auto first = std::lower_bound(impacts.begin(), impacts.end(), cloth.first,
+                                                [](const Impact& impact, int vertex) { return impact.vertex < vertex; });
+            if (first == impacts.end() || first->vertex >= last) continue;
+            for (int i = cloth.first; i < last; ++i) end_.past.unbalanced.set(i, Vec3::Zero());
+        }
     }
 
     /// Against the companion of third order with the weights (1 - w)/3, w + 1/3, g/6 instead of w, w, g/2, w = sqrt 2/4.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "forces/elastic.h"
+#include "impacts.h"
 #include "plan/scene.h"
 #include "solve/explicit_update.h"
 #include "solve/newton.h"
@@ -41,11 +42,11 @@ struct Workspace {
     Vectors targets;                  // m, of prescribed vertices at the end of the coming stage
     std::vector<ObstacleFlow> flows;  // of each obstacle
     StepWind wind;
-    ClothState middle;                   // between the stages of TR-BDF2
-    StepState half;                      // between the halves of an adaptive explicit step
-    Vectors acceleration;                // m/s^2, where a stage begins
-    std::vector<double> rest_length;     // m, of springs at the time of a stage
-    std::vector<std::size_t> row_order;  // of contact rows
+    ClothState middle;                // between the stages of TR-BDF2
+    StepState half;                   // between the halves of an adaptive explicit step
+    Vectors acceleration;             // m/s^2, where a stage begins
+    std::vector<double> rest_length;  // m, of springs at the time of a stage
+    ImpactSpace impacts;
     Vectors scratch;
     ClothState ledger_stage;  // in which the ledger takes forces
     Vectors impulse;          // N s, that forces taken so far give

@@ -14,7 +14,7 @@
 
 namespace percale {
 
-constexpr SealKind state_seal{.name = "PERCALES", .version = 3, .words = "saved state"};
+constexpr SealKind state_seal{.name = "PERCALES", .version = 4, .words = "saved state"};
 
 /// What an obstacle's name is not needed for.
 struct SavedObstacle {
@@ -57,9 +57,14 @@ void exchange(Archive& archive, Value& grip) {
     archive(grip.vertex, grip.obstacle, grip.stretch);
 }
 
+template <class Archive, OfType<Impact> Value>
+void exchange(Archive& archive, Value& impact) {
+    archive(impact.vertex, impact.obstacle, impact.speed, impact.stopped);
+}
+
 template <class Archive, OfType<ClothState> Value>
 void exchange(Archive& archive, Value& state) {
-    archive(state.positions, state.velocities, state.grips, state.rest_length);
+    archive(state.positions, state.velocities, state.grips, state.impacts, state.rest_length);
 }
 
 template <class Archive, OfType<SavedObstacle> Value>
@@ -159,7 +164,8 @@ std::uint64_t cloth_hash(const ClothModel& model) {
 std::uint64_t obstacles_hash(const World& world) {
     StateWriter writer;
     writer(world.scene.detector != nullptr);
-    for (const ObstacleState& obstacle : world.scene.script.obstacles) writer(obstacle.triangles, obstacle.start.scale);
+    for (const ObstacleState& obstacle : world.scene.script.obstacles)
+        writer(obstacle.triangles, obstacle.start.scale, obstacle.restitution);
     return checksum(writer.take());
 }
 
@@ -241,6 +247,11 @@ private:
         for (const Grip& grip : saved_.state.cloth.grips) {
             const bool known = there(grip.vertex, world_.scene.model.mass.size()) && there(grip.obstacle, obstacles);
             reader_.demand(known && grip.stretch.allFinite(), "a grip on nothing");
+        }
+        for (const Impact& impact : saved_.state.cloth.impacts) {
+            const bool known = there(impact.vertex, world_.scene.model.mass.size()) &&
+                               (impact.obstacle == -1 || there(impact.obstacle, obstacles));
+            reader_.demand(known && std::isfinite(impact.speed), "an impact on nothing");
         }
         for (const StartMove& move : saved_.start_moves) {
             reader_.demand(there(move.cloth, world_.scene.model.cloths.size()) && there(move.obstacle, obstacles),

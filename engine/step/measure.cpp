@@ -25,10 +25,6 @@ std::uint64_t hash_of(const ContactRows& rows) {
     return hash.value();
 }
 
-double largest_speed(const Vectors& velocities, int count) {
-    return std::sqrt(largest_term(0, count, [&](int i) { return square_at(velocities, i); }));
-}
-
 void leave_out_ledger(StepEnergy& energy) {
     for (const auto entry : ledger_entries) energy.*entry = unknown;
 }
@@ -63,6 +59,10 @@ StepEnergy energy_of(const StepScene& scene, const StepState& state) {
     }
     energy.contact = state.contact_energy;
     return energy;
+}
+
+double largest_speed(const Vectors& velocities, int count) {
+    return std::sqrt(largest_term(0, count, [&](int i) { return square_at(velocities, i); }));
 }
 
 bool all_finite(const ClothState& cloth) {

@@ -7,6 +7,9 @@ namespace percale {
 /// Energies of a state, J; contact as the last span left it.
 StepEnergy energy_of(const StepScene& scene, const StepState& state);
 
+/// Of a vertex, m/s.
+double largest_speed(const Vectors& velocities, int count);
+
 /// No position or velocity is infinite or NaN.
 bool all_finite(const ClothState& cloth);
 

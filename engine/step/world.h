@@ -18,7 +18,8 @@ struct UserViews {
 
 /// Everything one simulation holds. Only what owns it knows it as a whole: the simulation, the step at its top, and saving.
 struct World {
-    std::unique_ptr<ThreadPool> pool;  // with more than one thread
+    std::shared_ptr<Workers> workers;  // null: the caller's thread alone
+    bool own_workers = true;           // made by StepSettings::threads, not given
     StepScene scene;
     StepState state;
     RestState rest;
@@ -27,6 +28,15 @@ struct World {
     bool plan_outdated = true;  // the scene has changed since the plan was made
     bool changed = true;        // cloth or obstacles were added since the last preparation
 };
+
+/// Some cloth has self_contact.
+bool meets_cloth(const StepScene& scene);
+
+/// Throws SceneError where the scheme takes no contact and the scene has some, or takes none by projection.
+void check_scheme(const StepScene& scene);
+
+/// As many threads as the settings say, or as pay for the cloth that there is; the workers that were given, if any.
+void set_workers(World& world);
 
 /// The scene has changed: the plan is made anew by the next step, and cloth at rest wakes up.
 void scene_changed(World& world);

@@ -1,8 +1,12 @@
 #include "thread_pool.h"
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <string>
 #include <thread>
 
+#include "percale/error.h"
 #include "stage_timer.h"
 #include "tolerances.h"
 
@@ -15,64 +19,99 @@ void relax() {
 #endif
 }
 
-/// Waits until `value` is no longer `old`; returns what it is then.
-int wait_for_change(const std::atomic<int>& value, int old, bool spin) {
-    for (int k = 0; spin && k < most_spins; ++k) {
-        const int now = value.load(std::memory_order_acquire);
-        if (now != old) return now;
-        relax();
-    }
-    value.wait(old, std::memory_order_acquire);
-    return value.load(std::memory_order_acquire);
-}
-
 }  // namespace
 
+/// A run is open while parts are left. A worker enters, looks whether a run is open and takes parts; the caller closes the run
+/// when no part is left and waits until nobody is inside. Both write first and read then, in one order for all (the default of
+/// atomics), so that one of them sees the other: no worker touches the data of a run that has returned.
 struct ThreadPool::Shared {
-    std::vector<std::thread> workers;
-    std::vector<double> cpu_seconds;  // of each worker
-    std::atomic<int> round = 0;       // a new one begins a run
-    std::atomic<int> busy = 0;        // workers that have not finished it
-    bool stopping = false;
-    bool spin = true;
-    Task task = nullptr;
-    void* data = nullptr;
-    int parts = 0;
+    /// Parts of one thread that nobody has begun yet, on a cache line of its own.
+    struct alignas(64) Stretch {
+        std::atomic<int> next = 0;
+        int end = 0;
+    };
 
-    int threads() const { return static_cast<int>(cpu_seconds.size()) + 1; }
+    std::vector<std::thread> workers;
+    std::vector<Stretch> stretches;  // one a thread
+    std::vector<std::atomic<double>> cpu_seconds;
+    std::atomic<bool> in_use = false;  // by a caller
+    std::atomic<bool> open = false;
+    std::atomic<int> inside = 0;    // workers
+    std::atomic<int> round = 0;     // a new one wakes workers
+    std::atomic<int> sleeping = 0;  // of them, about to wait for it
+    std::atomic<bool> stopping = false;
+    bool spin = true;
+    void (*work)(void* data, int part, int slot) = nullptr;
+    void* data = nullptr;
+
+    explicit Shared(int threads) : stretches(threads), cpu_seconds(threads) {}
+
+    int threads() const { return static_cast<int>(stretches.size()); }
 
     /// Also where not all threads could be started.
     ~Shared() {
         stopping = true;
-        round.fetch_add(1, std::memory_order_release);
+        ++round;
         round.notify_all();
         for (std::thread& worker : workers) worker.join();
     }
 
-    void do_share(int thread) {
-        const long all = parts;
-        for (long part = all * thread / threads(); part < all * (thread + 1) / threads(); ++part) {
-            task(data, static_cast<int>(part), thread);
+    /// Its own stretch first, then what is left of the others.
+    void take_parts(int thread) {
+        for (int k = 0; k < threads(); ++k) {
+            Stretch& stretch = stretches[(thread + k) % threads()];
+            if (stretch.next.load(std::memory_order_relaxed) >= stretch.end) continue;
+            for (int part = stretch.next++; part < stretch.end; part = stretch.next++) work(data, part, thread);
         }
     }
 
-    void work(int thread) {
-        for (int seen = 0;;) {
-            seen = wait_for_change(round, seen, spin);
-            if (stopping) return;
-            do_share(thread);
-            cpu_seconds[thread - 1] = thread_cpu_seconds();
-            if (busy.fetch_sub(1, std::memory_order_acq_rel) == 1) busy.notify_one();
+    /// Waits for a round other than `seen`; returns it.
+    int wait_for_round(int seen) {
+        const auto start = std::chrono::steady_clock::now();
+        while (spin && std::chrono::steady_clock::now() - start < longest_spin) {
+            for (int k = 0; k < spins_between_looks; ++k) {
+                if (const int now = round.load(std::memory_order_acquire); now != seen) return now;
+                relax();
+            }
         }
+        ++sleeping;
+        round.wait(seen);
+        --sleeping;
+        return round;
+    }
+
+    void serve(int thread) {
+        for (int seen = 0;;) {
+            seen = wait_for_round(seen);
+            if (stopping) return;
+            ++inside;
+            if (open) {
+                take_parts(thread);
+                cpu_seconds[thread].store(thread_cpu_seconds(), std::memory_order_relaxed);
+            }
+            --inside;
+        }
+    }
+
+    void share_out(int parts) {
+        for (int t = 0; t < threads(); ++t) {
+            stretches[t].next.store(static_cast<int>(static_cast<long>(parts) * t / threads()), std::memory_order_relaxed);
+            stretches[t].end = static_cast<int>(static_cast<long>(parts) * (t + 1) / threads());
+        }
+        open = true;
+        ++round;
+        if (sleeping > 0) round.notify_all();
+        take_parts(0);
+        open = false;
+        while (inside > 0) relax();
     }
 };
 
-ThreadPool::ThreadPool(int threads) : shared_(std::make_unique<Shared>()) {
+ThreadPool::ThreadPool(int threads) : shared_(std::make_unique<Shared>(threads)) {
     // With fewer cores than threads a spinning thread would take the core from one that works.
     shared_->spin = threads <= static_cast<int>(std::thread::hardware_concurrency());
-    shared_->cpu_seconds.assign(threads - 1, 0.0);
     shared_->workers.reserve(threads - 1);
-    for (int t = 1; t < threads; ++t) shared_->workers.emplace_back([shared = shared_.get(), t] { shared->work(t); });
+    for (int t = 1; t < threads; ++t) shared_->workers.emplace_back([shared = shared_.get(), t] { shared->serve(t); });
 }
 
 ThreadPool::~ThreadPool() = default;
@@ -81,21 +120,29 @@ int ThreadPool::threads() const { return shared_->threads(); }
 
 double ThreadPool::other_cpu_seconds() const {
     double sum = 0.0;
-    for (const double seconds : shared_->cpu_seconds) sum += seconds;
+    for (const auto& seconds : shared_->cpu_seconds) sum += seconds.load(std::memory_order_relaxed);
     return sum;
 }
 
-void ThreadPool::run_parts(int parts, Task task, void* data) {
-    shared_->task = task;
-    shared_->data = data;
-    shared_->parts = parts;
-    shared_->busy.store(threads() - 1, std::memory_order_relaxed);
-    shared_->round.fetch_add(1, std::memory_order_release);
-    shared_->round.notify_all();
-    shared_->do_share(0);
-    for (int left = shared_->busy.load(std::memory_order_acquire); left > 0;) {
-        left = wait_for_change(shared_->busy, left, shared_->spin);
+void ThreadPool::run(int parts, void (*work)(void* data, int part, int slot), void* data) {
+    const bool alone = threads() == 1 || parts < 2 || shared_->in_use.exchange(true);
+    if (alone) {
+        for (int part = 0; part < parts; ++part) work(data, part, 0);
+        return;
     }
+    shared_->work = work;
+    shared_->data = data;
+    shared_->share_out(parts);
+    shared_->in_use = false;
+}
+
+std::shared_ptr<Workers> make_workers(int threads) {
+    if (threads < 0 || threads > most_threads) {
+        throw SceneError("make_workers: " + std::to_string(threads) + " threads are outside the allowed range 0 ... " +
+                         std::to_string(most_threads));
+    }
+    const int cores = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most_threads);
+    return std::make_shared<ThreadPool>(threads == 0 ? cores : threads);
 }
 
 }  // namespace percale

@@ -145,6 +145,7 @@ VariantRun run_variant(const SceneSource& source, const Variant& variant, const 
     Scene scene = source(overrides_of(variant));
     leave_only_steps(scene);
     scene.step.measure = StepMeasures::none;
+    if (scene.step.threads == 0) scene.step.threads = 1;  // what is compared is CPU time
     try {
         BuiltScene built = build_scene(scene);
         if (disturbance > 0.0) disturb(built, disturbance);

@@ -11,7 +11,7 @@ namespace percale::scenes {
 template <class Owner>
 KeyKind option_kind(const Option<Owner>& option) {
     if (option.number) return option.automatic ? KeyKind::number_or_auto : KeyKind::number;
-    if (option.integer) return KeyKind::integer;
+    if (option.integer) return option.zero_is_auto ? KeyKind::integer_or_auto : KeyKind::integer;
     if (option.flag) return KeyKind::flag;
     if (option.number_or_auto) return KeyKind::number_or_auto;
     if (option.optional_number) return KeyKind::number;
@@ -24,6 +24,7 @@ void read_option(const TomlNode& node, const Option<Owner>& option, Owner& owner
         if (node.is_number()) *option.number(owner) = node.number;
         if (option.automatic) *option.automatic(owner) = !node.is_number();
     } else if (option.integer) {
+        // A word is "auto" here, of which node.integer is 0.
         read_value(node, *option.integer(owner));
     } else if (option.flag) {
         read_value(node, *option.flag(owner));
@@ -44,6 +45,7 @@ std::optional<TomlNode> option_node(const Option<Owner>& option, Owner owner) {
     const std::string automatic = "auto";
     if (option.automatic && *option.automatic(owner)) return value_node(automatic);
     if (option.number) return value_node(*option.number(owner));
+    if (option.zero_is_auto && *option.integer(owner) == 0) return value_node(automatic);
     if (option.integer) return value_node(*option.integer(owner));
     if (option.flag) return value_node(*option.flag(owner));
     if (option.optional_number) return value_node(*option.optional_number(owner));

@@ -268,22 +268,27 @@ const FieldTable<ClothSpec>& cloth_table() {
 
 const FieldTable<ObstacleSpec>& obstacle_table() {
     static const FieldTable<ObstacleSpec> table = {
-        .fields = {name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
-                   mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."),
-                   unit_field<ObstacleSpec>(),
-                   table_field<ObstacleSpec>(
-                       {.path = "shape",
-                        .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",
-                        .alternative = true},
-                       &ObstacleSpec::shape, shape_table()),
-                   value_field<ObstacleSpec>(
-                       {.path = "friction", .sentence = "Coulomb coefficient against cloth.", .lowest = 0.0, .highest = 10.0},
-                       &ObstacleSpec::friction),
-                   pose_field<ObstacleSpec>(), motion_field(),
-                   table_field<ObstacleSpec>(
-                       {.path = "spin",
-                        .sentence = "A steady turn about an axis through the mesh's origin, on top of pose and motion."},
-                       &ObstacleSpec::spin, spin_table())},
+        .fields =
+            {name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
+             mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."), unit_field<ObstacleSpec>(),
+             table_field<ObstacleSpec>({.path = "shape",
+                                        .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",
+                                        .alternative = true},
+                                       &ObstacleSpec::shape, shape_table()),
+             value_field<ObstacleSpec>(
+                 {.path = "friction", .sentence = "Coulomb coefficient against cloth.", .lowest = 0.0, .highest = 10.0},
+                 &ObstacleSpec::friction),
+             value_field<ObstacleSpec>({.path = "restitution",
+                                        .sentence = "Share of its normal speed with which cloth that hits it leaves; slower "
+                                                    "than gravity makes it in a step, it stays.",
+                                        .lowest = 0.0,
+                                        .highest = 1.0},
+                                       &ObstacleSpec::restitution),
+             pose_field<ObstacleSpec>(), motion_field(),
+             table_field<ObstacleSpec>(
+                 {.path = "spin",
+                  .sentence = "A steady turn about an axis through the mesh's origin, on top of pose and motion."},
+                 &ObstacleSpec::spin, spin_table())},
         .rules = {.shown = obstacle_shown}};
     return table;
 }

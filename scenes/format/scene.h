@@ -64,6 +64,7 @@ struct ObstacleSpec {
     Shape shape;
     double unit = 1.0;
     double friction = 0.3;
+    double restitution = 0.0;
     Pose pose;
     std::vector<Keyframe> motion;  // ascending times
     std::optional<Spin> spin;
@@ -127,9 +128,9 @@ inline constexpr std::string_view word_of(Detector detector) { return detector_w
 struct Scene {
     std::string file;  // as given; "" for a scene made in memory
     std::string title;
-    double duration = 1.0;                               // s
-    StepSettings step{.measure = StepMeasures::ledger};  // gravity included; a run reports what became of energy
-    SourcePlace scheme_place;                            // of step.scheme; of the whole file where that is not said
+    double duration = 1.0;            // s
+    StepSettings step{.threads = 0};  // gravity included; as many threads as pay
+    SourcePlace scheme_place;         // of step.scheme; of the whole file where that is not said
     Detector detector = Detector::fcl;
     std::map<std::string, Fabric> fabrics;
     std::set<std::string> preset_moduli;  // names of fabrics whose stretch and shear stiffness are those of their preset

@@ -49,7 +49,7 @@ void check_word(const TomlNode& node, const SceneKey& key, const std::string& sh
 
 void check_number_or_auto(const TomlNode& node, const SceneKey& key, const std::string& shown) {
     if (node.kind == TomlKind::text && node.text == "auto") return;
-    check_number(node, key, shown);
+    check_number(node, key, shown, key.kind == KeyKind::integer_or_auto);
 }
 
 void check_box(const TomlNode& node, const SceneKey& key, const std::string& shown) {
@@ -167,6 +167,7 @@ void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot, Fa
         case KeyKind::integer:
             return check_number(node, key, spot.shown, true);
         case KeyKind::number_or_auto:
+        case KeyKind::integer_or_auto:
             return check_number_or_auto(node, key, spot.shown);
         case KeyKind::numbers:
         case KeyKind::integers:

@@ -42,10 +42,10 @@ std::string rounded_text(double value) {
     return text;
 }
 
-void run_into(Outcome& outcome, const CommonOptions& options, const StopSignals& signals) {
+void run_into(Outcome& outcome, const CheckOptions& check, const StopSignals& signals) {
+    const CommonOptions& options = check.common;
     Scene scene = load_scene(outcome.scene.file, scene_overrides(options));
-    // Nothing else of this command reads them.
-    if (!read_step_measures(scene.expectations)) scene.step.measure = StepMeasures::none;
+    if (check.jobs > 1 && scene.step.threads == 0) scene.step.threads = 1;  // the jobs use the cores
     BuiltScene built = build_scene(scene);
     for (const StartMove& move : built.simulation.start_repair()) outcome.start_moves.push_back(start_move_text(move));
     RunHooks hooks;
@@ -61,7 +61,7 @@ void run_into(Outcome& outcome, const CommonOptions& options, const StopSignals&
     if (result.status == RunStatus::stopped) outcome.exit_code = stopped_by_signal;
 }
 
-Outcome check_scene(const std::string& file, const CommonOptions& options, const StopSignals& signals) {
+Outcome check_scene(const std::string& file, const CheckOptions& options, const StopSignals& signals) {
     Outcome outcome;
     outcome.scene.file = file;
     try {
@@ -109,7 +109,7 @@ public:
 private:
     void work() {
         for (std::size_t i = take(); i < outcomes_.size(); i = take()) {
-            Outcome outcome = check_scene(options_.scenes[i], options_.common, signals_);
+            Outcome outcome = check_scene(options_.scenes[i], options_, signals_);
             const std::lock_guard lock(mutex_);
             outcomes_[i] = std::move(outcome);
             done_[i] = true;

@@ -48,7 +48,7 @@ struct Measures {
     double deepest_penetration = 0.0;                                    // m, largest over the frames
     double smallest_distance = std::numeric_limits<double>::infinity();  // m, over steps and frames; infinity: never near
     int worst_frame = -1;                                                // frame with the smallest distance; -1: never near
-    double largest_strain = 0.0;    // (l - l0)/l0 of structural springs, over the steps; NaN: not measured
+    double largest_strain = 0.0;    // (l - l0)/l0 of structural springs, over what was measured; NaN: nothing
     double speed_at_end = 0.0;      // m/s, largest of a vertex
     double rms_speed_at_end = 0.0;  // m/s, over all vertices
     double energy_gain = 0.0;       // J, largest rise in a step beyond its work; NaN: not measured

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "common/scene_file_error.h"
@@ -97,6 +98,12 @@ public:
 
     int next_frame() const { return frame_.index; }
 
+    /// Whether the present time has a frame that was not made yet.
+    bool frame_is_due() const {
+        const double slack = 1e-6 * built_.scene.step.time_step;  // accumulated rounding of the time
+        return static_cast<double>(frame_.index) / built_.scene.output.fps <= built_.simulation.time() + slack;
+    }
+
     /// The state after so many steps.
     void look(int steps) {
         seen_ = false;
@@ -115,9 +122,7 @@ private:
 
     /// Frames due by now; several where the frame rate is higher than the step rate.
     void make_due_frames() {
-        const double fps = built_.scene.output.fps;
-        const double slack = 1e-6 * built_.scene.step.time_step;  // accumulated rounding of the time
-        while (static_cast<double>(frame_.index) / fps <= built_.simulation.time() + slack) {
+        while (frame_is_due()) {
             see();
             add_frame(measures_, frame_.index, frame_.check);
             if (hooks_.frame) hooks_.frame(frame_);
@@ -152,19 +157,45 @@ void add_accepted(RunTotals& totals, const StepReport& report) {
     add_step_energy(report.energy, totals.energy);
 }
 
+bool is_measured_by_frames(const BuiltScene& built) { return built.scene.step.measure == StepMeasures::automatic; }
+
 bool changes_gravity(const Scene& scene) {
     return std::any_of(scene.events.begin(), scene.events.end(),
                        [](const EventSpec& event) { return std::holds_alternative<GravityEvent>(event.what); });
 }
 
+/// Energies that are stored now, J; what flows stays.
+void set_stored(const Simulation& simulation, StepEnergy& energy) {
+    const StepEnergy stored = simulation.energy();
+    energy.kinetic = stored.kinetic;
+    energy.gravity = stored.gravity;
+    energy.elastic = stored.elastic;
+    energy.contact = stored.contact;
+}
+
+/// What a step that measures nothing leaves out, and a frame shows.
+void measure_frame(const Simulation& simulation, StepReport& report) {
+    set_stored(simulation, report.energy);
+    report.largest_strain = simulation.largest_strain();
+    report.largest_speed = simulation.largest_speed();
+}
+
+/// What happens beside the steps.
+struct RunScript {
+    Timeline timeline;
+    Observer observer;
+};
+
 /// One step of the simulation: script, simulation, figures. False if it failed.
-bool make_step(BuiltScene& built, const RunHooks& hooks, Timeline& timeline, double dt, RunResult& result) {
+bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, double dt, RunResult& result) {
     RunTotals& totals = result.totals;
-    timeline.apply(built, built.simulation.time(), dt);
+    script.timeline.apply(built, built.simulation.time(), dt);
     // A gravity event changes the potential energy without any work, so the energy before the step is taken after it.
-    const double before = changes_gravity(built.scene) ? built.simulation.energy().total() : totals.energy.total();
-    const StepReport report = built.simulation.step();
+    const bool look = changes_gravity(built.scene) && !is_measured_by_frames(built);
+    const double before = look ? built.simulation.energy().total() : totals.energy.total();
+    StepReport report = built.simulation.step();
     totals.cpu_s += report.cpu_s;
+    if (is_measured_by_frames(built) && script.observer.frame_is_due()) measure_frame(built.simulation, report);
     add_cost(totals, report);
     if (hooks.step) hooks.step(report, built.simulation);
     if (!report.ok()) {
@@ -177,18 +208,12 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, Timeline& timeline, dou
     return true;
 }
 
-/// What happens beside the steps.
-struct RunScript {
-    Timeline timeline;
-    Observer observer;
-};
-
 /// One step of the scene, in parts where an obstacle moves far; looks at the state after each. False if it failed.
 bool make_parts(BuiltScene& built, const RunHooks& hooks, RunScript& script, double dt, RunResult& result) {
     const int parts = motion_parts(built, dt);
     built.simulation.set_time_step(dt / parts);
     for (int part = 0; part < parts; ++part) {
-        if (!make_step(built, hooks, script.timeline, dt / parts, result)) return false;
+        if (!make_step(built, hooks, script, dt / parts, result)) return false;
         script.observer.look(result.totals.steps);
     }
     return true;
@@ -345,8 +370,12 @@ RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings&
     Run run(built, hooks, settings, result);
     if (hooks.begin) hooks.begin();
     run.make_steps();
-    if (std::isnan(result.totals.energy.elastic))
+    if (is_measured_by_frames(built)) {
+        set_stored(built.simulation, result.totals.energy);
+        result.measures.energy_gain = std::numeric_limits<double>::quiet_NaN();
+    } else if (std::isnan(result.totals.energy.elastic)) {
         result.measures.largest_strain = result.measures.energy_gain = result.totals.energy.elastic;
+    }
     add_end(result.measures, built.simulation, built.cloths);
     if (reference) result.measures.matches = largest_vertex_distance(built.simulation, built.cloths, *reference);
     run.measure();

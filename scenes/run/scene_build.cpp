@@ -4,6 +4,7 @@
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
+#include "format/expectations.h"
 #include "meshes/mesh_import.h"
 #include "percale/detectors.h"
 #include "percale/error.h"
@@ -103,7 +104,7 @@ void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
 void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     TriangleMesh mesh = obstacle_mesh(built.scene, obstacle);
     check_mesh(mesh, told(obstacle), false);
-    const ObstacleSettings settings{.friction = obstacle.friction, .name = obstacle.name};
+    const ObstacleSettings settings{.friction = obstacle.friction, .restitution = obstacle.restitution, .name = obstacle.name};
     built.obstacles.push_back(built.simulation.add_obstacle(mesh, obstacle_pose_at(obstacle, 0.0), settings));
     built.obstacle_meshes.push_back(std::move(mesh));
 }
@@ -168,7 +169,10 @@ TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle) {
     return obstacle.mesh.empty() ? shape_mesh(obstacle.shape) : import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit);
 }
 
-BuiltScene build_scene(const Scene& scene) {
+BuiltScene build_scene(const Scene& given) {
+    Scene scene = given;
+    const bool open = scene.step.measure == StepMeasures::automatic;
+    if (open && read_step_measures(scene.expectations)) scene.step.measure = StepMeasures::all;
     std::unique_ptr<ContactDetector> detector = make_detector(scene);
     BuiltScene built{.scene = scene,
                      .simulation = Simulation(scene.step, std::move(detector)),

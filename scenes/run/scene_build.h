@@ -26,8 +26,8 @@ TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle);
 
 /// Reads meshes, selects pins, makes the detector and the simulation, and checks the start (Simulation::prepare), which may move
 /// cloth out of obstacles. Throws SceneError with the place of the cloth, obstacle, event or key in the scene file; where the
-/// start is the trouble, StartRefused (start_fault.h).
-BuiltScene build_scene(const Scene& scene);
+/// start is the trouble, StartRefused (start_fault.h). Where step.measure is automatic it becomes `all` if [expect] reads it.
+BuiltScene build_scene(const Scene& given);
 
 /// A path of the scene file as the program can open it: relative ones start at the scene file's folder.
 std::string path_beside(const Scene& scene, const std::string& path);

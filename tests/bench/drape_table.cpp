@@ -39,7 +39,7 @@ std::vector<std::string> all_responses() {
 
 percale::StepSettings settings_with(const std::string& response) {
     const auto words = response_option().choices;
-    percale::StepSettings settings;
+    percale::StepSettings settings{.measure = percale::StepMeasures::all};
     response_option().set_choice(settings, static_cast<int>(std::find(words.begin(), words.end(), response) - words.begin()));
     return settings;
 }

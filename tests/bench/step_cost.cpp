@@ -77,7 +77,7 @@ struct Wanted {
     std::vector<int> sizes{33, 65};
     std::vector<std::string> scenes{"S1", "S2", "S3"};
     double seconds = 2.0;
-    percale::StepSettings settings;
+    percale::StepSettings settings{.measure = percale::StepMeasures::all};
 
     bool has(const char* scene) const { return std::find(scenes.begin(), scenes.end(), scene) != scenes.end(); }
 };

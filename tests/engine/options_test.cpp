@@ -60,7 +60,8 @@ void check_ranges(std::span<const Option<Owner>> options) {
         CHECK(refusal(option, option.lowest) == "");
         CHECK(refusal(option, option.highest) == "");
         const double above = option.integer ? option.highest + 1 : std::nextafter(option.highest, 1e300);
-        const double below = option.integer ? option.lowest - 1 : std::nextafter(option.lowest, -1e300);
+        const double below =
+            option.integer ? (option.zero_is_auto ? -1 : option.lowest - 1) : std::nextafter(option.lowest, -1e300);
         for (const double bad : {above, below}) CHECK(mentions(refusal(option, bad), {"silk", std::string(option.key), "..."}));
         if (option.integer) continue;
         CHECK_FALSE(refusal(option, std::numeric_limits<double>::quiet_NaN()).empty());

@@ -109,7 +109,7 @@ TEST_CASE("Pinning twice, or a moving vertex, holds it where it is") {
 }
 
 TEST_CASE("A plane that moves up and sideways takes the cloth along and ends where it was sent") {
-    PlaneScene scene;
+    PlaneScene scene({.measure = StepMeasures::all});
     for (int n = 0; n < 60; ++n) REQUIRE(scene.simulation.step().ok());  // at rest on the plane
     double before = 0.0;
     for (const Vec3& x : scene.simulation.positions(scene.cloth)) before += x.x() / 16;
@@ -165,7 +165,7 @@ TEST_CASE("An obstacle that drives through held cloth fails and stays where it w
 }
 
 TEST_CASE("The report's figures are those of the state") {
-    PlaneScene scene;
+    PlaneScene scene({.measure = StepMeasures::all});
     StepReport report;
     for (int n = 0; n < 20; ++n) report = scene.simulation.step();
     const StepEnergy energy = scene.simulation.energy();
@@ -178,12 +178,14 @@ TEST_CASE("The report's figures are those of the state") {
     for (const Vec3& v : scene.simulation.velocities(scene.cloth)) fastest = std::max(fastest, v.norm());
     CHECK(report.smallest_distance == lowest);
     CHECK(report.largest_speed == Approx(fastest).epsilon(1e-14));
+    CHECK(report.largest_speed == scene.simulation.largest_speed());
+    CHECK(report.largest_strain == scene.simulation.largest_strain());
     CHECK(report.time == scene.simulation.time());
     CHECK(report.linear_iterations >= report.newton_iterations);
 }
 
 TEST_CASE("Without motion of pins or obstacles nobody works on the cloth") {
-    PlaneScene scene;
+    PlaneScene scene({.measure = StepMeasures::all});
     scene.simulation.pin(scene.cloth, 0);
     for (int n = 0; n < 20; ++n) CHECK(scene.simulation.step().energy.work == 0.0);
 }
@@ -256,7 +258,7 @@ TEST_CASE("The residual is that of the state a step ends in, not of the one it c
 
 TEST_CASE("Pins that carry a whole sheet do the work that its energy gains, in explicit schemes too") {
     for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4}) {
-        Simulation simulation({.time_step = 1e-3, .scheme = scheme});
+        Simulation simulation({.time_step = 1e-3, .scheme = scheme, .measure = StepMeasures::all});
         const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 3, 3), sheet_fabric());
         for (int i = 0; i < 9; ++i) simulation.pin(cloth, i);
         for (int n = 0; n < 3; ++n) {

@@ -62,8 +62,11 @@ double cantilever_drop(double gamma) {
 struct Strip {
     int segments;
     bool along_z = false;
-    Simulation simulation{
-        {.time_step = 1.0, .newton_tolerance = 1e-7, .newton_iterations = 200, .linear_solver = LinearSolver::direct}};
+    Simulation simulation{{.time_step = 1.0,
+                           .newton_tolerance = 1e-7,
+                           .newton_iterations = 200,
+                           .linear_solver = LinearSolver::direct,
+                           .measure = StepMeasures::all}};
     ClothId cloth = {};
     int columns = 0;
 

@@ -27,7 +27,7 @@ World chain(Scheme scheme, double zeta, double dt) {
     for (int i = 0; i <= links; ++i) positions.emplace_back(rest * i, 0.0, 0.0);
     for (int i = 0; i < links; ++i) springs.push_back({i, i + 1, rest, stiffness, damping});
     return linked_world(linked_masses(std::vector<double>(links + 1, mass), springs), positions, {0, links},
-                        {.time_step = dt, .scheme = scheme, .gravity = Vec3::Zero()});
+                        {.time_step = dt, .scheme = scheme, .measure = StepMeasures::all, .gravity = Vec3::Zero()});
 }
 
 /// Whether small velocities in all modes grow tenfold.

@@ -39,6 +39,7 @@ World scene_world(const Scene& scene, const Kernels& kernels) {
     std::vector<Vec3> places = scene.model.rest;
     for (Vec3& x : places) x.y() += scene.floor ? 0.05 : 0.0;
     World world = make_world(scene.model, places, scene.settings);
+    world.scene.settings.measure = StepMeasures::all;
     world.scene.compute.kernels = &kernels;
     for (const int pin : scene.pins) world.scene.script.free[pin] = 0.0;
     if (!scene.floor) return world;

@@ -40,7 +40,7 @@ double volume_of(const TriangleMesh& mesh, std::span<const Vec3> x) {
 
 /// The stretch at which a filled sphere comes to rest.
 double rest_stretch(const Fabric& fabric, int level, double start_stretch = 1.0) {
-    Simulation simulation({.time_step = 1.0 / 60.0, .gravity = Vec3::Zero()});
+    Simulation simulation({.time_step = 1.0 / 60.0, .measure = StepMeasures::all, .gravity = Vec3::Zero()});
     const TriangleMesh mesh = make_sphere(radius, level);
     const ClothId ball = simulation.add_cloth(mesh, fabric);
     std::vector<Vec3> start = mesh.vertices;

@@ -40,6 +40,8 @@ public:
                 return number_of(key, path);
             case KeyKind::integer:
                 return integer_of(key);
+            case KeyKind::integer_or_auto:
+                return below(3) == 0 ? "\"auto\"" : integer_of(key);
             case KeyKind::number_or_auto:
                 return below(3) == 0 ? "\"auto\"" : number_of(key, path);
             case KeyKind::numbers:

@@ -34,7 +34,7 @@ std::string drop_scene(const std::filesystem::path& file, double size) {
     const double top = scale * (extent.high.y() - centre.y());
     std::ostringstream text;
     text.precision(17);
-    text << "duration = 2.0\n[step]\ntime_step = 0.016666666666666666\n"
+    text << "duration = 2.0\n[step]\ntime_step = 0.016666666666666666\nmeasure = \"all\"\n"
          << "[fabric.sheet]\narea_density = 0.2\nthickness = 0.005\nspring_damping = 0.1\n"
          << "springs = { structural = 1000.0, shear = 500.0, bend = 10.0 }\n"
          << "[[cloth]]\nname = \"sheet\"\nfabric = \"sheet\"\ngrid = { size = [1.0, 1.0], vertices = [65, 65] }\n"

@@ -30,7 +30,7 @@ grid = {{ size = [0.5, 0.5], vertices = [17, 17] }}
 pin = [0, 16, 272, 288]
 [output]
 frames = "none"
-fps = 0.01
+fps = {fps}
 '''
 
 
@@ -64,9 +64,9 @@ class Runner:
     def __init__(self, program, folder):
         self.program, self.folder = program, folder
 
-    def scene(self, scheme='backward_euler', time_step=1 / 60, steps=10, bend=10.0):
+    def scene(self, scheme='backward_euler', time_step=1 / 60, steps=10, bend=10.0, fps=0.01):
         file = self.folder / 'scene.toml'
-        file.write_text(SHEET.format(duration=steps * time_step, scheme=scheme, time_step=time_step, bend=bend))
+        file.write_text(SHEET.format(duration=steps * time_step, scheme=scheme, time_step=time_step, bend=bend, fps=fps))
         return file
 
     def counted(self, *options, **scene):
@@ -85,9 +85,9 @@ class Runner:
         return json.loads(run.stdout)
 
 
-def added_cost(runner, steps, chosen, **scene):
+def added_cost(runner, steps, chosen, options=(), **scene):
     """Instructions a step that the second of two runs, longer by some steps, adds in the chosen functions."""
-    first, second = (sum(n for f, n in runner.counted(steps=count, **scene).items() if chosen(f)) for count in steps)
+    first, second = (sum(n for f, n in runner.counted(*options, steps=count, **scene).items() if chosen(f)) for count in steps)
     return (second - first) / (steps[1] - steps[0])
 
 
@@ -125,11 +125,27 @@ def prove_no_bending(runner):
 
 
 def prove_no_ledger(runner):
-    """Without step.measure = "ledger", which scenes have by default, nothing of the ledger runs."""
+    """Unless step.measure asks for it nothing of the ledger runs."""
     spent = [sum(n for f, n in runner.counted(*options).items() if 'spring_loss' in f or 'account_part' in f)
-             for options in (('--set', 'step.measure="all"'), ())]
+             for options in ((), ('--set', 'step.measure="ledger"'))]
     print(f'ledger of energy: {spent[0]} instructions, {spent[1]} where it is asked for')
     return spent[0] == 0 and spent[1] > 0
+
+
+SCHEMES = {'forward_euler': 1e-6, 'symplectic_euler': 2e-5, 'midpoint': 1e-6, 'rk4': 2e-5, 'backward_euler': 1 / 60,
+           'implicit_midpoint': 1 / 60, 'trapezoid': 1 / 60, 'bdf2': 1 / 60, 'tr_bdf2': 1 / 60}
+
+
+def prove_measuring(runner):
+    """What is measured by default, 30 frames a second, adds at most 2 % to a step without any measuring, in all schemes."""
+    good = True
+    for scheme, time_step in SCHEMES.items():
+        steps = (4, 24) if time_step > 1e-3 else (10, 10 + min(round(1 / 30 / time_step), 2000))
+        cost = [added_cost(runner, steps, lambda function: function.startswith('percale::'), options,
+                           scheme=scheme, time_step=time_step, fps=30) for options in ((), ('--set', 'step.measure="none"'))]
+        print(f'{scheme}: {cost[0]:.4g} instructions a step, {cost[1]:.4g} with measure = none: ratio {cost[0] / cost[1]:.4f}')
+        good = good and cost[0] <= 1.02 * cost[1]
+    return good
 
 
 def main(program, collision, others):
@@ -140,7 +156,8 @@ def main(program, collision, others):
     with tempfile.TemporaryDirectory() as folder:
         runner = Runner(program, Path(folder))
         proofs = {'no obstacles, no collision': prove_no_collision(runner, functions), 'sleep': prove_sleep(runner),
-                  'no bending': prove_no_bending(runner), 'no ledger': prove_no_ledger(runner)}
+                  'no bending': prove_no_bending(runner), 'no ledger': prove_no_ledger(runner),
+                  'measuring': prove_measuring(runner)}
     for name, good in proofs.items():
         print(f'{name}: {"proven" if good else "FAILED"}')
     return 0 if all(proofs.values()) else 1

@@ -52,7 +52,7 @@ double shadow(std::span<const Vec3> positions, int rings) {
 double drape_coefficient(Fabric fabric, int rings) {
     fabric.damping_time.reset();
     fabric.spring_damping = 0.05;
-    Simulation simulation(StepSettings{});
+    Simulation simulation(StepSettings{.measure = StepMeasures::all});
     const TriangleMesh mesh = disc(rings);
     const ClothId cloth = simulation.add_cloth(mesh, fabric, {});
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {

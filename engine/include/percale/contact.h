@@ -13,6 +13,7 @@ namespace percale {
 
 class StateWriter;
 class StateReader;
+class Workers;
 
 /// Contact rows, a structure of arrays. Row i says: the cloth point sum_k weight[i][k] x[vertex[i][k]] is
 /// `distance` away from `obstacle_point`, along the unit vector `direction` (from the obstacle towards the cloth):
@@ -36,6 +37,21 @@ struct ContactRows {
                                 // number of vertices on the first side: 1 vertex-face, 2 edge-edge
 
     std::size_t size() const { return vertex.size(); }
+    /// Adds the rows of another list behind these.
+    void append(const ContactRows& more) {
+        const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+        add(vertex, more.vertex);
+        add(weight, more.weight);
+        add(direction, more.direction);
+        add(obstacle_point, more.obstacle_point);
+        add(obstacle_displacement, more.obstacle_displacement);
+        add(distance, more.distance);
+        add(thickness, more.thickness);
+        add(friction, more.friction);
+        add(share, more.share);
+        add(obstacle, more.obstacle);
+        add(feature, more.feature);
+    }
     void clear() {
         vertex.clear();
         weight.clear();
@@ -140,6 +156,10 @@ public:
 
     /// Smallest distance of the last evaluation, m; infinity if nothing was near. Between cloths those of its rows count.
     virtual double smallest_distance() const = 0;
+
+    /// Threads that later calls may share their work among, null: none; they stay as long as the detector. What is found does not
+    /// depend on them.
+    virtual void set_workers(Workers* workers) { static_cast<void>(workers); }
 
     /// What later calls depend on besides cloth and obstacles: poses, lists, contacts that are kept. A detector with the same
     /// cloth and obstacles that reads it (saved_state.h) answers them with the same bits. Throws SceneError if it is not able to.

@@ -30,6 +30,7 @@ struct Option {
     double* (*number)(Owner&) = nullptr;
     bool* (*automatic)(Owner&) = nullptr;  // beside `number`: the word "auto" sets it and leaves the number as it is
     int* (*integer)(Owner&) = nullptr;
+    bool zero_is_auto = false;  // beside `integer`: the word "auto" stands for 0, which is allowed beside the range
     bool* (*flag)(Owner&) = nullptr;
     std::optional<double>* (*number_or_auto)(Owner&) = nullptr;                // the word "auto" stands for empty
     std::optional<double>* (*optional_number)(Owner&) = nullptr;               // may be left out

@@ -11,3 +11,4 @@
 #include "percale/report.h"
 #include "percale/settings.h"
 #include "percale/simulation.h"
+#include "percale/workers.h"

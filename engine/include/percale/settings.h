@@ -23,7 +23,7 @@ enum class Scheme {
 enum class LinearSolver { automatic, cg, multigrid, direct };
 enum class ContactResponse { penalty, projection };
 enum class DampingForm { length_rate, velocity };
-enum class StepMeasures { all, none, ledger };
+enum class StepMeasures { automatic, all, none, ledger };
 enum class StartRule { repair, refuse };
 
 /// How the simulation steps. Ranges and sentences of every field: options.h.
@@ -33,18 +33,20 @@ struct StepSettings {
     bool adaptive = false;
     double tolerance = 1e-3;  // m of position error for each second of simulation; used if adaptive
     Scheme scheme = Scheme::backward_euler;
-    /// Residual relative to the first of the step; empty = solver error below a quarter of the step's time error.
+    /// Residual relative to the first of the step; empty = solver error below newton_share of the step's time error.
     std::optional<double> newton_tolerance = {};
+    double newton_share = 1.0;   // 0.001 ... 100
     int newton_iterations = 50;  // at most; 1 = linearly implicit
     LinearSolver linear_solver = LinearSolver::automatic;
     ContactResponse contact_response = ContactResponse::penalty;
     /// length_rate: kd (l - l_n)/dt along the current direction, backward Euler only; velocity: kd (v_ij . d), as all others
     /// have it.
     DampingForm damping_form = DampingForm::length_rate;
-    int threads = 1;  // of one simulation; same bits for any number
-    /// none: a step report has no energy, strain and speed (NaN); Simulation::energy still tells on demand. ledger: it also says
-    /// what became of energy (StepEnergy).
-    StepMeasures measure = StepMeasures::all;
+    int threads = 1;  // of one simulation, 1 ... 64; 0: as many as pay. Same bits for any number
+    /// What a step report has besides contacts. all: energy, strain and speed; ledger: it also says what became of energy
+    /// (StepEnergy). none, automatic: neither (NaN); Simulation::energy, largest_strain and largest_speed tell on demand, and a
+    /// scene file's run asks for what its outputs need.
+    StepMeasures measure = StepMeasures::automatic;
     /// repair: cloth that starts through, inside or touching an obstacle is moved out before the first step, as
     /// Simulation::start_repair tells; refuse: such a start is an error.
     StartRule start = StartRule::repair;

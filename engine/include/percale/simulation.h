@@ -14,6 +14,7 @@
 #include "percale/plan.h"
 #include "percale/report.h"
 #include "percale/settings.h"
+#include "percale/workers.h"
 
 namespace percale {
 
@@ -26,6 +27,7 @@ struct ObstacleId {
 
 struct ObstacleSettings {
     double friction = 0.3;          // Coulomb coefficient against cloth, 0 ... 10
+    double restitution = 0.0;       // share of its normal speed with which cloth that hits it leaves, 0 ... 1
     std::string name = "obstacle";  // for messages
 };
 
@@ -39,8 +41,10 @@ struct SeamSettings {
 /// throws for numerical trouble but returns a status. One thread at a time per simulation; simulations are independent.
 class Simulation {
 public:
-    /// Without a detector, obstacles are refused. Throws SceneError for settings out of range.
-    explicit Simulation(const StepSettings& settings, std::unique_ptr<ContactDetector> detector = nullptr);
+    /// Without a detector, obstacles are refused. `workers` do the work instead of StepSettings::threads, several simulations may
+    /// share them. Throws SceneError for settings out of range.
+    explicit Simulation(const StepSettings& settings, std::unique_ptr<ContactDetector> detector = nullptr,
+                        std::shared_ptr<Workers> workers = nullptr);
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
@@ -89,6 +93,10 @@ public:
     Pose obstacle_pose(ObstacleId obstacle) const;
     /// Energies of the current state, J; `work` is 0.
     StepEnergy energy() const;
+    /// Of structural springs, (l - l0)/l0, in the current state; 0 without any.
+    double largest_strain() const;
+    /// Of a vertex, m/s.
+    double largest_speed() const;
     /// Depends on every bit of positions and velocities.
     std::uint64_t state_hash() const;
 

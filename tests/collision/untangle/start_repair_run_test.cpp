@@ -57,7 +57,7 @@ void run_clean(SteppedScene& scene, int steps, double most_strain) {
 }  // namespace
 
 TEST_CASE("a sheet through a sphere's middle is moved out, told about, and then simulated") {
-    SteppedScene scene(make_grid(1, 1, 25, 25), {.time_step = 1.0 / 60.0});
+    SteppedScene scene(make_grid(1, 1, 25, 25), {.time_step = 1.0 / 60.0, .measure = StepMeasures::all});
     scene.add(make_sphere(0.25, 3), "ball");
     CHECK(scene.faults() > 0);
     const std::vector<Vec3> before = scene.mesh.vertices;
@@ -90,7 +90,7 @@ TEST_CASE("a tilted sheet through a body scan is moved out and simulated") {
         WARN("skipped: no bunny00.off in " << real_mesh_folder() << " (PERCALE_REAL_MESHES)");
         return;
     }
-    SteppedScene scene(tilted(make_grid(1, 1, 25, 25), 0.4), {.time_step = 1.0 / 60.0});
+    SteppedScene scene(tilted(make_grid(1, 1, 25, 25), 0.4), {.time_step = 1.0 / 60.0, .measure = StepMeasures::all});
     scene.add(scaled(*scan), "bunny");
     run_clean(scene, 6, 0.5);
     REQUIRE(scene.simulation.start_repair().size() == 1);

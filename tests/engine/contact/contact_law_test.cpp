@@ -65,7 +65,7 @@ struct Touching {
                      .mass = &mass,
                      .diagonal = &diagonal,
                      .friction = &friction},
-                    end, forces, terms);
+                    end, forces, terms, row_forces);
         return PenaltyContact().loss(move(), 0.0);
     }
 };

@@ -28,6 +28,7 @@ struct Touch {
     Vectors start_positions, positions, forces;
     FrictionStart start;
     ContactTerms terms;
+    std::vector<RowForce> row_forces;
 
     explicit Touch(int vertices, double mass_each = 0.01) : mass(vertices, mass_each) {
         diagonal.resize(vertices);
@@ -65,7 +66,7 @@ struct Touch {
         start.positions = &start_positions;
         step.friction = &start;
         forces.resize(static_cast<int>(mass.size()));
-        add_contact(rows, step, positions, forces, terms);
+        add_contact(rows, step, positions, forces, terms, row_forces);
     }
 };
 
@@ -165,7 +166,7 @@ TEST_CASE("Contact adds to the forces that are there and forgets the last call's
     touch.add_point(Vec3(0, 1, 0), 0.6 * h);
     touch.evaluate();
     const double once = touch.forces.at(0).y(), energy = touch.terms.energy;
-    add_contact(touch.rows, touch.step, touch.positions, touch.forces, touch.terms);
+    add_contact(touch.rows, touch.step, touch.positions, touch.forces, touch.terms, touch.row_forces);
     CHECK(touch.forces.at(0).y() == 2.0 * once);
     CHECK(touch.terms.energy == energy);
     CHECK(touch.terms.blocks.size() == 1);

@@ -203,8 +203,8 @@ TEST_CASE("All instruction sets and any number of threads give the same bits") {
     ThreadPool pool(2);
     for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
         if (kernels_for(set) == nullptr) continue;
-        for (ThreadPool* threads : {static_cast<ThreadPool*>(nullptr), &pool}) {
-            sheet.evaluate({.kernels = kernels_for(set), .pool = threads});
+        for (Workers* threads : {static_cast<Workers*>(nullptr), static_cast<Workers*>(&pool)}) {
+            sheet.evaluate({.kernels = kernels_for(set), .workers = threads});
             CHECK(same_bits(sheet.forces, forces));
             CHECK(sheet.terms.values == terms.values);
             CHECK(sheet.terms.corners == terms.corners);

@@ -83,8 +83,12 @@ TEST_CASE("A cloth that cannot be simulated is refused by name") {
 TEST_CASE("Points are the positions again") {
     Random random(4);
     const std::vector<Vec3> places = random_points(random, 13, 1.0);
-    ClothState state{
-        .positions = to_vectors(places), .velocities = {}, .points = std::vector<Vec3>(13), .grips = {}, .rest_length = {}};
+    ClothState state{.positions = to_vectors(places),
+                     .velocities = {},
+                     .points = std::vector<Vec3>(13),
+                     .grips = {},
+                     .impacts = {},
+                     .rest_length = {}};
     update_points(state);
     CHECK(state.points == places);
 }

@@ -15,6 +15,14 @@ bool skips(const StepSettings& settings, const SceneFacts& facts, const std::str
                        [&](const Skip& skip) { return skip.what.find(what) != std::string::npos && !skip.why.empty(); });
 }
 
+/// Why it is left out, empty where it is not.
+std::string why_skipped(const StepSettings& settings, const SceneFacts& facts, const std::string& what) {
+    for (const Skip& skip : skipped_by(make_step_plan(settings, facts), settings, facts)) {
+        if (skip.what.find(what) != std::string::npos) return skip.why;
+    }
+    return "";
+}
+
 SceneFacts sheet_facts() {
     SceneFacts facts;
     facts.cloth_vertices = 9;
@@ -59,10 +67,11 @@ TEST_CASE("Contacts are planned where cloth meets cloth, and what does not is li
 }
 
 TEST_CASE("The plan passes on what moves in the coming step") {
+    const StepSettings measured{.measure = StepMeasures::all};
     for (const bool obstacles : {false, true}) {
         for (const bool pins : {false, true}) {
             const SceneFacts facts{.cloth_vertices = 4, .obstacles = 1, .changes = changes(obstacles, pins)};
-            StepPlan plan = make_step_plan({}, facts);
+            StepPlan plan = make_step_plan(measured, facts);
             CHECK(plan.obstacles_move == obstacles);
             CHECK(plan.pins_move == pins);
             CHECK(plan.pin_work == pins);
@@ -137,27 +146,38 @@ TEST_CASE("Motion that the script is known to bring is not called skipped") {
 }
 
 TEST_CASE("Gravity that is zero and stays so has no energy to be measured") {
-    const StepSettings weightless{.gravity = Vec3::Zero()};
+    const StepSettings heavy{.measure = StepMeasures::all};
+    const StepSettings weightless{.measure = StepMeasures::all, .gravity = Vec3::Zero()};
     SceneFacts facts = sheet_facts();
-    CHECK(make_step_plan({}, facts).gravity_energy);
+    CHECK(make_step_plan(heavy, facts).gravity_energy);
+    CHECK_FALSE(skips(heavy, facts, "energy of gravity"));
     CHECK_FALSE(make_step_plan(weightless, facts).gravity_energy);
     CHECK(skips(weightless, facts, "energy of gravity"));
     facts.changes.gravity = true;
     CHECK(make_step_plan(weightless, facts).gravity_energy);
+    CHECK_FALSE(skips(weightless, facts, "energy of gravity"));
 }
 
 TEST_CASE("Measures are left out where the setting says so") {
-    const StepSettings none{.measure = StepMeasures::none};
-    CHECK_FALSE(make_step_plan(none, sheet_facts()).measures);
-    CHECK(skips(none, sheet_facts(), "energy, strain and speed"));
-    CHECK(skips(none, sheet_facts(), "ledger of energy"));
-    CHECK(skips({}, sheet_facts(), "ledger of energy"));
-    const StepSettings ledger{.measure = StepMeasures::ledger};
-    CHECK((make_step_plan(ledger, sheet_facts()).ledger && make_step_plan(ledger, sheet_facts()).measures));
-    CHECK_FALSE(skips(ledger, sheet_facts(), "ledger of energy"));
     SceneFacts facts = sheet_facts();
     facts.changes.pins = true;
-    CHECK_FALSE(make_step_plan(none, facts).pin_work);
+    const StepSettings automatic, none{.measure = StepMeasures::none};
+    for (const auto& [settings, why] :
+         {std::pair(automatic, "nothing reads them after each step"), std::pair(none, "step.measure is none")}) {
+        const StepPlan plan = make_step_plan(settings, facts);
+        CHECK_FALSE((plan.measures || plan.ledger || plan.pin_work));
+        CHECK(why_skipped(settings, facts, "energy, strain and speed") == why);
+        CHECK(why_skipped(settings, facts, "ledger of energy") == why);
+    }
+    const StepSettings all{.measure = StepMeasures::all};
+    const StepPlan measured = make_step_plan(all, facts);
+    CHECK((measured.measures && measured.gravity_energy && measured.pin_work));
+    CHECK_FALSE(measured.ledger);
+    CHECK_FALSE(skips(all, facts, "energy, strain and speed"));
+    CHECK(why_skipped(all, facts, "ledger of energy") == "step.measure is all");
+    const StepSettings ledger{.measure = StepMeasures::ledger};
+    CHECK((make_step_plan(ledger, facts).ledger && make_step_plan(ledger, facts).measures));
+    CHECK_FALSE(skips(ledger, facts, "ledger of energy"));
 }
 
 TEST_CASE("With skipping off only what is not there is left out") {

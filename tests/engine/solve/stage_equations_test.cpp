@@ -98,7 +98,8 @@ TEST_CASE("Blocks of single vertices stand before those of contact and belong to
     REQUIRE(contact.blocks.size() == 30);
     Vectors forces, positions;
     positions.resize(30);
-    add_contact({}, {}, positions, forces, contact);
+    std::vector<RowForce> row_forces;
+    add_contact({}, {}, positions, forces, contact, row_forces);
     REQUIRE(contact.blocks.size() == 30);
     for (int i = 0; i < 30; ++i) {
         CHECK(contact.blocks[i].vertex == std::array<int, 4>{i, -1, -1, -1});

@@ -1,5 +1,7 @@
 #include "engine/span/impacts.h"
 
+#include <cmath>
+
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
@@ -8,67 +10,158 @@ namespace {
 
 constexpr double dt = 0.01;
 
-/// Two vertices after a stage, the first in contact with a plane or with the second.
-struct Impact {
+constexpr double mass = 0.1, push = 0.06;  // kg, N
+
+/// Two vertices after a stage, the first in contact with an obstacle or with the second. Contact gave the first the speed
+/// dt push/mass = 0.006 m/s, where nothing else is said.
+struct Hit {
     SolverScene scene =
-        solver_scene(linked_masses({0.1, 0.3}, {{0, 1, 1.0, 10.0, 0.0}}), {Vec3(0, 0, 0), Vec3(1, 0, 0)}, {.time_step = dt});
+        solver_scene(linked_masses({mass, 0.3}, {{0, 1, 1.0, 10.0, 0.0}}), {Vec3(0, 0, 0), Vec3(1, 0, 0)}, {.time_step = dt});
     StagePoint contacts;
     ClothState end;
-    std::vector<std::size_t> order;
+    ImpactSpace space;
+    ImpactFlows flows;
+    bool keeps_to_mean = false;
 
-    Impact(bool between_cloths, double distance, const Vec3& mean, const Vec3& velocity) {
+    explicit Hit(const Vec3& velocity, double force = push, bool between_cloths = false) {
+        scene.script.obstacles.push_back({.name = "ground", .start = {}, .end = {}});
         end = scene.state;
-        end.positions.add(0, dt * mean);
         end.velocities.set(0, velocity);
         ContactRows& rows = contacts.rows;
         rows.vertex = {{0, between_cloths ? 1 : -1, -1, -1}};
         rows.weight = {{1.0, between_cloths ? -1.0 : 0.0, 0.0, 0.0}};
         rows.direction = {Vec3(0, 1, 0)};
         rows.obstacle_point = rows.obstacle_displacement = {Vec3::Zero()};
-        rows.distance = {distance};
+        rows.distance = {0.004};
         rows.thickness = {0.005};
         rows.friction = {0.0};
         rows.share = {1.0};
         rows.obstacle = {between_cloths ? -1 : 0};
         rows.feature = {0};
+        contacts.row_forces = {{.normal = force}};
     }
-    void settle() { settle_impacts(scene, {contacts, scene.state.positions, dt}, end, order); }
+
+    /// The state that the stage began with has these.
+    Hit& after(double speed, std::vector<Impact> impacts = {}) {
+        scene.state.velocities.set(0, Vec3(0, speed, 0));
+        scene.state.impacts = std::move(impacts);
+        return *this;
+    }
+    Hit& on(double restitution) {
+        scene.script.obstacles[0].restitution = restitution;
+        return *this;
+    }
+    double settle(const Vectors* extrapolated = nullptr) {
+        flows = settle_impacts(scene, {contacts, scene.state, dt, dt, keeps_to_mean, extrapolated}, end, space);
+        return end.velocities.y[0];
+    }
 };
 
 }  // namespace
 
-TEST_CASE("A pressed point that came nearer does not leave, along the surface it goes on") {
-    Impact impact(false, 0.004, Vec3(0.5, -1.0, 0.0), Vec3(0.5, 2.0, 0.0));
-    impact.settle();
-    CHECK((impact.end.velocities.at(0) - Vec3(0.5, 0.0, 0.0)).norm() < 1e-14);
+TEST_CASE("A point that contact made leave does not, along the surface it goes on") {
+    Hit hit(Vec3(0.5, 0.005, 0.0));
+    CHECK(hit.after(-2.0).settle() == 0.0);
+    CHECK(hit.end.velocities.x[0] == 0.5);
+    REQUIRE(hit.end.impacts.size() == 1);
+    CHECK(hit.end.impacts[0].stopped);
 }
 
-TEST_CASE("A pressed point that went off leaves no faster than it went in the mean") {
-    Impact impact(false, 0.004, Vec3(0.0, 0.7, 0.0), Vec3(0.0, 2.0, 0.0));
-    impact.settle();
-    CHECK(impact.end.velocities.y[0] == Approx(0.7));
-    Impact slow(false, 0.004, Vec3(0.0, 0.7, 0.0), Vec3(0.0, 0.4, 0.0));
-    slow.settle();
-    CHECK(slow.end.velocities.y[0] == 0.4);
+TEST_CASE("An impact that was stopped fades, contacts that last are left alone") {
+    Hit hit(Vec3(0.0, 0.005, 0.0));
+    std::vector<Impact> impacts = {{.vertex = 0, .obstacle = 0, .speed = 2.0, .stopped = true}};
+    int stages = 0;
+    for (; !impacts.empty(); ++stages) {
+        REQUIRE(stages < 100);
+        const bool fast = impacts[0].speed > 2.0 * 0.005 + 9.81 * dt;
+        hit.end.velocities.set(0, Vec3(0.0, 0.005, 0.0));
+        CHECK(hit.after(0.0, impacts).settle() == (fast ? 0.0 : 0.005));
+        impacts = hit.end.impacts;
+        CHECK(impacts.empty() != fast);
+    }
+    CHECK(stages > 10);
+    hit.end.velocities.set(0, Vec3(0.0, 0.005, 0.0));
+    CHECK(hit.after(0.0).settle() == 0.005);
 }
 
-TEST_CASE("What is not pressed, and what is pinned, keeps its velocity") {
-    Impact far(false, 0.006, Vec3(0.0, -1.0, 0.0), Vec3(0.0, 2.0, 0.0));
-    far.settle();
-    CHECK(far.end.velocities.y[0] == 2.0);
-    Impact pinned(false, 0.004, Vec3(0.0, -1.0, 0.0), Vec3(0.0, 2.0, 0.0));
+TEST_CASE("A point that leaves by itself loses what contact gave it, and no more") {
+    CHECK(Hit(Vec3(0, 0.7, 0)).after(-2.0).settle() == Approx(0.7 - dt * push / mass).epsilon(1e-14));
+    CHECK(Hit(Vec3(0, 0.7, 0), 0.0).after(-2.0).settle() == 0.7);
+    CHECK(Hit(Vec3(0, -0.7, 0)).after(-2.0).settle() == -0.7);
+}
+
+TEST_CASE("What the scheme extrapolates of a stop counts as contact's") {
+    Hit hit(Vec3(0, 0.05, 0));
+    Vectors ahead;
+    ahead.resize(2);
+    ahead.set(0, Vec3(0, 0.04 - 2.0, 0));
+    CHECK(hit.after(-2.0).settle(&ahead) == Approx(0.05 - 0.04 - dt * push / mass).epsilon(1e-13));
+}
+
+TEST_CASE("In a stage of TR-BDF2 what is pressed leaves no faster than it went in the mean") {
+    Hit hit(Vec3(0.0, 2.0, 0.0));
+    hit.keeps_to_mean = true;
+    hit.end.positions.add(0, Vec3(0, 0.7 * dt, 0));
+    CHECK(hit.settle() == Approx(0.7).epsilon(1e-13));
+    Hit nearer(Vec3(0.0, 2.0, 0.0));
+    nearer.keeps_to_mean = true;
+    nearer.end.positions.add(0, Vec3(0, -0.7 * dt, 0));
+    CHECK(nearer.settle() == Approx(0.0).margin(1e-14));
+}
+
+TEST_CASE("What is pinned keeps its velocity") {
+    Hit pinned(Vec3(0.0, 2.0, 0.0));
     pinned.scene.pin(0);
-    pinned.settle();
-    CHECK(pinned.end.velocities.y[0] == 2.0);
+    CHECK(pinned.settle() == 2.0);
 }
 
 TEST_CASE("Between cloths momentum is kept") {
-    Impact impact(true, 0.004, Vec3(0.0, -1.0, 0.0), Vec3(0.3, 2.0, 0.0));
-    const Vec3 before = 0.1 * impact.end.velocities.at(0) + 0.3 * impact.end.velocities.at(1);
-    impact.settle();
-    const Vec3 after = 0.1 * impact.end.velocities.at(0) + 0.3 * impact.end.velocities.at(1);
+    Hit hit(Vec3(0.3, 0.005, 0.0), push, true);
+    const Vec3 before = mass * hit.end.velocities.at(0) + 0.3 * hit.end.velocities.at(1);
+    hit.after(-2.0).settle();
+    const Vec3 after = mass * hit.end.velocities.at(0) + 0.3 * hit.end.velocities.at(1);
     CHECK((after - before).norm() < 1e-15);
-    CHECK(impact.end.velocities.y[0] - impact.end.velocities.y[1] == Approx(0.0).margin(1e-14));
+    CHECK(hit.end.velocities.y[0] - hit.end.velocities.y[1] == Approx(0.0).margin(1e-15));
+}
+
+TEST_CASE("What came at an obstacle leaves at its share of the speed once it has been stopped") {
+    Hit coming(Vec3(0, -1.0, 0));
+    CHECK(coming.after(-2.0).on(0.5).settle() == -1.0);
+    REQUIRE(coming.end.impacts.size() == 1);
+    CHECK(coming.end.impacts[0].speed == 2.0);
+    CHECK(coming.space.thrown.empty());
+
+    Hit stopped(Vec3(0, -0.01, 0));
+    CHECK(stopped.after(-1.0, coming.end.impacts).on(0.5).settle() == Approx(1.0).epsilon(1e-14));
+    REQUIRE(stopped.end.impacts.size() == 1);
+    CHECK(stopped.end.impacts[0].stopped);
+    REQUIRE(stopped.space.thrown.size() == 1);
+    CHECK(stopped.space.thrown[0].direction == Vec3(0, 1, 0));
+
+    Hit too_fast(Vec3(0, 3.0, 0));
+    CHECK(too_fast.after(-2.0).on(0.5).settle() == Approx(1.0).epsilon(1e-14));
+}
+
+TEST_CASE("Cloth that gravity alone presses is not thrown back") {
+    Hit resting(Vec3(0, 0.0, 0));
+    CHECK(resting.after(-0.05).on(1.0).settle() == 0.0);
+}
+
+TEST_CASE("On its way to the thickness gravity makes a point faster") {
+    Hit hit(Vec3(0, 0.0, 0));
+    hit.end.positions.add(0, Vec3(0, -0.021, 0));  // it began 0.02 m beyond the thickness
+    CHECK(hit.after(-2.0).on(1.0).settle() == Approx(std::sqrt(4.0 + 2.0 * 9.81 * 0.02)).epsilon(1e-12));
+}
+
+TEST_CASE("The energy that settling takes is told, what a moving obstacle does apart from it") {
+    Hit hit(Vec3(0, 3.0, 0));
+    hit.scene.settings.gravity = Vec3::Zero();
+    hit.contacts.rows.obstacle_displacement = {Vec3(0, dt, 0)};  // it comes at 1 m/s
+    hit.after(-1.0).on(0.5);
+    const double before = 0.5 * mass * 9.0, after = 0.5 * mass * std::pow(hit.settle(), 2);
+    CHECK(hit.end.velocities.y[0] == Approx(2.0).epsilon(1e-12));  // came at 2 m/s against it, leaves at 1
+    CHECK(before - after + hit.flows.work == Approx(hit.flows.loss).epsilon(1e-12));
+    CHECK(hit.flows.work == Approx(mass * (2.0 - 3.0) * 1.0).epsilon(1e-12));
 }
 
 }  // namespace percale::test

@@ -46,7 +46,7 @@ int steps_to_sleep(Simulation& simulation, int most = 600) {
 }  // namespace
 
 TEST_CASE("A sheet that has come to rest sleeps: time passes, nothing moves, nothing is asked or solved") {
-    Sheet sheet = make_sheet();
+    Sheet sheet = make_sheet({.time_step = dt, .measure = StepMeasures::all});
     REQUIRE(steps_to_sleep(sheet.simulation) > 30);
     const std::uint64_t state = sheet.simulation.state_hash();
     const double time = sheet.simulation.time();
@@ -119,7 +119,7 @@ TEST_CASE("Calls that change nothing let the cloth sleep on") {
 }
 
 TEST_CASE("A sheet lying on a plane sleeps with its contacts reported, and wakes when the plane is taken away") {
-    Simulation simulation({.time_step = dt}, std::make_unique<PlaneDetector>());
+    Simulation simulation({.time_step = dt, .measure = StepMeasures::all}, std::make_unique<PlaneDetector>());
     const ObstacleId plane = simulation.add_obstacle(make_plane(1.0));
     simulation.add_cloth(make_grid(0.5, 0.5, 5, 5), sheet_fabric(), {.translation = Vec3(0, 0.006, 0)});
     REQUIRE(steps_to_sleep(simulation) > 0);
@@ -189,7 +189,7 @@ TEST_CASE("Sleep comes half a second after the last move, however many steps tha
 }
 
 TEST_CASE("As long as one of two cloths is awake both are solved") {
-    Simulation simulation({.time_step = dt});
+    Simulation simulation({.time_step = dt, .measure = StepMeasures::all});
     const ClothId held = simulation.add_cloth(make_grid(0.5, 0.5, 3, 3), sheet_fabric(), {}, "held");
     for (int i = 0; i < 9; ++i) simulation.pin(held, i);
     simulation.add_cloth(make_grid(0.5, 0.5, 3, 3), sheet_fabric(), {.translation = Vec3(0, 1, 0)}, "falling");

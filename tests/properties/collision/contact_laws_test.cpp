@@ -208,7 +208,7 @@ TEST_CASE("Projected cloth that falls on a ball takes few iterations while it hi
 
 TEST_CASE("Cloth stretched over the edges of a box keeps half of the thickness") {
     constexpr int n = 11, steps = 120;
-    Simulation simulation = simulation_on_meshes({.time_step = 1.0 / 60.0});
+    Simulation simulation = simulation_on_meshes({.time_step = 1.0 / 60.0, .measure = StepMeasures::all});
     const ClothId cloth =
         simulation.add_cloth(make_grid(0.6, 0.6, n, n), fabric(1.0), {.translation = Vec3(0.013, 0.207, 0.011)});
     simulation.add_obstacle(make_box(Vec3(0.2, 0.4, 0.2)), {}, {.friction = 0.3, .name = "box"});
@@ -233,7 +233,7 @@ TEST_CASE("Cloth stretched over the edges of a box keeps half of the thickness")
 TEST_CASE("A light sheet that falls on a ball never gains energy") {
     Fabric light = fabric();
     light.area_density = 0.02;
-    Simulation simulation = simulation_on_meshes({.time_step = 1.0 / 60.0});
+    Simulation simulation = simulation_on_meshes({.time_step = 1.0 / 60.0, .measure = StepMeasures::all});
     simulation.add_cloth(make_grid(0.6, 0.6, 17, 17), light, {.translation = Vec3(0.03, 0.5, 0.01)});
     simulation.add_obstacle(make_sphere(0.25, 3), {}, {.friction = 0.3, .name = "ball"});
     double before = simulation.energy().total();

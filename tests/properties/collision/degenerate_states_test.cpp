@@ -21,7 +21,8 @@ constexpr std::array contact_ways = {Way{"backward Euler, penalty", Scheme::back
                                      Way{"TR-BDF2", Scheme::tr_bdf2}};
 
 StepSettings settings_of(const Way& way) {
-    return {.scheme = way.scheme, .contact_response = way.response, .measure = StepMeasures::ledger};
+    // What the solver leaves is energy, too: less of it than by default.
+    return {.scheme = way.scheme, .newton_share = 0.25, .contact_response = way.response, .measure = StepMeasures::ledger};
 }
 
 Fabric woven_fabric() {

@@ -47,7 +47,7 @@ std::vector<Resumable> obstacle_runs(const Backend& backend) {
     const auto still = [](Simulation&, int) {};
     const StepSettings penalty{.measure = StepMeasures::ledger};
     const StepSettings projection{.contact_response = ContactResponse::projection, .measure = StepMeasures::ledger};
-    const StepSettings adaptive{.adaptive = true, .tolerance = 1e-2, .scheme = Scheme::tr_bdf2};
+    const StepSettings adaptive{.adaptive = true, .tolerance = 1e-2, .scheme = Scheme::tr_bdf2, .measure = StepMeasures::all};
     const auto over = [&](const StepSettings& settings, const TriangleMesh& sheet) {
         return [=] { return over_ball(settings, backend, sheet); };
     };
@@ -58,7 +58,8 @@ std::vector<Resumable> obstacle_runs(const Backend& backend) {
     runs.push_back({"still ball, projection", over(projection, grid), still, 30});
     runs.push_back({"moving ball, free mesh", over(penalty, free_sheet(8)), move_ball, 30});
     runs.push_back({"moving ball, nothing skipped", over({.skip = false}, grid), move_ball, 30});
-    runs.push_back({"moving ball, tr_bdf2", over({.scheme = Scheme::tr_bdf2}, grid), move_ball, 30});
+    runs.push_back(
+        {"moving ball, tr_bdf2", over({.scheme = Scheme::tr_bdf2, .measure = StepMeasures::all}, grid), move_ball, 30});
     runs.push_back({"moving ball, adaptive", over(adaptive, grid), move_ball, 24});
     return runs;
 }
@@ -73,8 +74,9 @@ Simulation stack(const StepSettings& settings, const Backend& backend) {
 }
 
 std::vector<Resumable> stack_runs(const Backend& backend) {
-    const StepSettings projection{.contact_response = ContactResponse::projection};
-    return {{"stack, penalty", [=] { return stack({}, backend); }},
+    const StepSettings penalty{.measure = StepMeasures::all};
+    const StepSettings projection{.contact_response = ContactResponse::projection, .measure = StepMeasures::all};
+    return {{"stack, penalty", [=] { return stack(penalty, backend); }},
             {"stack, projection", [=] { return stack(projection, backend); }}};
 }
 
@@ -109,7 +111,7 @@ TEST_CASE("A state saved on one tree is resumed on another") {
 
 TEST_CASE("Cloth that was moved out of an obstacle before the start says so where it is resumed") {
     const auto make = [] {
-        Simulation simulation({}, make_brute_force_detector());
+        Simulation simulation({.measure = StepMeasures::all}, make_brute_force_detector());
         simulation.add_cloth(make_grid(0.3, 0.3, 6, 6), towel(), {.translation = {0, 0.03, 0}}, "sheet");
         simulation.add_obstacle(make_box({0.1, 0.1, 0.1}), {}, {.friction = 0.4, .name = "block"});
         return simulation;

@@ -13,7 +13,10 @@ using namespace percale::scenes::test;
 
 namespace {
 
-Scene scene_with(const std::vector<Override>& overrides = {}) { return parse_scene(sheet_on_box(), "test.toml", overrides); }
+Scene scene_with(std::vector<Override> overrides = {}) {
+    overrides.insert(overrides.begin(), {"step.measure", "ledger"});
+    return parse_scene(sheet_on_box(), "test.toml", overrides);
+}
 
 Checkpoint example() {
     Checkpoint checkpoint;

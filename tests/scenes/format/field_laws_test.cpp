@@ -106,6 +106,7 @@ std::vector<std::string> wrong_kinds(const SceneKey& key) {
         case KeyKind::number_or_auto:
             return {"\"many\"", "true", "[1]"};
         case KeyKind::integer:
+        case KeyKind::integer_or_auto:
             return {"\"many\"", "2.5", "[2]"};
         case KeyKind::numbers:
         case KeyKind::integers:
@@ -136,13 +137,15 @@ std::string with_number(const SceneKey& key, const std::string& number, const st
 }
 
 bool holds_numbers(const SceneKey& key) {
-    const std::set<KeyKind> kinds = {KeyKind::number,   KeyKind::integer, KeyKind::number_or_auto, KeyKind::numbers,
-                                     KeyKind::integers, KeyKind::box,     KeyKind::pairs};
+    const std::set<KeyKind> kinds = {
+        KeyKind::number,   KeyKind::integer, KeyKind::number_or_auto, KeyKind::integer_or_auto, KeyKind::numbers,
+        KeyKind::integers, KeyKind::box,     KeyKind::pairs};
     return kinds.contains(key.kind);
 }
 
 bool is_whole(const SceneKey& key) {
-    return key.kind == KeyKind::integer || key.kind == KeyKind::integers || key.kind == KeyKind::pairs;
+    return key.kind == KeyKind::integer || key.kind == KeyKind::integer_or_auto || key.kind == KeyKind::integers ||
+           key.kind == KeyKind::pairs;
 }
 
 std::vector<std::string> out_of_range(const SceneKey& key) {

@@ -42,7 +42,8 @@ TEST_CASE("every key has its own path, lies in a table listed before it, and has
 TEST_CASE("every number has a range, every word its choices, every list its count") {
     for (const SceneKey& key : scene_keys()) {
         CAPTURE(key.path);
-        const bool number = key.kind == KeyKind::number || key.kind == KeyKind::integer || key.kind == KeyKind::number_or_auto;
+        const bool number = key.kind == KeyKind::number || key.kind == KeyKind::integer || key.kind == KeyKind::number_or_auto ||
+                            key.kind == KeyKind::integer_or_auto;
         const bool list = key.kind == KeyKind::numbers || key.kind == KeyKind::integers;
         if (number || list || key.kind == KeyKind::box) CHECK(key.lowest <= key.highest);
         if (number || list) CHECK_FALSE(range_text(key).empty());

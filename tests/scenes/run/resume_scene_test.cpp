@@ -12,8 +12,7 @@ using namespace percale::scenes::test;
 namespace {
 
 /// Left after every quarter of the way.
-void check_resumes(const std::string& text, const std::vector<Override>& overrides, bool certify_steps = false) {
-    const Scene scene = parse_scene(text, "test.toml", overrides);
+void check_resumes(const Scene& scene, bool certify_steps) {
     const WatchedRun plain = watch(scene, {.certify_steps = certify_steps});
     const WatchedRun left = watch(scene, {.certify_steps = certify_steps, .checkpoint_every = 0.25 * scene.duration});
     CHECK(plain.states.empty());
@@ -23,6 +22,16 @@ void check_resumes(const std::string& text, const std::vector<Override>& overrid
     for (std::size_t k = 0; k < left.states.size(); ++k) {
         CAPTURE(k);
         CHECK(resumes_as(plain, left, k, watch(scene, {.certify_steps = certify_steps, .from = &left.states[k]})));
+    }
+}
+
+/// Where every step is measured and where frames are.
+void check_resumes(const std::string& text, const std::vector<Override>& overrides, bool certify_steps = false) {
+    for (const std::string measures : {"ledger", "auto"}) {
+        CAPTURE(measures);
+        std::vector<Override> measured = overrides;
+        measured.push_back({"step.measure", measures});
+        check_resumes(parse_scene(text, "test.toml", measured), certify_steps);
     }
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("a run covers its duration, the last step shortened") {
 TEST_CASE("a falling sheet shows the sums that symplectic Euler gives in every frame") {
     // v_n = -n g dt, y_n = y_0 - g dt^2 n (n + 1)/2
     const double dt = 0.01;
-    const Recorded recorded = record(scene_of(falling_sheet()));
+    const Recorded recorded = record(scene_of(falling_sheet(), {{"step.measure", "all"}}));
     REQUIRE(recorded.frames.size() == 6);
     for (const Frame& frame : recorded.frames) {
         const double n = 2.0 * frame.index;
@@ -130,13 +130,13 @@ TEST_CASE("where frames come faster than steps a state is shown several times") 
 
 TEST_CASE("an event that turns gravity round is no energy gain") {
     const std::string event = "\n[[event]]\ntime = 0.05\ngravity = [0.0, 90.0, 0.0]\n";
-    const Recorded recorded = record(scene_of(falling_sheet() + event));
+    const Recorded recorded = record(scene_of(falling_sheet() + event, {{"step.measure", "all"}}));
     CHECK(recorded.result.measures.energy_gain < 1e-9);
     CHECK(recorded.steps.back().energy.gravity < recorded.steps.front().energy.gravity);
 }
 
 TEST_CASE("totals are the sums and extremes of the steps") {
-    const Recorded recorded = record(scene_of(sheet_on_box()));
+    const Recorded recorded = record(scene_of(sheet_on_box(), {{"step.measure", "all"}}));
     long newton = 0, linear = 0;
     int most = 0;
     double work = 0.0;
@@ -253,7 +253,7 @@ TEST_CASE("a reference that is missing or of another size is refused before anyt
 
 TEST_CASE("a run's ledger is the sum of its steps and closes") {
     const Recorded plain = record(scene_of(sheet_on_box(), {{"step.measure", "all"}}));
-    const Recorded ledger = record(scene_of(sheet_on_box()));
+    const Recorded ledger = record(scene_of(sheet_on_box(), {{"step.measure", "ledger"}}));
     CHECK(ledger.hashes == plain.hashes);
     CHECK(std::isnan(plain.result.totals.energy.dissipated()));
     const StepEnergy& energy = ledger.result.totals.energy;
@@ -269,7 +269,7 @@ TEST_CASE("a run's ledger is the sum of its steps and closes") {
 }
 
 TEST_CASE("what steps do not measure is left open, and the rest is the same bit for bit") {
-    const Recorded all = record(scene_of(sheet_on_box()));
+    const Recorded all = record(scene_of(sheet_on_box(), {{"step.measure", "all"}}));
     const Recorded none = record(scene_of(sheet_on_box(), {{"step.measure", "none"}}));
     CHECK(std::isnan(none.result.measures.largest_strain));
     CHECK(std::isnan(none.result.measures.energy_gain));
@@ -280,6 +280,62 @@ TEST_CASE("what steps do not measure is left open, and the rest is the same bit 
     CHECK(values.at("smallest_distance") == all.result.measures.smallest_distance);
     CHECK(none.hashes == all.hashes);
     for (std::size_t i = 0; i < all.steps.size(); ++i) CHECK(none.steps[i].contact_hash == all.steps[i].contact_hash);
+}
+
+TEST_CASE("left to itself a run measures the states of its frames and of its end, and no other step") {
+    // A frame after every third step, and none at the end, which is after the eleventh.
+    const std::vector<Override> timing = {{"output.fps", "20"}, {"duration", "0.18333333333333332"}};
+    std::vector<Override> measured = timing;
+    measured.push_back({"step.measure", "all"});
+    const Recorded run = record(scene_of(sheet_on_box(), timing)), all = record(scene_of(sheet_on_box(), measured));
+    REQUIRE(run.steps.size() == 11);
+    REQUIRE(run.frames.size() == 4);
+    CHECK(run.hashes == all.hashes);
+    double strain = 0.0;
+    for (std::size_t i = 0; i < run.steps.size(); ++i) {
+        CAPTURE(i);
+        const StepReport &report = run.steps[i], &whole = all.steps[i];
+        const bool frame = (i + 1) % 3 == 0;
+        CHECK((std::isnan(report.energy.work) && std::isnan(report.energy.dissipated())));
+        for (const double figure : {report.energy.total(), report.largest_strain, report.largest_speed})
+            CHECK(std::isfinite(figure) == frame);
+        if (!frame) continue;
+        CHECK(report.energy.total() == whole.energy.total());
+        CHECK(report.largest_strain == whole.largest_strain);
+        CHECK(report.largest_speed == whole.largest_speed);
+        strain = std::max(strain, whole.largest_strain);
+    }
+    CHECK(strain > 0.0);
+    CHECK(run.result.measures.largest_strain == strain);
+    CHECK(std::isnan(run.result.measures.energy_gain));
+    CHECK_FALSE(measure_values(run.result.measures).contains("energy_gain"));
+    const StepEnergy &end = run.result.totals.energy, &whole = all.result.totals.energy;
+    for (const auto entry : {&StepEnergy::kinetic, &StepEnergy::gravity, &StepEnergy::elastic, &StepEnergy::contact})
+        CHECK(end.*entry == whole.*entry);
+    CHECK(std::isnan(end.work));
+    for (const auto entry : ledger_entries) CHECK(std::isnan(end.*entry));
+}
+
+TEST_CASE("where [expect] reads strain or gain of energy all steps are measured, unless the file says otherwise") {
+    const auto expecting = [](const std::string& measure, const std::vector<Override>& overrides = {}) {
+        return scene_of(sheet_on_box() + "[expect]\n" + measure + " = { below = 1.0 }\n", overrides);
+    };
+    const auto measures_of = [](const Scene& scene) { return build_scene(scene).scene.step.measure; };
+    CHECK(measures_of(scene_of(sheet_on_box())) == StepMeasures::automatic);
+    CHECK(measures_of(expecting("speed_at_end")) == StepMeasures::automatic);
+    for (const std::string measure : {"largest_strain", "energy_gain"}) {
+        CAPTURE(measure);
+        CHECK(expecting(measure).step.measure == StepMeasures::automatic);
+        CHECK(measures_of(expecting(measure)) == StepMeasures::all);
+        CHECK(measures_of(expecting(measure, {{"step.measure", "ledger"}})) == StepMeasures::ledger);
+        CHECK(measures_of(expecting(measure, {{"step.measure", "none"}})) == StepMeasures::none);
+        const Recorded run = record(expecting(measure)), all = record(scene_of(sheet_on_box(), {{"step.measure", "all"}}));
+        for (const StepReport& report : run.steps)
+            CHECK((std::isfinite(report.energy.total()) && std::isfinite(report.largest_strain)));
+        CHECK(run.result.measures.largest_strain == all.result.measures.largest_strain);
+        CHECK(run.result.measures.energy_gain == all.result.measures.energy_gain);
+        CHECK(run.hashes == all.hashes);
+    }
 }
 
 TEST_CASE("statuses have the words of the report") {

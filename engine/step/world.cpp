@@ -1,0 +1,45 @@
+#include "world.h"
+
+#include <algorithm>
+#include <string>
+#include <thread>
+
+#include "percale/error.h"
+#include "schemes/schemes.h"
+#include "tolerances.h"
+
+namespace percale {
+
+bool meets_cloth(const StepScene& scene) {
+    return std::any_of(scene.model.cloths.begin(), scene.model.cloths.end(),
+                       [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
+}
+
+void check_scheme(const StepScene& scene) {
+    if (scene.settings.scheme == Scheme::automatic) return;
+    const SchemeFacts& scheme = facts_of(scene.settings.scheme);
+    const bool meets = meets_cloth(scene);
+    if (!meets && scene.script.obstacles.empty()) return;
+    if (!scheme.contact) {
+        const std::string kind = scheme.implicit ? std::string(scheme.word) : "an explicit scheme";
+        throw SceneError(kind + " takes no " + (meets ? "self_contact" : "obstacles") + "; use scheme backward_euler or tr_bdf2");
+    }
+    if (scene.settings.contact_response == ContactResponse::projection && scheme.scheme != Scheme::backward_euler) {
+        throw SceneError("contact_response projection needs scheme backward_euler, not " + std::string(scheme.word));
+    }
+}
+
+void set_workers(World& world) {
+    if (world.own_workers) {
+        const int most = world.scene.model.vertex_count() / least_vertices_a_thread;
+        const int said = world.scene.settings.threads;
+        const int wanted = said > 0 ? said : std::min(most, static_cast<int>(std::thread::hardware_concurrency()));
+        const int threads = std::clamp(wanted, 1, most_threads);
+        if (threads == 1) world.workers.reset();
+        if (threads > 1 && !(world.workers && world.workers->threads() == threads)) world.workers = make_workers(threads);
+    }
+    world.scene.compute.workers = world.workers.get();
+    if (world.scene.detector) world.scene.detector->set_workers(world.workers.get());
+}
+
+}  // namespace percale
