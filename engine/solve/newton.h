@@ -32,7 +32,7 @@ struct StageEnd {
 
 /// Solves one stage from stage.start. Newton with the positive definite matrix of forces/springs.h, conjugate gradient, every
 /// move cut to what the detector proves free of crossing, and a line search. Stops by settings.newton_tolerance, or (auto) when
-/// what the last iteration changed, in metres, dt sqrt(dv . b / m), is at most a quarter of the stage's time error in every
+/// what the last iteration changed, in metres, dt sqrt(dv . b / m), is at most newton_share of the stage's time error in every
 /// cloth. space.current keeps forces and contacts of the end.
 NewtonReport solve_stage(const ImplicitStage& stage, NewtonSpace& space, StageEnd end, StageTimes& times);
 

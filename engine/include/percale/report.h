@@ -60,8 +60,8 @@ struct StageTimes {
     }
 };
 
-/// Energies at the end of a step and what became of energy during it, J. All but the first five entries are NaN unless
-/// StepSettings::measure is `ledger`.
+/// Energies at the end of a step and what became of energy during it, J. In a step report all are NaN unless
+/// StepSettings::measure is `all` or `ledger`, and all but the first five unless it is `ledger`.
 struct StepEnergy {
     double kinetic = 0.0, gravity = 0.0;
     double elastic = 0.0;  // of springs, hinges, membranes and what fills closed cloth; under Fabric::pressure -pressure volume
@@ -112,8 +112,8 @@ struct StepReport {
     int contacts = 0;                // contact rows at the end
     double smallest_distance = 0.0;  // m; infinity if nothing was near
     double contact_stiffness = 0.0;  // N/m, largest of the step
-    double largest_strain = 0.0;     // of structural springs, (l - l0)/l0
-    double largest_speed = 0.0;      // m/s
+    double largest_strain = 0.0;     // of structural springs, (l - l0)/l0; NaN unless it is measured
+    double largest_speed = 0.0;      // m/s; likewise
     int blocked_cloth = -1;          // the cloth and vertex of a blocked pin
     int blocked_vertex = -1;
     int blocking_obstacle = -1;               // -1 where it is cloth, too; blocking_name then says so
