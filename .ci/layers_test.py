@@ -91,7 +91,7 @@ class Rules(unittest.TestCase):
             self.assertFalse(layers.MAY_INCLUDE[part] & {'collision', 'public_collision', 'scenes', 'tests'}, part)
         self.assertEqual(layers.MAY_INCLUDE['collision'], {'public', 'public_collision', 'collision'})
         self.assertEqual(layers.MAY_INCLUDE['scenes'], {'public', 'public_collision', 'scenes'})
-        self.assertNotIn('public', layers.MAY_INCLUDE['support'])
+        self.assertEqual(layers.MAY_INCLUDE['support'], {'public', 'support'})
 
     def test_folders_of_collision(self):
         header = {folder: f'collision/{folder}/a.h' for folder in layers.COLLISION_FOLDERS} | {'top': 'collision/detector.h'}
