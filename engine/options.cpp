@@ -171,7 +171,8 @@ constexpr Option<StepSettings> step_list[] = {
      .number_or_auto = [](StepSettings& s) { return &s.newton_tolerance; }},
     {.key = "newton_share",
      .unit = "",
-     .sentence = "How large the solver's error may be beside the step's time error, where newton_tolerance is auto.",
+     .sentence = "How large the solver's error may be beside the step's time error, where newton_tolerance is auto; in steps of "
+                 "automatic length at most 0.25.",
      .lowest = 1e-3,
      .highest = 100.0,
      .number = [](StepSettings& s) { return &s.newton_share; }},

@@ -82,6 +82,13 @@ double StepEnergy::closure() const {
     return largest > 0.0 ? std::abs(imbalance) / largest : std::abs(imbalance);
 }
 
+void set_stored_energy(const StepEnergy& stored, StepEnergy& energy) {
+    energy.kinetic = stored.kinetic;
+    energy.gravity = stored.gravity;
+    energy.elastic = stored.elastic;
+    energy.contact = stored.contact;
+}
+
 void add_step_energy(const StepEnergy& step, StepEnergy& sum) {
     const StepEnergy before = sum;
     sum = step;

@@ -312,8 +312,11 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
         world.state.cloth.positions.set(range.index_of(i), positions[i]);
         world.scene.script.pin_targets.set(range.index_of(i), positions[i]);
     }
-    std::erase_if(world.state.cloth.grips,
-                  [&](const Grip& grip) { return grip.vertex >= range.first && grip.vertex < range.first + range.count; });
+    const auto is_of_cloth = [&](const auto& held) {
+        return held.vertex >= range.first && held.vertex < range.first + range.count;
+    };
+    std::erase_if(world.state.cloth.grips, is_of_cloth);
+    std::erase_if(world.state.cloth.impacts, is_of_cloth);
     update_points(world.state.cloth);
     implementation_->update_views();
     world.state.contact_energy = 0.0;  // known again after the next step
@@ -334,6 +337,9 @@ void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities)
         const bool free = world.scene.script.free[range.index_of(i)] > 0.0;
         world.state.cloth.velocities.set(range.index_of(i), free ? velocities[i] : Vec3(Vec3::Zero()));
     }
+    std::erase_if(world.state.cloth.impacts, [&](const Impact& impact) {
+        return impact.vertex >= range.first && impact.vertex < range.first + range.count;
+    });
     world.state.past.forget();
     wake(world.rest);
 }

@@ -107,7 +107,11 @@ private:
     };
 
     Slopes slopes(Range range) const {
-        const Vectors d = direction(range);
+        Vectors d = direction(range);
+        // At a kink of the force a difference of the energy is not its slope.
+        for (int i = range.first; i < range.last; ++i) {
+            if (term_.kinks && !is_exact(i)) d.set(i, Vec3::Zero());
+        }
         const double ahead = term_.energy(moved(1.0, d)), behind = term_.energy(moved(-1.0, d));
         double by_forces = 0.0, size = 0.0;
         for (int i = range.first; i < range.last; ++i) {

@@ -137,23 +137,30 @@ private:
         add_scaled(end_.past.unbalanced, 1.0 / work_.base.h, work_.newton.current.residual);
     }
 
-    /// Of backward Euler in contact: the momentum that the last solve left unbalanced in each cloth that nothing holds comes back
-    /// with the other sign, so that what solvers leave does not add up from step to step.
+    /// Whether the span begins with a vertex of the body in an impact.
+    bool is_in_impact(const Body& body) const {
+        const std::vector<Impact>& impacts = start_.cloth.impacts;
+        const auto first = std::lower_bound(impacts.begin(), impacts.end(), body.first,
+                                            [](const Impact& impact, int vertex) { return impact.vertex < vertex; });
+        return first != impacts.end() && first->vertex < body.first + body.count;
+    }
+
+    /// Of backward Euler in contact: the momentum that the last solve left unbalanced in each body that nothing holds comes back
+    /// with the other sign, so that what solvers leave does not add up from step to step. Not in an impact: what a hard contact
+    /// leaves unbalanced there is no momentum that the body lacks.
     void return_unbalanced() {
         const Vectors& unbalanced = start_.past.unbalanced;
         if (unbalanced.padded_size() == 0) return;
-        for (const ClothRange& cloth : scene_.model.cloths) {
-            const int last = cloth.first + cloth.count;
+        for (const Body& body : scene_.model.bodies) {
+            const int last = body.first + body.count;
             Vec3 force = Vec3::Zero();
-            double mass = 0.0;
-            bool held = false;
-            for (int i = cloth.first; i < last; ++i) {
+            bool held = is_in_impact(body);
+            for (int i = body.first; i < last; ++i) {
                 force += unbalanced.at(i);
-                mass += scene_.model.mass[i];
                 held = held || !scene_.is_free(i);
             }
             if (held) continue;
-            for (int i = cloth.first; i < last; ++i) work_.base.velocities.add(i, -length() / mass * force);
+            for (int i = body.first; i < last; ++i) work_.base.velocities.add(i, -length() / body.mass * force);
         }
     }
 
@@ -244,19 +251,6 @@ private:
             settle_impacts(scene_, {work_.newton.current, start_.cloth, length(), length()}, end_.cloth, work_.impacts);
         result_.flows.work += flows.work;
         if (scene_.plan.ledger) result_.flows.dissipated_contact += flows.loss;
-        forget_unbalanced_impacts();
-    }
-
-    /// Of cloth in an impact: what a hard contact leaves unbalanced is no momentum that it lacks.
-    void forget_unbalanced_impacts() {
-        const std::vector<Impact>& impacts = end_.cloth.impacts;
-        for (const ClothRange& cloth : scene_.model.cloths) {
-            const int last = cloth.first + cloth.count;
-            const auto first = std::lower_bound(impacts.begin(), impacts.end(), cloth.first,
-                                                [](const Impact& impact, int vertex) { return impact.vertex < vertex; });
-            if (first == impacts.end() || first->vertex >= last) continue;
-            for (int i = cloth.first; i < last; ++i) end_.past.unbalanced.set(i, Vec3::Zero());
-        }
     }
 
     /// Against the companion of third order with the weights (1 - w)/3, w + 1/3, g/6 instead of w, w, g/2, w = sqrt 2/4.

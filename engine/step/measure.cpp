@@ -29,14 +29,6 @@ void leave_out_ledger(StepEnergy& energy) {
     for (const auto entry : ledger_entries) energy.*entry = unknown;
 }
 
-/// What is stored comes in beside the flows that the report has.
-void set_stored(const StepEnergy& stored, StepEnergy& energy) {
-    energy.kinetic = stored.kinetic;
-    energy.gravity = stored.gravity;
-    energy.elastic = stored.elastic;
-    energy.contact = stored.contact;
-}
-
 void set_contacts(const StepScene& scene, const StagePoint& last, StepReport& report) {
     const std::vector<CoupledBlock>& blocks = last.contact.blocks;
     report.contacts =
@@ -83,11 +75,11 @@ void StepMeasure::set_state(const StepState& state, StepReport& report) const {
     report.smallest_distance = std::numeric_limits<double>::infinity();
     if (!scene_.plan.ledger) leave_out_ledger(report.energy);
     if (!scene_.plan.measures) {
-        set_stored({.kinetic = unknown, .gravity = unknown, .elastic = unknown, .contact = unknown}, report.energy);
+        set_stored_energy({.kinetic = unknown, .gravity = unknown, .elastic = unknown, .contact = unknown}, report.energy);
         report.energy.work = report.largest_strain = report.largest_speed = unknown;
         return;
     }
-    set_stored(energy_of(scene_, state), report.energy);
+    set_stored_energy(energy_of(scene_, state), report.energy);
     report.largest_strain = largest_strain(scene_.model.springs, state.cloth.positions);
     report.largest_speed = largest_speed(state.cloth.velocities, scene_.model.vertex_count());
 }

@@ -157,25 +157,19 @@ void add_accepted(RunTotals& totals, const StepReport& report) {
     add_step_energy(report.energy, totals.energy);
 }
 
-bool is_measured_by_frames(const BuiltScene& built) { return built.scene.step.measure == StepMeasures::automatic; }
+/// Steps measure nothing; with nothing skipped they do.
+bool is_measured_by_frames(const BuiltScene& built) {
+    return built.scene.step.measure == StepMeasures::automatic && built.scene.step.skip;
+}
 
 bool changes_gravity(const Scene& scene) {
     return std::any_of(scene.events.begin(), scene.events.end(),
                        [](const EventSpec& event) { return std::holds_alternative<GravityEvent>(event.what); });
 }
 
-/// Energies that are stored now, J; what flows stays.
-void set_stored(const Simulation& simulation, StepEnergy& energy) {
-    const StepEnergy stored = simulation.energy();
-    energy.kinetic = stored.kinetic;
-    energy.gravity = stored.gravity;
-    energy.elastic = stored.elastic;
-    energy.contact = stored.contact;
-}
-
 /// What a step that measures nothing leaves out, and a frame shows.
 void measure_frame(const Simulation& simulation, StepReport& report) {
-    set_stored(simulation, report.energy);
+    set_stored_energy(simulation.energy(), report.energy);
     report.largest_strain = simulation.largest_strain();
     report.largest_speed = simulation.largest_speed();
 }
@@ -371,7 +365,7 @@ RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings&
     if (hooks.begin) hooks.begin();
     run.make_steps();
     if (is_measured_by_frames(built)) {
-        set_stored(built.simulation, result.totals.energy);
+        set_stored_energy(built.simulation.energy(), result.totals.energy);
         result.measures.energy_gain = std::numeric_limits<double>::quiet_NaN();
     } else if (std::isnan(result.totals.energy.elastic)) {
         result.measures.largest_strain = result.measures.energy_gain = result.totals.energy.elastic;

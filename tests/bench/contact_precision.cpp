@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numbers>
-#include <optional>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -261,7 +263,7 @@ struct Options {
     bool linearised = false;
     int starts = 8;
     int finest = 960;
-    std::string plot;
+    std::string svg;
 };
 
 std::vector<Rule> rules_of(const Options& options) {
@@ -306,6 +308,22 @@ Figures row_of(const Task& task, const Ensemble& run, const Ensemble& reference,
     return row;
 }
 
+/// Of the rows of one size: a line for each scene and rule, a point for each step.
+scenes::Plot plot_of(const Figures& rows, int n) {
+    scenes::Plot plot{.title = "scenes with contact, sheets of " + std::to_string(n) + " vertices a side",
+                      .x_label = "CPU time of 1 s, s",
+                      .y_label = "error of observables, over their scales",
+                      .series = {}};
+    std::map<std::string, std::size_t> places;
+    for (const Figures& row : rows) {
+        if (row["n"] != n || !row.contains("error")) continue;
+        const std::string rule = row["rule"], name = row["scene"].get<std::string>() + ", " + rule;
+        if (places.emplace(name, plot.series.size()).second) plot.series.push_back({name, {}});
+        plot.series[places[name]].points.push_back({row["cpu_s"], row["error"], name + ", " + row["step"].get<std::string>()});
+    }
+    return plot;
+}
+
 void print_row(const Figures& row) {
     std::printf("%-8s %4d %-6s %-12s %8.3f %8.4f %7.4f %6.2f %5d %6.3f  ", row["scene"].get<std::string>().c_str(),
                 row["n"].get<int>(), row["step"].get<std::string>().c_str(), row["rule"].get<std::string>().c_str(),
@@ -320,13 +338,18 @@ void measure_scene(const SceneKind& kind, int n, const Options& options, Figures
     const Ensemble reference = run_ensemble({&kind, n, options.finest, {.name = "reference", .share = 0.1}}, options.starts);
     if (!reference.failure.empty()) throw std::runtime_error(kind.name + ": the reference failed: " + reference.failure);
     const double noise = together(errors_of(reference.deviation, scales_of(reference)));
-    std::vector<Figures> own;
+    std::vector<Figures> own, failed;
     for (const int steps : options.steps) {
         for (const Rule& rule : rules_of(options)) {
             const Task task{&kind, n, steps, rule};
             const Ensemble run = run_ensemble(task, options.starts);
             if (!run.failure.empty()) {
                 std::printf("%-8s %4d 1/%d %s: %s\n", kind.name.c_str(), n, steps, rule.name.c_str(), run.failure.c_str());
+                failed.push_back({{"scene", kind.name},
+                                  {"n", n},
+                                  {"step", "1/" + std::to_string(steps)},
+                                  {"rule", rule.name},
+                                  {"failure", run.failure}});
                 continue;
             }
             own.push_back(row_of(task, run, reference, noise));
@@ -339,7 +362,8 @@ void measure_scene(const SceneKind& kind, int n, const Options& options, Figures
         if (row["front"] == "*")
             std::printf("  %s %s", row["step"].get<std::string>().c_str(), row["rule"].get<std::string>().c_str());
     std::printf("\n");
-    for (Figures& row : own) rows.push_back(std::move(row));
+    for (const auto& list : {own, failed})
+        for (const Figures& row : list) rows.push_back(row);
 }
 
 Figures measure(const Options& options) {
@@ -353,6 +377,7 @@ Figures measure(const Options& options) {
         for (const SceneKind& kind : kinds)
             if (std::find(options.scenes.begin(), options.scenes.end(), kind.name) != options.scenes.end())
                 measure_scene(kind, n, options, rows);
+    if (!options.svg.empty()) scenes::write_whole_file(options.svg, scenes::plot_svg(plot_of(rows, options.sizes.back())));
     return rows;
 }
 
@@ -362,13 +387,22 @@ int main(int argc, char** argv) {
     CLI::App app("Error of observables against CPU time, by step and stopping rule, in scenes with contact.",
                  "percale_contact_precision");
     Options options;
-    app.add_option("--scenes", options.scenes, "sphere, scan, incline, poncho, fold")->capture_default_str();
+    const CLI::Validator in_frames(
+        [](const std::string& text) {
+            const int rate = std::atoi(text.c_str());
+            return rate > 0 && rate % frames_per_second == 0 ? "" : text + " is no multiple of 30";
+        },
+        "a multiple of 30");
+    app.add_option("--scenes", options.scenes, "sphere, scan, incline, poncho, fold")
+        ->capture_default_str()
+        ->check(CLI::IsMember(options.scenes));
     app.add_option("--sizes", options.sizes, "vertices along a side")->capture_default_str()->check(CLI::Range(9, 257));
-    app.add_option("--steps", options.steps, "steps a second, multiples of 30")->capture_default_str();
+    app.add_option("--steps", options.steps, "steps a second")->capture_default_str()->check(in_frames);
     app.add_option("--shares", options.shares, "StepSettings::newton_share of backward Euler")->capture_default_str();
     app.add_option("--tr-bdf2", options.tr_shares, "and of TR-BDF2");
     app.add_flag("--linearised", options.linearised, "backward Euler with one iteration, too");
     app.add_option("--starts", options.starts, "disturbed starts of each row")->capture_default_str()->check(CLI::Range(1, 64));
-    app.add_option("--finest", options.finest, "steps a second of the reference")->capture_default_str();
+    app.add_option("--finest", options.finest, "steps a second of the reference")->capture_default_str()->check(in_frames);
+    app.add_option("--svg", options.svg, "draws error against CPU time of the last size to this file");
     return percale::test::run_bench(app, argc, argv, [&] { return measure(options); });
 }

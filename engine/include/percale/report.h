@@ -89,6 +89,9 @@ inline constexpr std::array<double StepEnergy::*, 6> ledger_entries = {
 /// Adds what flowed in another step (work and the ledger) to `sum`; its energies become those at the end of that step.
 void add_step_energy(const StepEnergy& step, StepEnergy& sum);
 
+/// Takes over the energies that are stored, without work and ledger.
+void set_stored_energy(const StepEnergy& stored, StepEnergy& energy);
+
 /// What one step did. A failed step leaves positions and velocities as they were. Energy, strain and speed are NaN where
 /// StepSettings::measure leaves them out.
 struct StepReport {

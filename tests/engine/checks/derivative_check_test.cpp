@@ -91,6 +91,38 @@ TEST_CASE("A matrix that is not the derivative is named by the two vertices, unl
     }
 }
 
+TEST_CASE("At a kink, where a term says so, differences of the energy are not held against the force, elsewhere they are") {
+    Random random(4);
+    const Vectors places = to_vectors(random_points(random, 40, 0.5));
+    // E = k/2 max(0, x - c)^2 of each vertex; vertex 3 lies less than a reach beyond its c, vertex 5 has a wrong force.
+    const auto depth = [=](const Vectors& x, int i) { return std::max(0.0, x.x[i] - places.x[i] + (i == 3 ? 2e-7 : 1e-4)); };
+    const auto term_with = [=](double wrong, int kink) {
+        return CheckedTerm{.name = "kinked",
+                           .add_forces =
+                               [=](const Vectors& x, Vectors& forces) {
+                                   for (int i = 0; i < 40; ++i) forces.add(i, Vec3(-30.0 * depth(x, i), 0.0, 0.0));
+                                   forces.add(5, Vec3(wrong, 0.0, 0.0));
+                               },
+                           .energy =
+                               [=](const Vectors& x) {
+                                   double sum = 0.0;
+                                   for (int i = 0; i < 40; ++i) sum += 15.0 * depth(x, i) * depth(x, i);
+                                   return sum;
+                               },
+                           .multiply = {},
+                           .exact = [=](int i) { return i != kink; },
+                           .kinks = true,
+                           .internal = false};
+    };
+    const auto found = [&](double wrong, int kink) {
+        return find_wrong_derivative({term_with(wrong, kink)}, {.positions = places, .count = 40, .reach = 1e-6, .dt = dt});
+    };
+    CHECK_FALSE(found(0.0, 3).has_value());
+    CHECK(found(0.0, -1).has_value());
+    REQUIRE(found(0.1, 3).has_value());
+    CHECK(found(0.1, 3)->vertex == 5);
+}
+
 TEST_CASE("What a term does not claim is not checked") {
     CheckedTerm term = Chain{.wrong_force = 0.3, .wrong_matrix = 1.0}.term();
     term.internal = false;

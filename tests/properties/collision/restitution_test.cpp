@@ -82,6 +82,25 @@ TEST_CASE("Cloth that bounces comes to rest") {
     for (const Vec3& x : simulation.positions(cloth)) CHECK((x.y() > 0.5 * h && x.y() < 1.1 * h));
 }
 
+TEST_CASE("Cloth that is placed or pushed anew is in no impact any more") {
+    for (const bool placed : {false, true}) {
+        Simulation simulation({.time_step = 1.0 / 960.0}, backends().back().make_detector());
+        const ClothId cloth = simulation.add_cloth(make_grid(0.3, 0.3, 6, 6), {}, {.translation = {0.0, 0.006, 0.0}});
+        simulation.add_obstacle(make_plane(1.0), {}, {.restitution = 1.0});
+        simulation.set_velocities(cloth, std::vector<Vec3>(36, Vec3(0.0, -2.0, 0.0)));
+        while (simulation.step().contacts == 0) REQUIRE(simulation.time() < 0.1);
+        REQUIRE(simulation.velocities(cloth)[0].y() < 0.0);  // on its way: it would be thrown back
+        const auto shown = simulation.positions(cloth);
+        const std::vector<Vec3> places(shown.begin(), shown.end());
+        if (placed) simulation.set_positions(cloth, places);
+        simulation.set_velocities(cloth, std::vector<Vec3>(36, Vec3::Zero()));
+        for (int k = 0; k < 50; ++k) {
+            REQUIRE(simulation.step().ok());
+            CHECK(simulation.velocities(cloth)[0].y() < 1.0);
+        }
+    }
+}
+
 TEST_CASE("An obstacle's restitution is a share") {
     for (const double restitution : {-0.1, 1.1}) {
         Simulation simulation({}, backends().back().make_detector());
