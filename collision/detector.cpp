@@ -7,10 +7,10 @@
 
 #include "geometry/cut_floor.h"
 #include "lists/candidate_state.h"
+#include "lists/feature_minima.h"
 #include "lists/list_passes.h"
 #include "lists/pack_measure.h"
 #include "percale/certify.h"
-#include "percale/workers.h"
 #include "self/self_contact_detection.h"
 #include "tolerances.h"
 #include "untangle/untangle.h"
@@ -78,13 +78,13 @@ public:
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
         if (!lists_->empty()) forget_contacts(start);
-        lists_->cover({.from = start, .to = predicted, .fraction = {0.0, 1.0}}, obstacles_);
+        lists_->cover({.from = start, .to = predicted, .fraction = {0.0, 1.0}}, obstacles_, workers_);
         if (between_cloths_) between_cloths_->refresh(start, predicted);
     }
 
     void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, positions);
-        lists_->cover({.from = positions, .to = positions, .fraction = {fraction, fraction}}, obstacles_);
+        lists_->cover({.from = positions, .to = positions, .fraction = {fraction, fraction}}, obstacles_, workers_);
         rows.clear();
         smallest_distance_ = std::numeric_limits<double>::infinity();
         if (!lists_->empty()) add_rows(positions, fraction, rows);
@@ -94,7 +94,7 @@ public:
     double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction fraction) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, from);
         const ClothMove move{.from = from, .to = to, .fraction = fraction};
-        double safe = lists_->cover(move, obstacles_);
+        double safe = lists_->cover(move, obstacles_, workers_);
         if (!lists_->empty()) safe = cut(move, safe);
         return between_cloths_ ? std::min(safe, between_cloths_->largest_safe_fraction(from, to)) : safe;
     }
@@ -142,15 +142,13 @@ private:
             if (list.quiet_until <= list.travel) near_clusters_.push_back(&list);
         }
         const std::span<ClusterList* const> near = near_clusters_;
-        const std::size_t grain = workers_ ? tolerances::clusters_a_part : near.size() + 1;
-        const std::size_t parts = (near.size() + grain - 1) / grain;
+        const std::size_t grain = workers_ ? tolerances::clusters_a_part : near.size() + 1,
+                          parts = stretch_count(near.size(), grain);
         if (searches_.size() < parts) searches_.resize(parts);
-        auto search = [&](std::size_t part, int) {
-            RowSearch& own = searches_[part];
-            const auto clusters = near.subspan(part * grain, std::min(grain, near.size() - part * grain));
-            own.run(*this, clusters, positions, fraction, parts == 1 ? rows : own.rows);
-        };
-        run_parts(workers_, static_cast<int>(parts), search);
+        for_stretches(workers_, near.size(), grain, [&](std::size_t first, std::size_t last, int) {
+            RowSearch& own = searches_[first / grain];
+            own.run(*this, near.subspan(first, last - first), positions, fraction, parts == 1 ? rows : own.rows);
+        });
         for (std::size_t part = 0; part < parts; ++part) {
             const RowSearch& own = searches_[part];
             smallest_distance_ = std::min(smallest_distance_, own.smallest_distance);
@@ -165,8 +163,7 @@ private:
         return std::span<const int>(found).first(static_cast<std::size_t>(count));
     }
 
-    /// The rows of some clusters. Each pass asks memory for what the next places need: lists, packs and the obstacle's surface
-    /// are too large for the nearest caches.
+    /// The rows of some clusters. Each pass asks memory for what the next places need: it is too much for the nearest caches.
     class RowSearch {
     public:
         ContactRows rows;  // where the caller wants them here
@@ -179,10 +176,13 @@ private:
             find_candidates(clusters);
             select_packs(detector, positions);
             measure_selected(detector, {positions, positions, {fraction, fraction}});
+            minima_.begin(to);
             for (std::size_t i = 0; i < lanes_.size(); ++i) {
                 fetch_ahead(detector, i);
-                smallest_distance = std::min(smallest_distance, detector.add_lane(positions, fraction, lanes_[i], to));
+                if (i > 0 && &lanes_[i].place.feature() != &lanes_[i - 1].place.feature()) minima_.next_feature(to);
+                smallest_distance = std::min(smallest_distance, detector.add_lane(positions, fraction, lanes_[i], minima_, to));
             }
+            minima_.next_feature(to);
             for (ClusterList* list : clusters) CandidateLists::set_smallest_bounds(*list);
         }
 
@@ -254,6 +254,7 @@ private:
             }
         }
 
+        FeatureMinima minima_;
         std::vector<int> found_;
         std::vector<SelectedPack> candidates_, selected_;
         std::vector<SelectedLane> lanes_;
@@ -274,18 +275,14 @@ private:
         for (const auto& obstacle : obstacles_)
             obstacle_displacement = std::max(obstacle_displacement, obstacle->largest_displacement());
         obstacle_displacement *= move.fraction.to - move.fraction.from;
-        // Stretches of clusters, the same for any number of threads; within one, what a cluster allows is all that the next ones
-        // look at.
-        const std::size_t count = lists_->lists().size();
-        const std::size_t grain = tolerances::clusters_a_cut;
-        cuts_.resize((count + grain - 1) / grain);
-        auto cut_part = [&](int part, int) {
-            StretchCut& own = cuts_[static_cast<std::size_t>(part)];
+        // Stretches are the same for any number of threads; within one, what a cluster allows is all that the next ones look at.
+        constexpr std::size_t grain = tolerances::clusters_a_cut;
+        cuts_.resize(stretch_count(lists_->lists().size(), grain));
+        for_stretches(workers_, lists_->lists().size(), grain, [&](std::size_t first, std::size_t last, int) {
+            StretchCut& own = cuts_[first / grain];
             own.safe = safe;
-            const std::size_t first = static_cast<std::size_t>(part) * grain;
-            for (std::size_t i = first; i < std::min(first + grain, count); ++i) cut_cluster(move, obstacle_displacement, i, own);
-        };
-        run_parts(workers_, static_cast<int>(cuts_.size()), cut_part);
+            for (std::size_t i = first; i < last; ++i) cut_cluster(move, obstacle_displacement, i, own);
+        });
         for (const StretchCut& own : cuts_) safe = std::min(safe, own.safe);
         return safe;
     }
@@ -332,7 +329,8 @@ private:
     }
 
     /// The distance of the pair.
-    double add_lane(std::span<const Vec3> positions, double fraction, const SelectedLane& at, ContactRows& rows) const {
+    double add_lane(std::span<const Vec3> positions, double fraction, const SelectedLane& at, FeatureMinima& minima,
+                    ContactRows& rows) const {
         const ContactPair pair = pair_of(at);
         const double thickness = thickness_[pair.cloth[0]];
         const PairContact contact = pair_contact(pair, positions, *obstacles_[pair.obstacle], fraction);
@@ -344,7 +342,9 @@ private:
             list->packs.activate(pack, at.lane, thickness);
             list->has_standing = true;
         }
-        if ((list->packs.at[pack].standing >> at.lane & 1U) != 0) add_row(pair, contact, thickness, rows);
+        if ((list->packs.at[pack].standing >> at.lane & 1U) == 0) return contact.distance;
+        add_row(pair, contact, thickness, rows);
+        minima.add(contact.local_minimum);
         return contact.distance;
     }
 

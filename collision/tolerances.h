@@ -239,6 +239,15 @@ constexpr int most_uneven_split = 8;
 /// boxes are first held against.
 constexpr double quantised_box = 1e-6;
 
+/// Cosine between the directions of two rows of one cloth feature from which on a minimum of the distance takes the place of a
+/// row that is none any more. Smaller: forces turn suddenly where cloth passes an edge. Larger: cloth that slides over an edge is
+/// pushed twice, which sets a sheet that slides on a plane of two triangles trembling.
+constexpr double replaced_direction = 0.9;
+
+/// Vertices and clusters in a thread's part of a pass over all of them, and clusters in one of lists that are made anew. Cost
+/// alone. More: threads wait for the last part. Fewer: parts cost more to hand out than to do.
+constexpr unsigned vertices_a_part = 1024, clusters_a_pass = 128, clusters_a_build = 4;
+
 /// Clusters in a thread's part: of rows (cost alone), and of cuts, within which what one cluster allows narrows the search of the
 /// next. More: threads have to wait for the last part. Fewer: cuts measure pairs that an earlier cluster would have ruled out.
 constexpr unsigned clusters_a_part = 8, clusters_a_cut = 32;

@@ -283,6 +283,10 @@ constexpr double slope_left_share = 0.6;
 /// Steps by the secant, the longest; and the least fall of the slope, as a share of it, that the secant divides by.
 constexpr double longest_secant_step = 3.0, least_secant_fall = 0.1;
 
+/// Of a slope that has turned, what rows must make that were out of reach, for another direction to be found with them in the
+/// matrix. Larger: the step is shortened instead, again and again while sheets land. Smaller: directions are found in vain.
+constexpr double foreseen_slope_share = 0.5;
+
 /// Share of what a change may be (StepSettings::newton_share) where it is only estimated. Larger: changes that are not small are
 /// taken for small. Smaller: more iterations.
 constexpr double estimate_safety = 0.4;
@@ -306,7 +310,8 @@ constexpr double negligible_allowance_share = 0.1;
 /// How much more a cloth's worst vertex may change than its mean: times the share of its time error, times what means nothing.
 constexpr double worst_vertex_factor = 2.0, worst_vertex_floor_factor = 10.0;
 
-/// Energy norm, relative. Accuracy of the linear solve. Larger: more Newton iterations. Smaller: each is dearer.
+/// Energy norm, relative. Accuracy of the linear solve. Larger: more Newton iterations, and sheets that slide tremble. Smaller:
+/// each is dearer.
 constexpr double linear_energy_accuracy = 0.05;
 
 /// Relative residual at which a linear solve ends, whatever its energy.

@@ -1,6 +1,7 @@
 #include "lists/candidate_lists.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -17,6 +18,16 @@ double skin(double thickness, double displacement) {
 
 /// How far a point inside a box is from its sides; negative outside.
 double depth(const Box& box, const Vec3& x) { return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff()); }
+
+/// Whether the plane keeps the pack out of the thickness of vertices that stay in their boxes.
+bool stays_above(const PackHull& hull, std::span<const int> vertices, const std::vector<Box>& boxes, double thickness) {
+    const double enough = hull.offset + (1.0 + tolerances::hull_slack) * thickness;
+    return std::all_of(vertices.begin(), vertices.end(), [&](int vertex) {
+        const Box& box = boxes[vertex];
+        const Vec3 twice_centre = box.low + box.high, sides = box.high - box.low;
+        return 0.5 * (hull.normal.dot(twice_centre) - hull.normal.cwiseAbs().dot(sides)) > enough;
+    });
+}
 
 }  // namespace
 
@@ -57,8 +68,7 @@ CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<co
       memory_(std::move(memory)),
       displacement_(thickness_.size(), 0.0),
       cluster_displacement_(clusters_.clusters.size(), 0.0),
-      moved_(thickness_.size(), 0.0),
-      vertex_boxes_(thickness_.size()) {
+      moved_(thickness_.size(), 0.0) {
     memory_.lists.resize(clusters_.clusters.size());
     for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
         const std::vector<int>& all = clusters_.clusters[i].all_vertices;
@@ -107,73 +117,70 @@ Box CandidateLists::set_boxes(std::size_t cluster, const ClothMove& move) {
 }
 
 /// Lists a cloth feature with those packs of its kind in near patches that can come within the thickness.
-void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list) {
+void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list,
+                               Build& build) {
     const std::span<const int> vertices = pair.vertices();
     Box room, now;
     for (const int vertex : vertices) {
-        room.add(vertex_boxes_[vertex]);
+        room.add(build.vertex_boxes[vertex]);
         now.add(move.from[vertex]);
     }
     room.grow(list.thickness);
     const ObstaclePacks& packs = obstacle.packs();
     const int feature = static_cast<int>(list.features.size());
     const std::size_t before = list.packs.size();
-    for (const int patch : near_patches_) {
+    for (const int patch : build.patches) {
         if (!packs.box[patch].overlaps(room)) continue;
         const auto [first, last] = packs.packs_of(patch, pair.kind);
         for (int number = first; number < last; ++number) {
             const PackHull& hull = packs.hulls[number];
             const Box box = hull.box();
-            if (!box.overlaps(room) || stays_above(hull, vertices, list.thickness)) continue;
+            if (!box.overlaps(room) || stays_above(hull, vertices, build.vertex_boxes, list.thickness)) continue;
             const double apart = std::max(box.gap(now), height_above(hull, vertices, move.from));
             list.packs.add(feature, number, apart, list.thickness);
         }
     }
     if (list.packs.size() == before) return;
     list.features.push_back(pair);
-    listed_ += static_cast<long>(list.packs.size() - before);
+    build.listed += static_cast<long>(list.packs.size() - before);
 }
 
-/// Whether the plane keeps the pack out of the thickness of vertices that stay in their boxes.
-bool CandidateLists::stays_above(const PackHull& hull, std::span<const int> vertices, double thickness) const {
-    const double enough = hull.offset + (1.0 + tolerances::hull_slack) * thickness;
-    return std::all_of(vertices.begin(), vertices.end(), [&](int vertex) {
-        const Box& box = vertex_boxes_[vertex];
-        const Vec3 twice_centre = box.low + box.high, sides = box.high - box.low;
-        return 0.5 * (hull.normal.dot(twice_centre) - hull.normal.cwiseAbs().dot(sides)) > enough;
-    });
-}
-
-void CandidateLists::add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle) {
+void CandidateLists::add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle,
+                                  Build& build) {
     ClusterList& list = memory_.lists[cluster];
     const ClothCluster& features = clusters_.clusters[cluster];
-    for (std::size_t k = 0; k < features.all_vertices.size(); ++k) vertex_boxes_[features.all_vertices[k]] = list.boxes[k];
     for (const int vertex : features.vertices) {
-        add_packs({.kind = PairKind::vertex_face, .cloth = {vertex, -1, -1}, .obstacle = obstacle_number}, move, obstacle, list);
+        add_packs({.kind = PairKind::vertex_face, .cloth = {vertex, -1, -1}, .obstacle = obstacle_number}, move, obstacle, list,
+                  build);
     }
     for (const auto& [a, b] : features.edges) {
-        add_packs({.kind = PairKind::edge_edge, .cloth = {a, b, -1}, .obstacle = obstacle_number}, move, obstacle, list);
+        add_packs({.kind = PairKind::edge_edge, .cloth = {a, b, -1}, .obstacle = obstacle_number}, move, obstacle, list, build);
     }
     for (const int face : features.triangles) {
         add_packs({.kind = PairKind::face_vertex,
                    .cloth = triangles_[face],
                    .edge_bits = clusters_.edge_owner_bits[face],
                    .obstacle = obstacle_number},
-                  move, obstacle, list);
+                  move, obstacle, list, build);
     }
 }
 
-void CandidateLists::set_displacements(const ClothMove& move) {
-    std::fill(cluster_displacement_.begin(), cluster_displacement_.end(), 0.0);
-    if (move.from.data() == move.to.data()) {
-        std::fill(displacement_.begin(), displacement_.end(), 0.0);
-        return;
-    }
-    for (std::size_t i = 0; i < displacement_.size(); ++i) displacement_[i] = (move.to[i] - move.from[i]).norm();
-    for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
-        for (const int vertex : vertices_of(i))
-            cluster_displacement_[i] = std::max(cluster_displacement_[i], displacement_[vertex]);
-    }
+void CandidateLists::set_displacements(const ClothMove& move, Workers* workers) {
+    const bool stays = move.from.data() == move.to.data();
+    if (stays && !displaced_) return;
+    displaced_ = !stays;
+    const auto of_vertices = [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t i = first; i < last; ++i) displacement_[i] = (move.to[i] - move.from[i]).norm();
+    };
+    const auto of_clusters = [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t i = first; i < last; ++i) {
+            double most = 0.0;
+            for (const int vertex : vertices_of(i)) most = std::max(most, displacement_[vertex]);
+            cluster_displacement_[i] = most;
+        }
+    };
+    for_stretches(workers, displacement_.size(), tolerances::vertices_a_part, of_vertices);
+    for_stretches(workers, memory_.lists.size(), tolerances::clusters_a_pass, of_clusters);
 }
 
 /// Whether all cloth stays away from all obstacles' boxes. One look at the distance allows for that displacement, so that cloth
@@ -201,38 +208,46 @@ bool CandidateLists::is_out_of_reach(const ClothMove& move, const Obstacles& obs
     return memory_.room > 0.0 && stays();
 }
 
-double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles) {
+double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles, Workers* workers) {
     const int version = total_version(obstacles);
     if (is_out_of_reach(move, obstacles, version)) return 1.0;
-    advance(move.from, move.fraction.from, obstacles);
-    set_displacements(move);
-    dirty_.clear();
-    standing_pairs_.clear();
-    for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
-        if (covers(i, move, version)) continue;
-        dirty_.push_back(i);
-        collect_standing(i, obstacles);
-        memory_.lists[i].version = version;
-    }
+    advance(move.from, move.fraction.from, obstacles, workers);
+    set_displacements(move, workers);
+    find_dirty(move, version, workers);
     if (dirty_.empty()) return 1.0;
+    standing_pairs_.clear();
+    for (const std::size_t i : dirty_) collect_standing(i, obstacles);
     double fraction = 1.0;
     ClothMove covered = move;
-    while (!rebuild(covered, obstacles, fraction < tolerances::least_covered)) {
+    while (!rebuild(covered, obstacles, fraction < tolerances::least_covered, workers)) {
         fraction *= 0.5;
         shortened_.resize(move.from.size());
         for (std::size_t i = 0; i < shortened_.size(); ++i) shortened_[i] = move.from[i] + fraction * (move.to[i] - move.from[i]);
         covered.to = shortened_;
-        set_displacements(covered);
+        set_displacements(covered, workers);
     }
-    if (fraction < 1.0) set_displacements(move);
+    if (fraction < 1.0) set_displacements(move, workers);
     activate_again(obstacles);
     memory_.empty =
         std::all_of(memory_.lists.begin(), memory_.lists.end(), [](const ClusterList& list) { return list.features.empty(); });
     return fraction;
 }
 
+/// The clusters whose lists are not good for the move; from now on they count as lists of this version.
+void CandidateLists::find_dirty(const ClothMove& move, int version, Workers* workers) {
+    uncovered_.resize(memory_.lists.size());
+    for_stretches(workers, uncovered_.size(), tolerances::clusters_a_pass, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t i = first; i < last; ++i) uncovered_[i] = covers(i, move, version) ? 0 : 1;
+    });
+    dirty_.clear();
+    for (std::size_t i = 0; i < uncovered_.size(); ++i) {
+        if (uncovered_[i] == 0) continue;
+        dirty_.push_back(i);
+        memory_.lists[i].version = version;
+    }
+}
+
 void CandidateLists::empty_dirty(const ClothMove& move) {
-    listed_ = 0;
     asked_.clear();
     for (const std::size_t i : dirty_) {
         ClusterList& list = memory_.lists[i];
@@ -252,23 +267,40 @@ void CandidateLists::set_smallest_bounds(ClusterList& list) {
 }
 
 /// Builds the dirty lists anew; false (and lists of no use) if they would hold too many packs, unless `whatever_it_takes`.
-bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes) {
+bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes, Workers* workers) {
     const long most = whatever_it_takes
                           ? std::numeric_limits<long>::max()
                           : tolerances::most_packs + tolerances::most_packs_per_vertex * static_cast<long>(displacement_.size());
     empty_dirty(move);
+    found_.resize(obstacles.size());
+    for (std::size_t number = 0; number < obstacles.size(); ++number) obstacles[number]->find(asked_, found_[number]);
+    builds_.resize(workers ? workers->threads() : 1);
+    // Once there are too many, there are too many whoever counts them and in whatever order.
+    std::atomic<long> listed = 0;
+    for_stretches(workers, dirty_.size(), tolerances::clusters_a_build, [&](std::size_t first, std::size_t last, int slot) {
+        Build& build = builds_[slot];
+        build.vertex_boxes.resize(displacement_.size());
+        build.listed = 0;
+        for (std::size_t k = first; k < last && listed + build.listed <= most; ++k) build_list(k, move, obstacles, build);
+        listed += build.listed;
+    });
+    return listed <= most;
+}
+
+/// The list of dirty_[dirty].
+void CandidateLists::build_list(std::size_t dirty, const ClothMove& move, const Obstacles& obstacles, Build& build) {
+    const std::size_t cluster = dirty_[dirty];
+    ClusterList& list = memory_.lists[cluster];
+    const std::vector<int>& vertices = clusters_.clusters[cluster].all_vertices;
+    for (std::size_t k = 0; k < vertices.size(); ++k) build.vertex_boxes[vertices[k]] = list.boxes[k];
     for (std::size_t number = 0; number < obstacles.size(); ++number) {
-        obstacles[number]->find(asked_, found_);
-        for (std::size_t k = 0; k < dirty_.size(); ++k) {
-            const int first = found_.start[k], count = found_.start[k + 1] - first;
-            if (count == 0) continue;
-            near_patches_ = std::span<const int>(found_.ids).subspan(first, count);
-            add_features(dirty_[k], static_cast<int>(number), move, *obstacles[number]);
-            if (listed_ > most) return false;
-        }
+        const IdLists& found = found_[number];
+        const int first = found.start[dirty], count = found.start[dirty + 1] - first;
+        if (count == 0) continue;
+        build.patches = std::span<const int>(found.ids).subspan(first, count);
+        add_features(cluster, static_cast<int>(number), move, *obstacles[number], build);
     }
-    for (const std::size_t i : dirty_) set_smallest_bounds(memory_.lists[i]);
-    return true;
+    set_smallest_bounds(list);
 }
 
 void CandidateLists::collect_standing(std::size_t cluster, const Obstacles& obstacles) {
@@ -310,23 +342,31 @@ void CandidateLists::activate(ClusterList& list, std::size_t feature, int place)
     }
 }
 
-void CandidateLists::advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles) {
+void CandidateLists::advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles, Workers* workers) {
     double displacement = 0.0;
     for (const auto& obstacle : obstacles) displacement = std::max(displacement, obstacle->largest_displacement());
     displacement *= std::abs(fraction - memory_.seen_fraction);
-    double most = 0.0;
-    for (std::size_t i = 0; i < moved_.size(); ++i) {
-        moved_[i] = (positions[i] - memory_.seen[i]).squaredNorm();
-        most = std::max(most, moved_[i]);
-    }
     memory_.seen_fraction = fraction;
-    if (most == 0.0 && displacement == 0.0) return;
-    for (std::size_t i = 0; i < memory_.lists.size(); ++i) {
-        double square = 0.0;
-        for (const int vertex : vertices_of(i)) square = std::max(square, moved_[vertex]);
-        memory_.lists[i].travel += std::sqrt(square) + displacement;
-    }
-    std::copy(positions.begin(), positions.end(), memory_.seen.begin());
+    constexpr std::size_t grain = tolerances::vertices_a_part;
+    most_moved_.assign(stretch_count(moved_.size(), grain), 0.0);
+    for_stretches(workers, moved_.size(), grain, [&](std::size_t first, std::size_t last, int) {
+        double most = 0.0;
+        for (std::size_t i = first; i < last; ++i) {
+            moved_[i] = (positions[i] - memory_.seen[i]).squaredNorm();
+            most = std::max(most, moved_[i]);
+        }
+        most_moved_[first / grain] = most;
+        if (most > 0.0) std::copy(positions.begin() + first, positions.begin() + last, memory_.seen.begin() + first);
+    });
+    const bool moved = std::any_of(most_moved_.begin(), most_moved_.end(), [](double most) { return most > 0.0; });
+    if (!moved && displacement == 0.0) return;
+    for_stretches(workers, memory_.lists.size(), tolerances::clusters_a_pass, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t i = first; i < last; ++i) {
+            double square = 0.0;
+            for (const int vertex : vertices_of(i)) square = std::max(square, moved_[vertex]);
+            memory_.lists[i].travel += std::sqrt(square) + displacement;
+        }
+    });
 }
 
 }  // namespace percale

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/cloth_clusters.h"
+#include "geometry/stretches.h"
 #include "lists/contact_pair.h"
 #include "obstacle/obstacle.h"
 #include "tolerances.h"
@@ -96,10 +97,10 @@ public:
 
     /// Makes every list good for all states between two, and moves the lists' time to `move.from`. A move so long that its lists
     /// would not fit into memory is covered in part: returns the fraction of it, from its start, that the lists are good for.
-    double cover(const ClothMove& move, const Obstacles& obstacles);
+    double cover(const ClothMove& move, const Obstacles& obstacles, Workers* workers = nullptr);
 
     /// Tells the lists that cloth and obstacles are here now: shortens the bounds by what they moved.
-    void advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles);
+    void advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles, Workers* workers = nullptr);
 
     /// Nothing is near any cluster.
     bool empty() const { return memory_.empty; }
@@ -115,18 +116,26 @@ private:
     std::span<const int> vertices_of(std::size_t cluster) const {
         return std::span(vertices_).subspan(vertex_start_[cluster], vertex_start_[cluster + 1] - vertex_start_[cluster]);
     }
+    /// What a cluster's list is built with.
+    struct Build {
+        std::vector<Box> vertex_boxes;  // of the cluster's vertices
+        std::span<const int> patches;   // near it, ascending
+        long listed = 0;                // packs so far
+    };
+
     bool covers(std::size_t cluster, const ClothMove& move, int version);
     Box set_boxes(std::size_t cluster, const ClothMove& move);
-    void add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle);
-    void add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list);
-    bool stays_above(const PackHull& hull, std::span<const int> vertices, double thickness) const;
-    bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes);
+    void add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle, Build& build);
+    void add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list, Build& build);
+    void find_dirty(const ClothMove& move, int version, Workers* workers);
+    bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes, Workers* workers);
+    void build_list(std::size_t dirty, const ClothMove& move, const Obstacles& obstacles, Build& build);
     void empty_dirty(const ClothMove& move);
     void collect_standing(std::size_t cluster, const Obstacles& obstacles);
     void activate_again(const Obstacles& obstacles);
     void activate(ClusterList& list, std::size_t feature, int place) const;
     bool is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version);
-    void set_displacements(const ClothMove& move);
+    void set_displacements(const ClothMove& move, Workers* workers);
 
     std::vector<Triangle> triangles_;
     std::vector<double> thickness_;
@@ -134,15 +143,16 @@ private:
     std::vector<int> vertex_start_, vertices_;  // all vertices of each cluster, one after the other
     ListsMemory memory_;
     std::vector<double> displacement_, cluster_displacement_;  // m
+    bool displaced_ = false;                                   // one of them may not be 0
     std::vector<double> moved_;                                // m^2, since the last advance
-    std::vector<Box> vertex_boxes_;                            // valid while a cluster is built
-    std::span<const int> near_patches_;                        // likewise, ascending
+    std::vector<double> most_moved_;                           // m^2, of stretches of vertices
+    std::vector<Build> builds_;                                // one a slot
     std::vector<std::size_t> dirty_;
+    std::vector<unsigned char> uncovered_;  // clusters
     std::vector<Box> asked_;
     std::vector<std::pair<std::size_t, ContactPair>> standing_pairs_;  // of the lists being replaced, with their clusters
-    IdLists found_;
-    std::vector<Vec3> shortened_;  // the end of the part of a long move that is covered
-    long listed_ = 0;              // packs, while lists are built
+    std::vector<IdLists> found_;                                       // of each obstacle
+    std::vector<Vec3> shortened_;                                      // the end of the part of a long move that is covered
 };
 
 }  // namespace percale

@@ -22,15 +22,16 @@ void divide_by_mass(const StepScene& scene, const Vectors& residual, Vectors& di
     }
 }
 
-void fill_system(const StageEquations& equations) {
+void fill_system(const StageEquations& equations, const ForeseenRows* foreseen) {
     const ImplicitStage& stage = equations.stage();
     NewtonSpace& space = equations.space();
     const StagePoint& point = space.current;
     StageTimer timer(equations.times().setup);
-    space.solver.fill(point.forces.spring_terms, point.contact.blocks);
+    space.solver.fill(point.forces.spring_terms, foreseen ? foreseen->blocks : point.contact.blocks);
     space.solver.add_enclosed(point.forces.enclosed, point.positions);
     space.right_side.resize(stage.scene.model.vertex_count());
     add_scaled(space.right_side, -1.0, point.residual);
+    if (foreseen) foreseen->add_to(stage.scene.script.free, space.right_side);
     if (!stage.scene.plan.obstacles_move || equations.arrived()) return;
     const double rate = (stage.span.to - point.fraction) / stage.base.h;
     add_obstacle_advance(point.rows, point.contact, rate, stage.scene.script.free, space.right_side);
@@ -53,7 +54,7 @@ void correct_translation(const StepScene& scene, const Vectors& residual, Vector
 
 }  // namespace
 
-Direction newton_direction(const StageEquations& equations, const SolveTarget& target) {
+Direction newton_direction(const StageEquations& equations, const SolveTarget& target, const ForeseenRows* foreseen) {
     const ImplicitStage& stage = equations.stage();
     NewtonSpace& space = equations.space();
     const StagePoint& point = space.current;
@@ -62,10 +63,11 @@ Direction newton_direction(const StageEquations& equations, const SolveTarget& t
         divide_by_mass(stage.scene, point.residual, space.direction);
         return {};
     }
-    fill_system(equations);
+    fill_system(equations, foreseen);
     StageTimer timer(equations.times().solve);
     const SolveReport solved = space.solver.solve(space.right_side, target, space.direction);
-    if (!stage.scene.plan.wind && point.rows.size() == 0) correct_translation(stage.scene, point.residual, space.direction);
+    const bool springs_alone = !stage.scene.plan.wind && point.rows.size() == 0 && !foreseen;
+    if (springs_alone) correct_translation(stage.scene, point.residual, space.direction);
     return {solved.iterations, solved.converged};
 }
 

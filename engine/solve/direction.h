@@ -12,8 +12,9 @@ struct Direction {
 };
 
 /// The Newton direction dv at space.current: A dv = -r with the matrix A of linear/block_matrix.h, M without
-/// Jacobians; prescribed vertices head for their targets, contact foresees what obstacles have still to go.
-Direction newton_direction(const StageEquations& equations, const SolveTarget& target);
+/// Jacobians; prescribed vertices head for their targets, contact foresees what obstacles have still to go. With `foreseen`, A
+/// and r are those with its rows, too, which must be of a move from space.current.
+Direction newton_direction(const StageEquations& equations, const SolveTarget& target, const ForeseenRows* foreseen = nullptr);
 
 /// dv by one application of the preconditioner alone, an estimate that is far cheaper; false where that is no good one.
 bool estimate_direction(const StageEquations& equations);

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/foreseen_rows.h"
 #include "contact/friction.h"
 #include "contact/penalty.h"
 #include "contact/projection.h"
@@ -65,6 +66,7 @@ struct NewtonSpace {
     StagePoint current, trial;
     FrictionStart friction;
     Vectors direction, right_side;
+    ForeseenRows foreseen;  // of the last move that a line search refused
 
     ContactLaw& law(ContactResponse response) {
         if (response == ContactResponse::projection) return projection;

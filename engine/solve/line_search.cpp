@@ -31,6 +31,18 @@ void evaluate_trial(StageEquations& equations, LineTrial& line) {
     line.slope = slope_at(equations, space.trial);
 }
 
+/// Whether the whole direction is too long because of rows that were out of reach where it starts: they make most of the slope
+/// at its end.
+bool meets_rows(const StageEquations& equations, const LineTrial& line) {
+    if (!(line.slope > 0.0)) return false;
+    const ImplicitStage& stage = equations.stage();
+    NewtonSpace& space = equations.space();
+    const StagePoint &current = space.current, &trial = space.trial;
+    const RowMove move{trial.rows, trial.row_forces, current.positions, space.direction, stage.base.h, stage.contact_weight};
+    const double slope = foresee_rows(current.contact.blocks, move, space.foreseen);
+    return slope >= foreseen_slope_share * line.slope;
+}
+
 /// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and
 /// what the secant says is still missing along the same direction costs an evaluation only.
 bool go_on(StageEquations& equations, LineTrial line) {
@@ -65,7 +77,7 @@ double shorten(const LineTrial& trial) {
     return std::clamp(-trial.start_slope / rise, least_shortening, most_shortening);
 }
 
-LineResult search_line(StageEquations& equations, const TimeError& error) {
+LineResult search_line(StageEquations& equations, const TimeError& error, bool stop_at_rows) {
     const ImplicitStage& stage = equations.stage();
     NewtonSpace& space = equations.space();
     const bool was_arrived = equations.arrived();
@@ -83,6 +95,8 @@ LineResult search_line(StageEquations& equations, const TimeError& error) {
         // While pins or obstacles are on their way, the objective may have to rise.
         accepted = !stage.options.line_search || !was_arrived || accept_trial(fraction * kept, line);
         if (accepted) break;
+        result.met_rows = trial == 0 && stop_at_rows && kept == 1.0 && meets_rows(equations, line);
+        if (result.met_rows) return result;
         fraction *= kept * shorten(line);
         ++result.cuts;
     }

@@ -27,15 +27,17 @@ double shorten(const LineTrial& trial);
 
 /// What a search along a direction came to; space.current is where it ended.
 struct LineResult {
-    bool small = false;    // the whole direction changes less than a share of the time error
-    bool whole = false;    // all of it was taken, by pins and obstacles that had arrived
-    bool stuck = false;    // nothing can be gained along it but rounding
-    bool went_on = false;  // beyond it, by the secant: the matrix is not that of this state
-    int cuts = 0;          // trials that were shortened
+    bool small = false;     // the whole direction changes less than a share of the time error
+    bool whole = false;     // all of it was taken, by pins and obstacles that had arrived
+    bool stuck = false;     // nothing can be gained along it but rounding
+    bool went_on = false;   // beyond it, by the secant: the matrix is not that of this state
+    int cuts = 0;           // trials that were shortened
+    bool met_rows = false;  // nothing was done: the whole of it ends in rows that were in no matrix, now in space.foreseen
 };
 
 /// Goes from space.current along space.direction: the whole of it, cut where something would cross and shortened until
-/// accept_trial agrees; further by the secant where the slope has hardly fallen.
-LineResult search_line(StageEquations& equations, const TimeError& error);
+/// accept_trial agrees; further by the secant where the slope has hardly fallen. With `stop_at_rows` it may do nothing
+/// (LineResult::met_rows), for another direction to be found.
+LineResult search_line(StageEquations& equations, const TimeError& error, bool stop_at_rows = false);
 
 }  // namespace percale

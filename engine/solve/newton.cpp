@@ -83,9 +83,16 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
         const double ratio = report.newton_iterations > 0 ? search.norm / search.last_norm : 1.0;
         const NewtonProgress progress{report.newton_iterations, ratio, report.residual};
         const Vectors& velocities = equations.space().current.velocities;
-        const Direction direction =
-            newton_direction(equations, solve_target(error, progress, settings.newton_tolerance, velocities));
-        const LineResult line = search_line(equations, error);
+        const SolveTarget target = solve_target(error, progress, settings.newton_tolerance, velocities);
+        Direction direction = newton_direction(equations, target);
+        const bool may_stop = equations.arrived() && report.newton_iterations + 1 < settings.newton_iterations;
+        LineResult line = search_line(equations, error, may_stop);
+        if (line.met_rows) {
+            ++report.newton_iterations;
+            report.linear_iterations += direction.linear_iterations;
+            direction = newton_direction(equations, target, &equations.space().foreseen);
+            line = search_line(equations, error);
+        }
 
         ++report.newton_iterations;
         report.linear_iterations += direction.linear_iterations;

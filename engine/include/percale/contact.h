@@ -39,26 +39,30 @@ struct ContactRows {
     std::size_t size() const { return vertex.size(); }
     /// Adds the rows of another list behind these.
     void append(const ContactRows& more) {
-        const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-        add(vertex, more.vertex);
-        add(weight, more.weight);
-        add(direction, more.direction);
-        add(obstacle_point, more.obstacle_point);
-        add(obstacle_displacement, more.obstacle_displacement);
-        add(distance, more.distance);
-        add(thickness, more.thickness);
-        add(friction, more.friction);
-        add(share, more.share);
-        add(obstacle, more.obstacle);
-        add(feature, more.feature);
+        for_each_list([](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); }, *this, more);
+    }
+    /// Takes row i out; the later ones move up.
+    void erase(std::size_t i) {
+        for_each_list([i](auto& list) { list.erase(list.begin() + static_cast<std::ptrdiff_t>(i)); }, *this);
     }
     void clear() {
-        vertex.clear();
-        weight.clear();
-        for (auto* vectors : {&direction, &obstacle_point, &obstacle_displacement}) vectors->clear();
-        for (auto* numbers : {&distance, &thickness, &friction, &share}) numbers->clear();
-        obstacle.clear();
-        feature.clear();
+        for_each_list([](auto& list) { list.clear(); }, *this);
+    }
+
+private:
+    template <class Work, class... Rows>
+    static void for_each_list(Work work, Rows&... rows) {
+        work(rows.vertex...);
+        work(rows.weight...);
+        work(rows.direction...);
+        work(rows.obstacle_point...);
+        work(rows.obstacle_displacement...);
+        work(rows.distance...);
+        work(rows.thickness...);
+        work(rows.friction...);
+        work(rows.share...);
+        work(rows.obstacle...);
+        work(rows.feature...);
     }
 };
 
@@ -146,8 +150,8 @@ public:
     virtual void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) = 0;
 
     /// Every contact closer than the thickness, with obstacles at `fraction` of the step. A pair of features that was a contact
-    /// since the last refresh stays one while it is that near, even if its neighbours are nearer by now: within one
-    /// solve contacts only join, so that forces change continuously.
+    /// since the last refresh stays one while it is that near, unless a nearer one of the same cloth in nearly the same direction
+    /// has taken its place: within one solve forces change continuously.
     virtual void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) = 0;
 
     /// The largest f in [0, 1] such that moving all vertices along from + f (to - from), while the obstacles move over

@@ -131,6 +131,34 @@ TEST_CASE("Cloth that slides tightly round a coarse cylinder takes few iteration
     check_law("strip pulled round a cylinder of 64 facets, mu 0.5: mean Newton iterations", iterations / 60.0, 15.0);
 }
 
+TEST_CASE("A sheet slides down a slope as one piece, over the edge between its two triangles", "[law]") {
+    constexpr double angle = 25.0 * std::numbers::pi / 180.0, mu = 0.3;
+    const double exact = g * (std::sin(angle) - mu * std::cos(angle));
+    const Rotation tilt{std::cos(-0.5 * angle), 0.0, 0.0, std::sin(-0.5 * angle)};
+    for (const int n : {17, 33}) {
+        for (const double dt : {1.0 / 30.0, 1.0 / 60.0, 1.0 / 120.0}) {
+            Simulation simulation = simulation_on_meshes({.time_step = dt, .measure = StepMeasures::all});
+            TriangleMesh sheet = make_grid(0.5, 0.5, n, n);
+            for (Vec3& x : sheet.vertices) x.y() += 1.04 * h;
+            const ClothId cloth = simulation.add_cloth(sheet, fabric(), {.translation = Vec3::Zero(), .rotation = tilt});
+            simulation.add_obstacle(make_plane(5.0), {.translation = Vec3::Zero(), .rotation = tilt}, {.friction = mu});
+            const int steps = static_cast<int>(std::lround(1.0 / dt));
+            long iterations = 0;
+            double strain = 0.0;
+            for (int i = 0; i < steps; ++i) {
+                const StepReport report = step_well(simulation);
+                iterations += report.newton_iterations;
+                strain = std::max(strain, report.largest_strain);
+            }
+            const Vec3 downhill(std::cos(angle), -std::sin(angle), 0.0);
+            CAPTURE(n, dt, exact);
+            CHECK(mean(simulation.velocities(cloth)).dot(downhill) == Approx(exact).epsilon(2e-3));
+            CHECK(strain < 1e-3);
+            CHECK(static_cast<double>(iterations) / steps < 3.0);
+        }
+    }
+}
+
 TEST_CASE("A conveyor carries cloth along once friction has sped it up", "[law]") {
     const double mu = 0.3, speed = 0.5, dt = 1.0 / 60.0;
     Simulation simulation = simulation_on_meshes({.time_step = dt});
