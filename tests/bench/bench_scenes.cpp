@@ -1,5 +1,6 @@
 #include "bench_scenes.h"
 
+#include "percale/certify.h"
 #include "percale/detectors.h"
 #include "scenes/meshes/mesh_import.h"
 #include "tests/support/bench_unit.h"
@@ -17,6 +18,11 @@ Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, cons
         simulation.pin(cloth, n - 1);
     }
     return simulation;
+}
+
+bool is_crossed(const TriangleMesh& sheet, const TriangleMesh& body) {
+    const Certificate certificate = certify(sheet, body, 0.0);
+    return !certificate.pairs.empty() || certificate.vertices_inside > 0;
 }
 
 TriangleMesh body_scan(const std::string& file_name) {

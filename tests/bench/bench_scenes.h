@@ -9,6 +9,9 @@ namespace percale::test {
 /// A sheet of 1 m with n x n vertices, `height` m above the origin, to fall on `body`; without a body it hangs from two corners.
 Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, const StepSettings& settings = {});
 
+/// Whether a sheet crosses a body or is inside of it.
+bool is_crossed(const TriangleMesh& sheet, const TriangleMesh& body);
+
 /// A body scan by its file's name, centred, its longest side half a metre; no triangles where it is absent.
 TriangleMesh body_scan(const std::string& file_name);
 

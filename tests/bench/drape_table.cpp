@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "percale/certify.h"
 #include "percale/detectors.h"
 #include "percale/options.h"
 #include "tests/bench/bench_report.h"
@@ -64,8 +63,7 @@ bool frame_is_bad(const percale::Simulation& simulation, percale::ClothId cloth,
                   const percale::TriangleMesh& body) {
     const auto positions = simulation.positions(cloth);
     sheet.vertices.assign(positions.begin(), positions.end());
-    const percale::Certificate certificate = percale::certify(sheet, body, 0.0);
-    return !certificate.pairs.empty() || certificate.vertices_inside > 0;
+    return percale::test::is_crossed(sheet, body);
 }
 
 double rms_speed(const percale::Simulation& simulation, percale::ClothId cloth) {

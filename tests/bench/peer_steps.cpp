@@ -3,18 +3,20 @@
 //     PROGRAM hang|sphere|bunny N 1/60 SECONDS OUT.obj
 // with the obstacle's OBJ file named by the environment variable OBST, that writes 30 frames a second, OUT.frames/f0001.obj and
 // on, and prints ms_per_step=... (CPU time of stepping) and maxstrain=... (1 is twice the length).
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "percale/certify.h"
 #include "scenes/meshes/mesh_import.h"
+#include "scenes/meshes/obj_file.h"
 #include "tests/bench/bench_report.h"
 #include "tests/bench/bench_scenes.h"
 #include "tests/support/cpu_time.h"
@@ -53,8 +55,7 @@ void judge(const percale::TriangleMesh& sheet, const percale::TriangleMesh& body
     ++run.frames;
     run.finite = run.finite && is_finite(sheet);
     if (body.triangles.empty() || !run.finite) return;
-    const percale::Certificate certificate = percale::certify(sheet, body, 0.0);
-    run.bad += !certificate.pairs.empty() || certificate.vertices_inside > 0 ? 1 : 0;
+    run.bad += percale::test::is_crossed(sheet, body) ? 1 : 0;
 }
 
 Run run_percale(const Place& place, int n, double seconds) {
@@ -120,15 +121,7 @@ Run run_peer(const Wanted& wanted, const Place& place, int n, const fs::path& fo
     return run;
 }
 
-void write_obj(const percale::TriangleMesh& mesh, const fs::path& file) {
-    std::ofstream out(file);
-    out.precision(9);
-    for (const percale::Vec3& x : mesh.vertices) out << "v " << x.x() << ' ' << x.y() << ' ' << x.z() << '\n';
-    for (const percale::Triangle& t : mesh.triangles) out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
-    if (!out) throw std::runtime_error("cannot write " + file.string());
-}
-
-/// `least` with the time of the shorter of two runs.
+/// The last run, with the time of the shorter of two.
 Run shorter(const Run& last, const Run& before) {
     Run run = last;
     run.ms = std::min(last.ms, before.ms);
@@ -168,7 +161,7 @@ Figures measure(const Wanted& wanted) {
             std::puts("bunny left out: no bunny00.off (PERCALE_REAL_MESHES names its folder)");
             continue;
         }
-        write_obj(place.body, folder / (scene + ".obj"));
+        percale::scenes::write_obj((folder / (scene + ".obj")).string(), place.body.vertices, place.body.triangles);
         places.push_back(std::move(place));
     }
     std::printf("%-7s %4s  %8s %7s %6s   %8s %7s %6s  %6s\n", "", "N", "peer ms", "strain%", "bad", "Percale", "strain%", "bad",

@@ -150,8 +150,8 @@ public:
     virtual void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) = 0;
 
     /// Every contact closer than the thickness, with obstacles at `fraction` of the step. A pair of features that was a contact
-    /// since the last refresh stays one while it is that near, unless a nearer one of the same cloth in nearly the same direction
-    /// has taken its place: within one solve forces change continuously.
+    /// since the last refresh stays one while it is that near, unless a nearer one of the same vertex in nearly the same
+    /// direction has taken its place: within one solve forces change continuously.
     virtual void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) = 0;
 
     /// The largest f in [0, 1] such that moving all vertices along from + f (to - from), while the obstacles move over
