@@ -307,12 +307,18 @@ constexpr double thickness_over_smallest_change = 5e4;
 /// Share of an adaptive stage's allowance below which a change means nothing.
 constexpr double negligible_allowance_share = 0.1;
 
+/// Relative. Moves below it are rounding of positions (a few units in the last place of a double).
+constexpr double position_rounding = 1e-15;
+
 /// How much more a cloth's worst vertex may change than its mean: times the share of its time error, times what means nothing.
 constexpr double worst_vertex_factor = 2.0, worst_vertex_floor_factor = 10.0;
 
-/// Energy norm, relative. Accuracy of the linear solve. Larger: more Newton iterations, and sheets that slide tremble. Smaller:
-/// each is dearer.
-constexpr double linear_energy_accuracy = 0.05;
+/// Energy norm, relative. Accuracy of the linear solve. Larger: more Newton iterations. Smaller: each is dearer.
+constexpr double linear_energy_accuracy = 0.2;
+
+/// Share of its momentum that a linear solve with contact may leave a body that nothing holds. Larger: sheets that slide tremble,
+/// and cloth rubs too much on cloth. Smaller: more linear iterations.
+constexpr double net_momentum_share = 0.05;
 
 /// Relative residual at which a linear solve ends, whatever its energy.
 constexpr double least_linear_residual = 1e-10;

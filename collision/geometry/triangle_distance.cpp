@@ -66,14 +66,17 @@ PointTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
     const double d3 = ab.dot(bp), d4 = ac.dot(bp);
     if (d3 >= 0.0 && d4 <= d3) return at_vertex(p, b, 1);
     const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return at_edge(p, a, b, d1 / (d1 - d3), 0);
+    // An edge without length has d1 = d3; the others then are one.
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && d1 > d3) return at_edge(p, a, b, d1 / (d1 - d3), 0);
     const Vec3 cp = p - c;
     const double d5 = ab.dot(cp), d6 = ac.dot(cp);
     if (d6 >= 0.0 && d5 <= d6) return at_vertex(p, c, 2);
     const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return at_edge(p, c, a, 1.0 - d2 / (d2 - d6), 2);
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && d2 > d6) return at_edge(p, c, a, 1.0 - d2 / (d2 - d6), 2);
     const double va = d3 * d6 - d5 * d4;
-    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return at_edge(p, b, c, (d4 - d3) / ((d4 - d3) + (d5 - d6)), 1);
+    const double from_b = d4 - d3, from_c = d5 - d6;
+    if (va <= 0.0 && from_b >= 0.0 && from_c >= 0.0 && from_b + from_c > 0.0)
+        return at_edge(p, b, c, from_b / (from_b + from_c), 1);
     // The sum is |ab x ac|^2 with the rounding of the longest edge to the fourth.
     const double sum = va + vb + vc, longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
     if (!(sum > tolerances::sliver_area * longest * longest)) return on_sliver(p, a, b, c);

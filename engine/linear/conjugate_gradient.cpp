@@ -33,7 +33,7 @@ public:
             const double square = sum_chunks(compute_, matrix_.slices(), [&](Slices range) {
                 return kernels().advance(alpha, view(space_.p), view(space_.q), x.axes(), space_.r.axes(), range);
             });
-            report.converged = square <= tolerance || square == 0.0 || gains.small_enough(target);
+            report.converged = square <= tolerance || square == 0.0 || (gains.small_enough(target) && keeps_net(target.net));
             if (report.converged) return report;
             const double next = apply_preconditioner();
             const double beta = next / rz;
@@ -55,6 +55,10 @@ private:
         }
         set_residual(matrix_, b, x, space_.points, space_.r);
         return dot(compute_, space_.r, space_.r);
+    }
+
+    bool keeps_net(std::span<const NetLimit> limits) const {
+        return net_is_small<double>(limits, {space_.r.x.data(), space_.r.y.data(), space_.r.z.data()}, 1.0);
     }
 
     /// z = preconditioned r; returns r . z.

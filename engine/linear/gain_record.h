@@ -1,11 +1,20 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "../tolerances.h"
 
 namespace percale {
+
+/// Vertices that nothing holds. What a solve leaves of their common motion is the sum of their residuals: it may be `most`, kg
+/// m/s.
+struct NetLimit {
+    int first = 0, count = 0;
+    double most = 0.0;
+};
 
 /// When to stop. A rule is off where its number is 0; the first that holds ends the solve.
 struct SolveTarget {
@@ -14,8 +23,21 @@ struct SolveTarget {
     /// formula) and by how fast they fall: <= relative_gain^2 (sum of all gains), or <= absolute_gain (J s^2).
     double relative_gain = 0.0;
     double absolute_gain = 0.0;
+    std::span<const NetLimit> net = {};  // gains are small enough only where these hold too
     int most_iterations = 2000;
 };
+
+/// Whether residuals, whose axes lie one after the other, keep these limits. `unit` is the size of a residual of 1, kg m/s.
+template <typename Number>
+bool net_is_small(std::span<const NetLimit> limits, std::array<const Number*, 3> residual, double unit) {
+    return std::all_of(limits.begin(), limits.end(), [&](const NetLimit& limit) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int i = limit.first; i < limit.first + limit.count; ++i) sum[axis] += residual[axis][i];
+        }
+        return unit * sum.norm() <= limit.most;
+    });
+}
 
 struct SolveReport {
     int iterations = 0;

@@ -35,6 +35,8 @@ public:
 private:
     FloatVectors view(AlignedVector<float>& data) const { return {data.data(), multigrid_.padded()}; }
 
+    static std::array<const float*, 3> axes_of(FloatVectors a) { return {a.data, a.data + a.padded, a.data + 2 * a.padded}; }
+
     void size_space(const Vectors& b) {
         for (auto* list : {&space_.x, &space_.p, &space_.q}) list->resize(3 * multigrid_.padded());
         if (space_.r.padded_size() == b.padded_size()) return;
@@ -76,7 +78,7 @@ private:
             const double square = sum_chunks(compute_, multigrid_.slices(), [&](Slices range) {
                 return compute_.kernels->float_advance(static_cast<float>(alpha), p, q, x, r, range);
             });
-            if (gains.small_enough(scaled)) return true;
+            if (gains.small_enough(scaled) && net_is_small<float>(target.net, axes_of(r), norm)) return true;
             if (square <= scaled.relative_residual * scaled.relative_residual) return false;
             multigrid_.cycle();
             const double next = sum(r, z);

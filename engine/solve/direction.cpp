@@ -1,6 +1,9 @@
 #include "direction.h"
 
+#include <algorithm>
+
 #include "support/stage_timer.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -37,18 +40,36 @@ void fill_system(const StageEquations& equations, const ForeseenRows* foreseen) 
     add_obstacle_advance(point.rows, point.contact, rate, stage.scene.script.free, space.right_side);
 }
 
+bool is_held(const StepScene& scene, const Body& body) {
+    for (int i = body.first; i < body.first + body.count; ++i) {
+        if (!scene.is_free(i)) return true;
+    }
+    return false;
+}
+
 /// Springs do not resist a translation, so the one left over by an unfinished linear solve is known exactly: with it, a cloth
 /// that nothing holds keeps its momentum whatever the tolerance.
 void correct_translation(const StepScene& scene, const Vectors& residual, Vectors& direction) {
     for (const Body& body : scene.model.bodies) {
+        if (is_held(scene, body)) continue;
         Vec3 missing = Vec3::Zero();
-        bool held = false;
         for (int i = body.first; i < body.first + body.count; ++i) {
-            held = held || !scene.is_free(i);
             missing -= residual.at(i) + scene.model.mass[i] * direction.at(i);
         }
-        if (held) continue;
         for (int i = body.first; i < body.first + body.count; ++i) direction.add(i, missing / body.mass);
+    }
+}
+
+/// With contact it is not known, and stiff rows hide it from the energy: what is left of it is bounded, by a share of the
+/// momentum that the right side or gravity gives.
+void set_net_limits(const StepScene& scene, double dt, NewtonSpace& space) {
+    space.net_limits.clear();
+    for (const Body& body : scene.model.bodies) {
+        if (is_held(scene, body)) continue;
+        Vec3 sum = Vec3::Zero();
+        for (int i = body.first; i < body.first + body.count; ++i) sum += space.right_side.at(i);
+        const double given = std::max(sum.norm(), body.mass * dt * scene.settings.gravity.norm());
+        space.net_limits.push_back({body.first, body.count, net_momentum_share * given});
     }
 }
 
@@ -65,8 +86,16 @@ Direction newton_direction(const StageEquations& equations, const SolveTarget& t
     }
     fill_system(equations, foreseen);
     StageTimer timer(equations.times().solve);
-    const SolveReport solved = space.solver.solve(space.right_side, target, space.direction);
     const bool springs_alone = !stage.scene.plan.wind && point.rows.size() == 0 && !foreseen;
+    SolveTarget wanted = target;
+    if (springs_alone) {
+        // As the start, too: what is left to solve for, and to be exact about, is how the cloth deforms.
+        correct_translation(stage.scene, point.residual, space.direction);
+    } else {
+        set_net_limits(stage.scene, stage.base.h, space);
+        wanted.net = space.net_limits;
+    }
+    const SolveReport solved = space.solver.solve(space.right_side, wanted, space.direction);
     if (springs_alone) correct_translation(stage.scene, point.residual, space.direction);
     return {solved.iterations, solved.converged};
 }

@@ -66,7 +66,8 @@ struct NewtonSpace {
     StagePoint current, trial;
     FrictionStart friction;
     Vectors direction, right_side;
-    ForeseenRows foreseen;  // of the last move that a line search refused
+    std::vector<NetLimit> net_limits;  // of the last direction
+    ForeseenRows foreseen;             // of the last move that a line search refused
 
     ContactLaw& law(ContactResponse response) {
         if (response == ContactResponse::projection) return projection;

@@ -43,6 +43,17 @@ bool meets_rows(const StageEquations& equations, const LineTrial& line) {
     return slope >= foreseen_slope_share * line.slope;
 }
 
+/// Whether the whole direction moves no vertex by more than positions are rounded: what is left of the residual is rounding, too.
+bool moves_nothing(const StageEquations& equations) {
+    const NewtonSpace& space = equations.space();
+    const int count = equations.stage().scene.model.vertex_count();
+    const auto largest = [&](const Vectors& vectors) {
+        return largest_term(0, count, [&](int i) { return square_at(vectors, i); });
+    };
+    const double moved = equations.stage().base.h * std::sqrt(largest(space.direction));
+    return moved <= position_rounding * std::sqrt(largest(space.current.positions));
+}
+
 /// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and
 /// what the secant says is still missing along the same direction costs an evaluation only.
 bool go_on(StageEquations& equations, LineTrial line) {
@@ -84,6 +95,7 @@ LineResult search_line(StageEquations& equations, const TimeError& error, bool s
     LineResult result;
     equations.aim(1.0);
     result.small = change_is_small(error, change_to(equations, space.trial.velocities), allowed_share(stage.scene.settings));
+    const bool rounding = result.small && was_arrived && moves_nothing(equations);
     LineTrial line = line_from(equations, result.small);
     double fraction = 1.0, kept = 1.0;
     bool accepted = false;
@@ -102,7 +114,7 @@ LineResult search_line(StageEquations& equations, const TimeError& error, bool s
     }
     std::swap(space.current, space.trial);
     result.whole = fraction * kept == 1.0 && was_arrived;
-    result.stuck = !accepted && was_arrived && is_flat(line);
+    result.stuck = rounding || (!accepted && was_arrived && is_flat(line));
     if (accepted && result.whole && !result.small) result.went_on = go_on(equations, line);
     return result;
 }

@@ -83,7 +83,7 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
         const double ratio = report.newton_iterations > 0 ? search.norm / search.last_norm : 1.0;
         const NewtonProgress progress{report.newton_iterations, ratio, report.residual};
         const Vectors& velocities = equations.space().current.velocities;
-        const SolveTarget target = solve_target(error, progress, settings.newton_tolerance, velocities);
+        const SolveTarget target = solve_target(error, progress, settings, velocities);
         Direction direction = newton_direction(equations, target);
         const bool may_stop = equations.arrived() && report.newton_iterations + 1 < settings.newton_iterations;
         LineResult line = search_line(equations, error, may_stop);

@@ -84,19 +84,19 @@ double time_error(const TimeError& error, const Vectors& velocities) {
     return 0.5 * error.dt * std::sqrt(largest);
 }
 
-SolveTarget solve_target(const TimeError& error, const NewtonProgress& progress, const std::optional<double>& tolerance,
+SolveTarget solve_target(const TimeError& error, const NewtonProgress& progress, const StepSettings& settings,
                          const Vectors& velocities) {
     const bool first = progress.iteration == 0;
-    if (tolerance) {
+    if (const auto& tolerance = settings.newton_tolerance) {
         const double wanted = last_forcing_share * *tolerance / std::max(progress.residual, 1e-300);
         const double forcing =
             first ? most_forcing : std::clamp(forcing_factor * progress.ratio * progress.ratio, least_forcing, most_forcing);
         return {.relative_residual = std::min(loosest_forcing, std::max(forcing, wanted))};
     }
-    const double change = first ? 0.0
-                                : linear_energy_accuracy * linear_energy_accuracy *
-                                      squared_error(error, 0, error.model->vertex_count(), velocities);
-    return {.relative_residual = least_linear_residual, .relative_gain = linear_energy_accuracy, .absolute_gain = change};
+    const double accuracy = linear_energy_accuracy * std::min(1.0, allowed_share(settings));
+    const double error_now = first ? 0.0 : squared_error(error, 0, error.model->vertex_count(), velocities);
+    return {
+        .relative_residual = least_linear_residual, .relative_gain = accuracy, .absolute_gain = accuracy * accuracy * error_now};
 }
 
 }  // namespace percale

@@ -58,7 +58,7 @@ struct NewtonProgress {
 /// How exactly its linear system is solved. With a residual to reach, the linear residual follows the Newton residual (Eisenstat
 /// and Walker 1996, choice 2); else the energy gained per iteration decides, which bounds the smooth error that a loose residual
 /// leaves behind.
-SolveTarget solve_target(const TimeError& error, const NewtonProgress& progress, const std::optional<double>& tolerance,
+SolveTarget solve_target(const TimeError& error, const NewtonProgress& progress, const StepSettings& settings,
                          const Vectors& velocities);
 
 }  // namespace percale

@@ -167,6 +167,23 @@ TEST_CASE("a triangle squeezed to a segment or a point is one") {
     CHECK(worst < 1e-9);
 }
 
+TEST_CASE("a triangle two corners of which are one is a segment, straight above its end, too") {
+    Random random(6);
+    double worst = 0.0;
+    int inconsistent = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 twice = random.point(1.0), once = i % 2 == 0 ? random.point(1.0) : twice + Vec3(0.0, 1e-17, 0.0);
+        std::array<Vec3, 3> corner = {twice, twice, twice};
+        corner[static_cast<std::size_t>(i % 3)] = once;
+        const Vec3 p = i % 5 == 0 ? Vec3(0.5 * (twice + once)) : i % 7 == 0 ? twice : random.point(1.5);
+        const PointCase x{p, corner[0], corner[1], corner[2]};
+        worst = std::max(worst, error(x));
+        inconsistent += consistent(x, closest(x)) ? 0 : 1;
+    }
+    CHECK(inconsistent == 0);
+    CHECK(worst < 1e-9);
+}
+
 TEST_CASE("closest points of random segments are as far as trying every case says") {
     Random random(6);
     double worst = 0.0;

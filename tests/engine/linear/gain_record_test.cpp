@@ -54,6 +54,19 @@ TEST_CASE("One small gain among others that fall slowly ends nothing") {
     CHECK(stop_after(1, {.relative_gain = 0.05}, and_then) > static_cast<int>(bursts.size()) + 2);
 }
 
+TEST_CASE("Net limits bound the sum of the residuals over their vertices") {
+    const std::vector<double> x = {3.0, -3.0, 4.0, 0.0}, y = {0.0, 0.0, 1.5, 1.5}, z = {1.0, -1.0, 0.0, 0.0};
+    const auto small = [&](std::vector<NetLimit> limits, double unit) {
+        return net_is_small<double>(limits, {x.data(), y.data(), z.data()}, unit);
+    };
+    CHECK(small({}, 1.0));
+    CHECK(small({{0, 2, 0.0}}, 1.0));
+    CHECK(small({{2, 2, 5.0}}, 1.0));
+    CHECK_FALSE(small({{2, 2, 4.99}}, 1.0));
+    CHECK_FALSE(small({{2, 2, 5.0}}, 1.01));
+    CHECK_FALSE(small({{0, 2, 1.0}, {2, 2, 4.0}}, 1.0));
+}
+
 TEST_CASE("Nothing is said of less than a window") { CHECK(stop_after(10, {.absolute_gain = 1e9}, falling(0.5, 30)) == 10); }
 
 }  // namespace percale::test

@@ -271,4 +271,37 @@ TEST_CASE("A second solve in the same work space has the same bits, whatever was
     }
 }
 
+TEST_CASE("A net limit keeps both solvers going until the sum of the residuals is below it, too") {
+    SheetSystem system(91, 17, 0.3);
+    system.matrix.free.assign(system.matrix.free.size(), 1.0);
+    system.touch_share(0.3, 10.0, 1e4);
+    const auto net_of = [&](const Vectors& x) {
+        Vectors r = system.right, points = system.zeros();
+        AlignedVector<double> space;
+        set_residual(system.matrix, system.right, x, space, r);
+        Vec3 sum = Vec3::Zero();
+        for (int i = 0; i < system.count(); ++i) sum += r.at(i);
+        return sum.norm();
+    };
+    const double start = net_of(system.zeros());
+    for (const bool multigrid : {false, true}) {
+        const auto solved = [&](std::span<const NetLimit> net) {
+            const SolveTarget target{.relative_residual = 1e-10, .relative_gain = 0.5, .net = net};
+            if (multigrid) return solve(system, system.right, system.zeros(), target);
+            SolveSpace space;
+            Solved result{{}, system.zeros()};
+            result.report = solve_cg(system.matrix, system.right, target, space, result.x);
+            return result;
+        };
+        CAPTURE(multigrid);
+        const Solved loose = solved({});
+        const std::vector<NetLimit> limit = {{0, system.count(), 0.1 * net_of(loose.x)}};
+        const Solved kept = solved(limit);
+        CHECK(loose.report.converged);
+        CHECK(kept.report.converged);
+        CHECK(kept.report.iterations > loose.report.iterations);
+        CHECK(net_of(kept.x) <= limit[0].most + 1e-5 * start);
+    }
+}
+
 }  // namespace percale::test

@@ -64,14 +64,28 @@ TEST_CASE("A change is small below its share of the time error, of the least len
 TEST_CASE("With a residual to reach the linear residual follows Newton's, else the gain counts") {
     const Pair pair;
     const Vectors v = to_vectors({Vec3(1, 0, 2), Vec3(0, 2, 0)});
-    CHECK(solve_target(pair.error(false), {0, 1.0, 1.0}, 1e-8, v).relative_residual == 0.1);
-    CHECK(solve_target(pair.error(false), {2, 0.1, 1e-3}, 1e-8, v).relative_residual == Approx(0.009));
-    CHECK(solve_target(pair.error(false), {2, 0.1, 2e-8}, 1e-8, v).relative_residual == Approx(0.15));
-    const SolveTarget first = solve_target(pair.error(false), {0, 1.0, 1.0}, {}, v);
-    const SolveTarget later = solve_target(pair.error(false), {1, 0.5, 0.5}, {}, v);
+    const StepSettings residual{.newton_tolerance = 1e-8}, gain{};
+    CHECK(solve_target(pair.error(false), {0, 1.0, 1.0}, residual, v).relative_residual == 0.1);
+    CHECK(solve_target(pair.error(false), {2, 0.1, 1e-3}, residual, v).relative_residual == Approx(0.009));
+    CHECK(solve_target(pair.error(false), {2, 0.1, 2e-8}, residual, v).relative_residual == Approx(0.15));
+    const SolveTarget first = solve_target(pair.error(false), {0, 1.0, 1.0}, gain, v);
+    const SolveTarget later = solve_target(pair.error(false), {1, 0.5, 0.5}, gain, v);
     CHECK(first.absolute_gain == 0.0);
-    CHECK(later.absolute_gain == Approx(0.05 * 0.05 * 2.0));
-    CHECK(later.relative_gain == 0.05);
+    CHECK(later.absolute_gain == Approx(0.2 * 0.2 * 2.0));
+    CHECK(later.relative_gain == 0.2);
+}
+
+TEST_CASE("Linear solves are as exact as Newton's share asks, and no looser than at a share of 1") {
+    const Pair pair;
+    const Vectors v = to_vectors({Vec3(1, 0, 2), Vec3(0, 2, 0)});
+    const auto accuracy = [&](double share, bool adaptive) {
+        StepSettings settings{.newton_share = share};
+        settings.adaptive = adaptive;
+        return solve_target(pair.error(false), {1, 0.5, 0.5}, settings, v).relative_gain;
+    };
+    CHECK(accuracy(0.1, false) == Approx(0.02));
+    CHECK(accuracy(5.0, false) == Approx(0.2));
+    CHECK(accuracy(1.0, true) == Approx(0.05));
 }
 
 }  // namespace percale::test
