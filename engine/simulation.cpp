@@ -155,18 +155,24 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose, const std::string& name) {
+ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose, const std::string& name,
+                              const RestShape& rest) {
     World& world = implementation_->world;
     check_pose(pose, name);
     if (fabric.self_contact && !world.scene.detector) {
         throw SceneError(name, "self_contact needs a contact detector, give one to the simulation");
     }
-    TriangleMesh rest = mesh;
-    rest.vertices = transform(normalised(pose), mesh.vertices);
+    TriangleMesh placed = mesh;
+    placed.vertices = transform(normalised(pose), mesh.vertices);
+    RestShape shape = rest;
+    for (std::array<Vec3, 3>& corners : shape.corners) {
+        for (Vec3& corner : corners) corner *= pose.scale;
+    }
+    if (shape.corners.empty()) shape.warp = transform({.rotation = normalised(pose).rotation}, rest.warp);
     ClothModel model = world.scene.model;
-    append_cloth(model, rest, fabric, name);
+    append_cloth(model, placed, fabric, name, shape);
     order_last_cloth(model);
-    if (fabric.bend_stiffness.value_or(0.0) > 0.0) append_hinges_of_last_cloth(model, *fabric.bend_stiffness);
+    if (fabric.bend_stiffness.value_or(0.0) > 0.0) append_hinges_of_last_cloth(model, *fabric.bend_stiffness, shape);
     finish_model(model);
     world.scene.model = std::move(model);
     world.work.newton.solver.forget_model();
@@ -175,7 +181,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     ClothState state;
     for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(world.scene.model.vertex_count());
     state.points = world.state.cloth.points;
-    state.points.insert(state.points.end(), world.scene.model.rest.end() - static_cast<long>(rest.vertices.size()),
+    state.points.insert(state.points.end(), world.scene.model.rest.end() - static_cast<long>(placed.vertices.size()),
                         world.scene.model.rest.end());
     state.grips = world.state.cloth.grips;
     state.rest_length = world.state.cloth.rest_length;

@@ -54,6 +54,10 @@ constexpr std::size_t vertex_sorting_window = 256;
 /// Radians. A rest shape with smaller angles is flat. 0: rounding makes every flat cloth a curved one, which costs more.
 constexpr double least_rest_angle = 1e-6;
 
+/// Share of a given warp that must lie in the plane of each triangle. Smaller: warp is rounding there. Larger: bodies of cloth
+/// that curve away from it are refused.
+constexpr double least_warp_share = 1e-3;
+
 /// Share of a cell's size (of its square, for its corner's cosine). A grid whose cells differ by less is regular and gets hinges
 /// along its lines. Smaller: grids given in single precision get those of triangles. Larger: bending that is off by as much.
 constexpr double grid_cell_error = 1e-6;

@@ -180,6 +180,11 @@ constexpr double default_tolerances[] = {1e-2, 1e-3, 1e-4};
 /// Share of a rate of steps that it may be off a whole number and be written as 1/number.
 constexpr double whole_rate_rounding = 1e-9;
 
+// ---- run/
+
+/// Edges of a rest shape that are by more longer or shorter than those of the start are likely in another unit.
+constexpr double most_rest_ratio = 2.0;
+
 // ---- stress/
 
 /// Steps of a cell, if not said otherwise. Just beyond their limit explicit schemes grow slowly, and their steps are cheap: they

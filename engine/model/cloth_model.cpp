@@ -42,29 +42,31 @@ std::vector<Body> make_bodies(const ClothModel& model) {
 
 }  // namespace
 
-void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fabric, const std::string& name) {
-    check_mesh(rest, name, true);
+void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const std::string& name,
+                  const RestShape& shape) {
+    check_mesh(mesh, name, true);
+    check_rest_shape(mesh, shape, name);
     check_options(fabric, name);
     if (fabric.pressure || fabric.gas_volume) {
-        check_encloses(rest, name, fabric.pressure ? "pressure needs a closed mesh" : "gas_volume needs a closed mesh");
+        check_encloses(mesh, name, fabric.pressure ? "pressure needs a closed mesh" : "gas_volume needs a closed mesh");
     }
     const int first = model.vertex_count();
     if (fabric.has_moduli()) {
-        append_membrane(model.springs, model.membrane, rest, fabric, first, name);
+        append_membrane(model.springs, model.membrane, {mesh, shape}, fabric, first, name);
     } else {
-        append_springs(model.springs, rest, fabric, first, name);
+        append_springs(model.springs, {mesh, shape}, fabric, first, name);
     }
-    ClothRange range{.name = name, .first = first, .count = static_cast<int>(rest.vertices.size())};
-    range.grid = rest.is_grid();
-    range.columns = rest.is_grid() ? rest.grid_columns : 0;
+    ClothRange range{.name = name, .first = first, .count = static_cast<int>(mesh.vertices.size())};
+    range.grid = mesh.is_grid();
+    range.columns = mesh.is_grid() ? mesh.grid_columns : 0;
     range.fabric = fabric;
-    for (const double mass : lumped_masses(rest, fabric.area_density)) {
+    for (const double mass : lumped_masses(mesh, fabric.area_density, shape)) {
         model.mass.push_back(mass);
         range.mass += mass;
     }
-    model.rest.insert(model.rest.end(), rest.vertices.begin(), rest.vertices.end());
+    model.rest.insert(model.rest.end(), mesh.vertices.begin(), mesh.vertices.end());
     model.thickness.resize(model.mass.size(), fabric.thickness);
-    for (const auto& [a, b, c] : rest.triangles) model.triangles.push_back({first + a, first + b, first + c});
+    for (const auto& [a, b, c] : mesh.triangles) model.triangles.push_back({first + a, first + b, first + c});
     model.cloths.push_back(range);
 }
 
@@ -85,7 +87,7 @@ void order_last_cloth(ClothModel& model) {
     for (MembraneTriangle& t : model.membrane) renumber(t.vertex);
 }
 
-void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness) {
+void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness, const RestShape& shape) {
     const ClothRange& cloth = model.cloths.back();
     const auto own = std::partition_point(model.triangles.begin(), model.triangles.end(),
                                           [&](const Triangle& t) { return t[0] < cloth.first; });
@@ -94,7 +96,8 @@ void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness) {
                          .first_spring = first_spring_of(model, cloth),
                          .first_vertex = cloth.first,
                          .columns = cloth.columns,
-                         .rows = cloth.grid ? cloth.count / cloth.columns : 0};
+                         .rows = cloth.grid ? cloth.count / cloth.columns : 0,
+                         .corners = shape.corners};
     append_hinges(mesh, bend_stiffness, model.hinges, model.springs);
 }
 

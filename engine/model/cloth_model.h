@@ -42,7 +42,7 @@ struct ClothModel {
     std::vector<ClothRange> cloths;
     std::vector<double> mass;         // kg, one a vertex
     std::vector<double> thickness;    // m, one a vertex
-    std::vector<Vec3> rest;           // m, positions without strain
+    std::vector<Vec3> rest;           // m, positions of the meshes; without strain unless a rest shape says otherwise
     std::vector<Triangle> triangles;  // in the user's order, whatever that of the vertices
     SpringNetwork springs;
     Hinges hinges;
@@ -53,14 +53,15 @@ struct ClothModel {
     int vertex_count() const { return static_cast<int>(mass.size()); }
 };
 
-/// Appends a cloth, its vertices in the user's order; `rest` in m, world. Throws SceneError naming `name`. The adjacency is made
-/// anew by finish_model.
-void append_cloth(ClothModel& model, const TriangleMesh& rest, const Fabric& fabric, const std::string& name);
+/// Appends a cloth, its vertices in the user's order; `mesh` in m, world, without strain unless `shape` says where. Throws
+/// SceneError naming `name`. The adjacency is made anew by finish_model.
+void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const std::string& name,
+                  const RestShape& shape = {});
 /// Puts the vertices of the cloth that was appended last into memory_order, if it is a free mesh; grids keep theirs, in which
 /// their springs lie in bands.
 void order_last_cloth(ClothModel& model);
 /// Gives the cloth that was appended last hinges of its own, after its order is settled.
-void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness);
+void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness, const RestShape& shape = {});
 void finish_model(ClothModel& model);
 /// Makes hinges beside clamps stiffer. `free`: 1, or 0 at pinned vertices.
 void set_model_clamps(std::span<const double> free, ClothModel& model);

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "mesh/rest_edges.h"
 #include "mesh/topology.h"
 #include "tolerances.h"
 
@@ -29,10 +30,9 @@ double rest_angle(const std::array<Vec3, 4>& x) {
     return std::abs(angle) > least_rest_angle ? angle : 0.0;
 }
 
-Hinge triangle_hinge(const MeshEdge& edge, std::span<const Vec3> rest, double bend_stiffness) {
+/// `x`: the corners without strain, m.
+Hinge triangle_hinge(const MeshEdge& edge, const std::array<Vec3, 4>& x, double bend_stiffness) {
     Hinge hinge{.vertex = {edge.vertex[0], edge.vertex[1], edge.opposite[0], edge.opposite[1]}, .weight = {}, .stiffness = 0.0};
-    std::array<Vec3, 4> x;
-    for (int k = 0; k < 4; ++k) x[k] = rest[hinge.vertex[k]];
     const Vec3 along = x[1] - x[0];
     const Side first = side_of(x[0], along, x[2]), second = side_of(x[0], along, x[3]);
     hinge.weight = {-(1.0 - first.foot) / first.height - (1.0 - second.foot) / second.height,
@@ -55,8 +55,15 @@ public:
     }
 
     void add_triangles() {
-        for (const MeshEdge& edge : mesh_edges(mesh_.triangles)) {
-            if (edge.opposite[1] >= 0) add(triangle_hinge(edge, mesh_.rest, bend_stiffness_));
+        const std::vector<MeshEdge> edges = mesh_edges(mesh_.triangles);
+        std::vector<RestEdge> shaped;
+        if (!mesh_.corners.empty()) shaped = rest_edges(mesh_.triangles, edges, mesh_.corners);
+        for (std::size_t k = 0; k < edges.size(); ++k) {
+            const auto& [ends, opposite] = edges[k];
+            if (opposite[1] < 0) continue;
+            const auto at_rest = [&](int vertex) { return mesh_.rest[static_cast<std::size_t>(vertex)]; };
+            const std::array<Vec3, 4> lying = {at_rest(ends[0]), at_rest(ends[1]), at_rest(opposite[0]), at_rest(opposite[1])};
+            add(triangle_hinge(edges[k], shaped.empty() ? lying : shaped[k].corner, bend_stiffness_));
         }
     }
 

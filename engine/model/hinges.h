@@ -41,6 +41,8 @@ struct HingeMesh {
     int first_spring;            // of the cloth, in the network
     int first_vertex;
     int columns, rows;  // of a grid; 0 of a free mesh
+    /// m, of every triangle without strain; empty: as the vertices lie at rest.
+    std::span<const std::array<Vec3, 3>> corners = {};
 };
 
 /// Appends the hinges of a cloth of bending stiffness B (N m), and to the network a pair without stiffness for two vertices that

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/rest_edges.h"
 #include "mesh/topology.h"
 #include "percale/error.h"
 #include "tolerances.h"
@@ -18,30 +19,41 @@ double mean_modulus(const Fabric& fabric) {
 
 double isotropic_shear(const Fabric& fabric) { return mean_modulus(fabric) / (2.0 * (1.0 + fabric.poisson_ratio)); }
 
-double area(const TriangleMesh& mesh, const Triangle& t) {
-    return 0.5 * (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm();
-}
+using Corners = std::array<Vec3, 3>;
 
-/// The direction of warp in a triangle: along the row of a grid that it has an edge of; any edge of a free mesh.
-Vec3 warp_direction(const TriangleMesh& mesh, const Triangle& t) {
+double area(const Corners& x) { return 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm(); }
+
+Corners corners_of(const ShapedMesh& rest, std::size_t t) { return rest_corners(rest.mesh, rest.shape, t); }
+
+/// The direction of warp in a triangle: what the shape says, in its plane; along the row of a grid that it has an edge of; any
+/// edge of a free mesh.
+Vec3 warp_direction(const ShapedMesh& rest, std::size_t t) {
+    const TriangleMesh& mesh = rest.mesh;
+    const Triangle& triangle = mesh.triangles[t];
+    const Corners x = corners_of(rest, t);
+    if (const Vec3& warp = rest.shape.warp; warp != Vec3::Zero()) {
+        const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]).normalized();
+        return (warp - warp.dot(normal) * normal).normalized();
+    }
     for (int e = 0; mesh.is_grid() && e < 3; ++e) {
-        const auto [a, b] = std::minmax(t[e], t[(e + 1) % 3]);
+        const auto [a, b] = std::minmax(triangle[e], triangle[(e + 1) % 3]);
         if (b - a == 1) return (mesh.vertices[b] - mesh.vertices[a]).normalized();
     }
-    return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).normalized();
+    return (x[1] - x[0]).normalized();
 }
 
-std::array<Eigen::Vector2d, 3> corners_in_plane(const TriangleMesh& mesh, const Triangle& t) {
-    const Vec3 origin = mesh.vertices[t[0]], first = mesh.vertices[t[1]] - origin, second = mesh.vertices[t[2]] - origin;
-    const Vec3 x = warp_direction(mesh, t), y = first.cross(second).normalized().cross(x);
+std::array<Eigen::Vector2d, 3> corners_in_plane(const Corners& corners, const Vec3& x) {
+    const Vec3 first = corners[1] - corners[0], second = corners[2] - corners[0];
+    const Vec3 y = first.cross(second).normalized().cross(x);
     return {Eigen::Vector2d::Zero(), Eigen::Vector2d(first.dot(x), first.dot(y)), Eigen::Vector2d(second.dot(x), second.dot(y))};
 }
 
-MembraneTriangle membrane_triangle(const TriangleMesh& mesh, const Triangle& t, const Eigen::Matrix3d& law) {
-    MembraneTriangle triangle{.vertex = t, .stiffness = triangle_stiffness(corners_in_plane(mesh, t), law), .rest_square = {}};
-    for (int e = 0; e < 3; ++e) {
-        triangle.rest_square[e] = (mesh.vertices[t[(e + 1) % 3]] - mesh.vertices[t[(e + 2) % 3]]).squaredNorm();
-    }
+MembraneTriangle membrane_triangle(const ShapedMesh& rest, std::size_t t, const Eigen::Matrix3d& law) {
+    const Corners x = corners_of(rest, t);
+    MembraneTriangle triangle{.vertex = rest.mesh.triangles[t],
+                              .stiffness = triangle_stiffness(corners_in_plane(x, warp_direction(rest, t)), law),
+                              .rest_square = {}};
+    for (int e = 0; e < 3; ++e) triangle.rest_square[e] = (x[(e + 1) % 3] - x[(e + 2) % 3]).squaredNorm();
     return triangle;
 }
 
@@ -58,26 +70,28 @@ struct EdgeStiffness {
     std::vector<double> triangle_springs, van_gelder;
 };
 
-EdgeStiffness edge_stiffness(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges, const Fabric& fabric) {
+EdgeStiffness edge_stiffness(const ShapedMesh& rest, const std::vector<MeshEdge>& edges, const Fabric& fabric) {
     EdgeStiffness result{std::vector<double>(edges.size(), 0.0), std::vector<double>(edges.size(), 0.0)};
     const Eigen::Matrix3d law = stress_law(fabric);
-    for (const Triangle& t : mesh.triangles) {
-        const MembraneTriangle triangle = membrane_triangle(mesh, t, law);
+    for (std::size_t number = 0; number < rest.mesh.triangles.size(); ++number) {
+        const Triangle& t = rest.mesh.triangles[number];
+        const MembraneTriangle triangle = membrane_triangle(rest, number, law);
         for (int e = 0; e < 3; ++e) {
             const std::size_t edge = edge_between(edges, t[(e + 1) % 3], t[(e + 2) % 3]);
             result.triangle_springs[edge] += 4.0 * triangle.rest_square[e] * triangle.stiffness(e, e);
-            result.van_gelder[edge] += mean_modulus(fabric) * area(mesh, t) / triangle.rest_square[e];
+            result.van_gelder[edge] += mean_modulus(fabric) * area(corners_of(rest, number)) / triangle.rest_square[e];
         }
     }
     return result;
 }
 
-void check_frame(const TriangleMesh& mesh, const Fabric& fabric, const std::string& name) {
-    if (mesh.is_grid() || is_isotropic(fabric)) return;
+void check_frame(const ShapedMesh& rest, const Fabric& fabric, const std::string& name) {
+    if (rest.mesh.is_grid() || rest.shape.warp != Vec3::Zero() || is_isotropic(fabric)) return;
     throw SceneError(
         name, "warp and weft differ, or shear_stiffness is not that of isotropic cloth (" +
                   std::to_string(isotropic_shear(fabric)) +
-                  " N/m), but a free mesh does not say where warp is; give two equal numbers and that shear_stiffness or none");
+                  " N/m), but a free mesh does not say where warp is unless its rest shape does; give two equal numbers and that "
+                  "shear_stiffness or none");
 }
 
 SpringKind kind_of(const TriangleMesh& mesh, const MeshEdge& edge) {
@@ -117,10 +131,13 @@ Eigen::Matrix3d triangle_stiffness(const std::array<Eigen::Vector2d, 3>& corner,
     return 0.5 * (stiffness + stiffness.transpose());
 }
 
-void append_membrane(SpringNetwork& network, std::vector<MembraneTriangle>& triangles, const TriangleMesh& rest,
+void append_membrane(SpringNetwork& network, std::vector<MembraneTriangle>& triangles, const ShapedMesh& rest,
                      const Fabric& fabric, int first_vertex, const std::string& name) {
+    const auto& [mesh, shape] = rest;
     check_frame(rest, fabric, name);
-    const std::vector<MeshEdge> edges = mesh_edges(rest.triangles);
+    const std::vector<MeshEdge> edges = mesh_edges(mesh.triangles);
+    const std::vector<RestEdge> lengths =
+        shape.corners.empty() ? std::vector<RestEdge>() : rest_edges(mesh.triangles, edges, shape.corners);
     const EdgeStiffness stiffness = edge_stiffness(rest, edges, fabric);
     const bool plain = fabric.membrane == Membrane::van_gelder;
     const std::vector<double>& own = plain ? stiffness.van_gelder : stiffness.triangle_springs;
@@ -128,14 +145,14 @@ void append_membrane(SpringNetwork& network, std::vector<MembraneTriangle>& tria
         const auto [a, b] = edges[k].vertex;
         network.first.push_back(first_vertex + a);
         network.second.push_back(first_vertex + b);
-        network.rest_length.push_back((rest.vertices[a] - rest.vertices[b]).norm());
+        network.rest_length.push_back(lengths.empty() ? (mesh.vertices[a] - mesh.vertices[b]).norm() : lengths[k].length);
         network.stiffness.push_back(plain ? own[k] : 0.0);
         network.damping.push_back(fabric.damping_time ? *fabric.damping_time * own[k] : fabric.spring_damping);
-        network.kind.push_back(kind_of(rest, edges[k]));
+        network.kind.push_back(kind_of(mesh, edges[k]));
     }
     if (plain) return;
     const Eigen::Matrix3d law = stress_law(fabric);
-    for (const Triangle& t : rest.triangles) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         triangles.push_back(membrane_triangle(rest, t, law));
         for (int& vertex : triangles.back().vertex) vertex += first_vertex;
     }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/rest_edges.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
 #include "spring_network.h"
@@ -34,10 +35,10 @@ Eigen::Matrix3d triangle_stiffness(const std::array<Eigen::Vector2d, 3>& corner,
 
 /// Appends the edges of a cloth of given moduli as springs, whose vertices start at `first_vertex`, and for triangle springs the
 /// triangles. Edges of triangle springs have stiffness 0 there, only damping; edges of van Gelder springs have
-/// E sum(areas)/length^2 (van Gelder, Journal of Graphics Tools 3, 1998). Warp is along the rows of a grid; on a free mesh, which
-/// does not say where warp is, throws SceneError naming `name` unless the fabric is isotropic. Kinds: structural, but shear for
-/// diagonals of a grid. damping_time refers to the stiffness of an edge alone, 4 L^2 sum(K_ee).
-void append_membrane(SpringNetwork& network, std::vector<MembraneTriangle>& triangles, const TriangleMesh& rest,
+/// E sum(areas)/length^2 (van Gelder, Journal of Graphics Tools 3, 1998). Warp is along the rows of a grid; on a free mesh
+/// its rest shape says where, or else throws SceneError naming `name` unless the fabric is isotropic. Kinds: structural, but
+/// shear for diagonals of a grid. damping_time refers to the stiffness of an edge alone, 4 L^2 sum(K_ee).
+void append_membrane(SpringNetwork& network, std::vector<MembraneTriangle>& triangles, const ShapedMesh& rest,
                      const Fabric& fabric, int first_vertex, const std::string& name);
 
 }  // namespace percale

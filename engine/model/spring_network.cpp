@@ -4,6 +4,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "mesh/rest_edges.h"
 #include "mesh/topology.h"
 #include "percale/error.h"
 
@@ -17,10 +18,11 @@ public:
                  const std::string& name)
         : network_(network), rest_(rest), fabric_(fabric), first_vertex_(first_vertex), name_(name) {}
 
-    void add(int a, int b, SpringKind kind) {
+    void add(int a, int b, SpringKind kind) { add(a, b, (rest_.vertices[a] - rest_.vertices[b]).norm(), kind); }
+
+    void add(int a, int b, double length, SpringKind kind) {
         const double stiffness = constant(kind);
         if (stiffness == 0.0) return;
-        const double length = (rest_.vertices[a] - rest_.vertices[b]).norm();
         if (!(length > 0.0)) {
             throw SceneError(name_, "vertices " + std::to_string(a) + " and " + std::to_string(b) +
                                         " are joined by a spring but lie at the same place");
@@ -75,6 +77,18 @@ void add_free(SpringWriter& writer, const TriangleMesh& mesh) {
     }
 }
 
+void add_shaped(SpringWriter& writer, const TriangleMesh& mesh, std::span<const std::array<Vec3, 3>> corners) {
+    const std::vector<MeshEdge> edges = mesh_edges(mesh.triangles);
+    const std::vector<RestEdge> rest = rest_edges(mesh.triangles, edges, corners);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        writer.add(edges[k].vertex[0], edges[k].vertex[1], rest[k].length, SpringKind::structural);
+    }
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        const double apart = (rest[k].corner[3] - rest[k].corner[2]).norm();
+        if (edges[k].opposite[1] >= 0) writer.add(edges[k].opposite[0], edges[k].opposite[1], apart, SpringKind::bend);
+    }
+}
+
 /// list[from + k] = what stood at number[k].
 template <class T>
 void rearrange(std::vector<T>& list, int from, const std::vector<int>& number) {
@@ -84,16 +98,21 @@ void rearrange(std::vector<T>& list, int from, const std::vector<int>& number) {
 
 }  // namespace
 
-void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex,
+void append_springs(SpringNetwork& network, const ShapedMesh& rest, const Fabric& fabric, int first_vertex,
                     const std::string& name) {
-    if (!rest.is_grid() && fabric.springs.shear != 0.0) {
+    const auto& [mesh, shape] = rest;
+    if (!mesh.is_grid() && fabric.springs.shear != 0.0) {
         throw SceneError(
             name, "springs.shear = " + std::to_string(fabric.springs.shear) +
                       " N/m, but a free mesh has no shear springs; its edges already resist shear, leave springs.shear out");
     }
     const int before = network.size();
-    SpringWriter writer(network, rest, fabric, first_vertex, name);
-    rest.is_grid() ? add_grid(writer, rest) : add_free(writer, rest);
+    SpringWriter writer(network, mesh, fabric, first_vertex, name);
+    if (!shape.corners.empty()) {
+        add_shaped(writer, mesh, shape.corners);
+    } else {
+        mesh.is_grid() ? add_grid(writer, mesh) : add_free(writer, mesh);
+    }
     if (network.size() == before) throw SceneError(name, "the fabric has no springs; springs.structural must be above 0 N/m");
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/rest_edges.h"
 #include "mesh/vertex_order.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
@@ -25,12 +26,12 @@ struct SpringNetwork {
     int size() const { return static_cast<int>(first.size()); }
 };
 
-/// Appends the springs of one cloth whose vertices start at `first_vertex`. `rest` is the rest shape in m.
-/// Grid: structural along rows and columns, shear on both diagonals of every cell, bend two apart along rows and columns.
-/// Free mesh: structural on every edge, bend between the two vertices opposite an inner edge.
+/// Appends the springs of one cloth whose vertices start at `first_vertex`.
+/// Grid: structural along rows and columns, shear on both diagonals of every cell, bend two apart along rows and columns. Free
+/// mesh: structural on every edge, bend between the two vertices opposite an inner edge, as long as without strain.
 /// A kind whose constant is 0 has no springs, and so no damping either. Throws SceneError naming `name` for shear on a
 /// free mesh, no spring at all, or a spring of no length.
-void append_springs(SpringNetwork& network, const TriangleMesh& rest, const Fabric& fabric, int first_vertex,
+void append_springs(SpringNetwork& network, const ShapedMesh& rest, const Fabric& fabric, int first_vertex,
                     const std::string& name);
 
 /// Appends a pair of vertices without spring.

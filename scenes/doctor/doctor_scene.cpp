@@ -9,6 +9,7 @@
 #include "format/scene_file.h"
 #include "frames/frame_formats.h"
 #include "percale/error.h"
+#include "run/cloth_shape.h"
 #include "run/motion_parts.h"
 #include "run/obstacle_motion.h"
 #include "run/run_scene.h"
@@ -58,7 +59,7 @@ std::optional<ExaminedMesh> read_mesh(const Spec& spec, MeshRole role, std::vect
 Meshes read_meshes(const Scene& scene, std::vector<Finding>& found) {
     Meshes meshes;
     for (const ClothSpec& cloth : scene.cloths) {
-        auto mesh = read_mesh(cloth, MeshRole::cloth, found, [&] { return rest_mesh(scene, cloth); });
+        auto mesh = read_mesh(cloth, MeshRole::cloth, found, [&] { return start_mesh(scene, cloth); });
         if (!mesh) continue;
         meshes.cloths.push_back(std::move(*mesh));
         meshes.cloth_specs.push_back(&cloth);

@@ -72,6 +72,35 @@ Field<Spec> unit_field() {
                             &Spec::unit, unit_words, std::vector{0.001, 0.01, 1.0});
 }
 
+Field<ClothSpec> rest_field() {
+    Field<ClothSpec> field =
+        value_field<ClothSpec>({.path = "rest",
+                                .sentence = "Where it has no strain: a mesh file of the same triangles, or \"uv\" for the vt of "
+                                            "the mesh (OBJ); without it as it starts.",
+                                .needs = "mesh",
+                                .needs_why = "a grid is its own rest shape"},
+                               &ClothSpec::rest);
+    field.key.default_text.clear();
+    field.write = [](const ClothSpec& spec) { return spec.rest.empty() ? std::nullopt : std::optional(value_node(spec.rest)); };
+    return field;
+}
+
+Field<ClothSpec> uv_scale_field() {
+    Field<ClothSpec> field =
+        value_field<ClothSpec>({.path = "uv_scale",
+                                .sentence = "How long one unit of the vt is without strain; with rest = \"uv\".",
+                                .unit = "m",
+                                .lowest = 1e-6,
+                                .highest = 1e6,
+                                .needs = "mesh",
+                                .needs_why = "uv_scale is that of a mesh file's vt"},
+                               &ClothSpec::uv_scale);
+    field.write = [](const ClothSpec& spec) {
+        return spec.rest == "uv" ? std::optional(value_node(spec.uv_scale)) : std::nullopt;
+    };
+    return field;
+}
+
 const FieldTable<Pose>& pose_table() {
     static const FieldTable<Pose> table = {
         .fields = {
@@ -115,7 +144,17 @@ const FieldTable<GridSpec>& grid_table() {
     return table;
 }
 
+/// uv are two numbers, and there are none without rest = "uv".
+void check_warp(const TomlNode& table, const ClothSpec& cloth) {
+    if (!cloth.warp || cloth.warp->in_uv == (cloth.rest == "uv")) return;
+    fail_at(table.find("warp")->place, cloth.warp->in_uv ? "warp in uv (\"u\", \"v\" or two numbers) needs rest = \"uv\""
+                                                         : "with rest = \"uv\" warp is \"u\", \"v\" or two numbers");
+}
+
 void finish_cloth(const TomlNode& table, ClothSpec& cloth) {
+    check_warp(table, cloth);
+    if (table.find("uv_scale") != nullptr && cloth.rest != "uv")
+        fail_at(table.find("uv_scale")->place, "uv_scale needs rest = \"uv\"");
     const TomlNode* pin = table.find("pin");
     const TomlNode* box = pin != nullptr ? pin->find("box") : nullptr;
     cloth.pin_place = box != nullptr ? box->place : pin != nullptr ? pin->place : cloth.place;
@@ -235,6 +274,22 @@ std::string obstacle_shown(const TomlNode& table) { return "obstacle '" + table.
 
 }  // namespace
 
+void read_value(const TomlNode& node, Warp& value) {
+    value.in_uv = node.kind == TomlKind::text || node.items.size() == 2;
+    if (node.kind == TomlKind::text) {
+        value.direction = node.text == "u" ? Vec3::UnitX() : Vec3::UnitY();
+        return;
+    }
+    value.direction = Vec3::Zero();
+    for (std::size_t i = 0; i < node.items.size(); ++i) value.direction[static_cast<int>(i)] = node.items[i].number;
+}
+
+TomlNode value_node(const Warp& value) {
+    if (value.in_uv && value.direction == Vec3::UnitX()) return value_node(std::string("u"));
+    if (value.in_uv && value.direction == Vec3::UnitY()) return value_node(std::string("v"));
+    return value.in_uv ? value_node(std::array{value.direction.x(), value.direction.y()}) : value_node(value.direction);
+}
+
 void read_value(const TomlNode& node, VertexSelection& value) {
     if (node.kind == TomlKind::text) {
         value = VertexBoundary{};
@@ -259,6 +314,15 @@ const FieldTable<ClothSpec>& cloth_table() {
                                            .alternative = true},
                                           &ClothSpec::grid, grid_table()),
                    mesh_field<ClothSpec>("Mesh file, relative to the scene file; instead of grid."), unit_field<ClothSpec>(),
+                   rest_field(), uv_scale_field(),
+                   value_field<ClothSpec>({.path = "warp",
+                                           .sentence = "Where warp runs, of any length: in uv, then v if not said, or in the "
+                                                       "axes of the mesh without strain; weft is across.",
+                                           .lowest = -farthest,
+                                           .highest = farthest,
+                                           .needs = "mesh",
+                                           .needs_why = "warp of a grid runs along x"},
+                                          &ClothSpec::warp),
                    pose_field<ClothSpec>(),
                    selection_field<ClothSpec>({.path = "pin", .sentence = "Vertices held where they start."}, &ClothSpec::pin)},
         .rules = {.shown = cloth_shown},

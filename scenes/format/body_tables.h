@@ -16,6 +16,11 @@ const FieldTable<ObstacleSpec>& obstacle_table();
 /// As toml_values.h has it for values of other types.
 void read_value(const TomlNode& node, VertexSelection& value);
 TomlNode value_node(const VertexSelection& value);
+void read_value(const TomlNode& node, Warp& value);
+TomlNode value_node(const Warp& value);
+template <>
+inline constexpr ValueKind value_kind<Warp> = {KeyKind::direction};
+
 template <>
 inline constexpr ValueKind value_kind<VertexSelection> = {KeyKind::vertices};
 
@@ -26,7 +31,7 @@ Field<Spec> selection_field(SceneKey key, Access access) {
     field.key.inside.push_back({.path = "box",
                                 .kind = KeyKind::box,
                                 .sentence = "Vertices inside a box whose corners are given in "
-                                            "fractions of the bounding box of the cloth's rest shape.",
+                                            "fractions of the bounding box of the cloth as it starts.",
                                 .lowest = -1.0,
                                 .highest = 2.0});
     return field;

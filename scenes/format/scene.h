@@ -33,12 +33,21 @@ struct VertexBox {
 struct VertexBoundary {};
 using VertexSelection = std::variant<VertexIndices, VertexBox, VertexBoundary>;
 
+/// Direction of warp: in uv (two numbers, "u" or "v"), or in the axes of the mesh without strain.
+struct Warp {
+    Vec3 direction = Vec3::UnitX();
+    bool in_uv = false;
+};
+
 struct ClothSpec {
     std::string name;
     std::string fabric;
     std::optional<GridSpec> grid;  // exactly one of grid and mesh
     std::string mesh;              // path relative to the scene file
     double unit = 1.0;             // m per unit of the mesh file
+    std::string rest;              // path of a mesh without strain, or "uv": the mesh's vt; empty: as it starts
+    double uv_scale = 1.0;         // m per unit of vt
+    std::optional<Warp> warp;
     Pose pose;
     VertexSelection pin = VertexIndices{};
     SourcePlace pin_place;  // of `pin`; of the cloth where that is not said

@@ -95,6 +95,17 @@ void check_pairs(const TomlNode& node, const SceneKey& key, const std::string& s
     }
 }
 
+void check_direction(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind == TomlKind::text && (node.text == "u" || node.text == "v")) return;
+    if (node.kind != TomlKind::list || node.items.size() < 2 || node.items.size() > 3) fail_kind(node, key, shown);
+    bool zero = true;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        check_number(node.items[i], key, shown + "[" + std::to_string(i) + "]");
+        zero = zero && node.items[i].number == 0.0;
+    }
+    if (zero) fail_at(node.place, shown + " must not be zero in every part");
+}
+
 void check_between(const TomlNode& node, const SceneKey& key, const std::string& shown) {
     SceneKey both = key;
     both.kind = KeyKind::numbers;
@@ -180,6 +191,8 @@ void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot, Fa
             return check_names(node, key, spot.shown);
         case KeyKind::pairs:
             return check_pairs(node, key, spot.shown);
+        case KeyKind::direction:
+            return check_direction(node, key, spot.shown);
         case KeyKind::limit:
             return check_limit(node, key, spot);
         case KeyKind::table:

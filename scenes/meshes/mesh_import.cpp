@@ -63,7 +63,8 @@ Reader own_reader(const std::string& format) {
     return format == ".ply" ? read_ply : nullptr;
 }
 
-TriangleMesh read_with(Reader read, const std::string& file) {
+template <class Read>
+auto read_with(Read read, const std::string& file) {
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in) throw SceneError(file, std::string("cannot be read: ") + std::strerror(errno));
@@ -179,6 +180,14 @@ TriangleMesh import_mesh(const std::string& file, double unit) {
     if (mesh.triangles.empty()) throw SceneError(file, "no triangles");
     for (std::size_t k = 0; k < mesh.vertices.size(); ++k) check_finite(mesh.vertices[k] *= unit, k, file);
     return own != nullptr ? mesh : weld(mesh);
+}
+
+TexturedMesh import_textured_mesh(const std::string& file, double unit) {
+    check_mesh_file(file);
+    if (format_of(file) != ".obj") throw SceneError(file, "has no vt, which are read from OBJ files");
+    TexturedMesh textured = read_with(read_textured_obj, file);
+    for (Vec3& x : textured.mesh.vertices) x *= unit;
+    return textured;
 }
 
 }  // namespace percale::scenes

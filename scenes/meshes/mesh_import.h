@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "meshes/obj_file.h"
 #include "percale/mesh.h"
 
 namespace percale::scenes {
@@ -17,5 +18,9 @@ std::string extension_of(const std::string& file);
 /// coordinate, index out of range, no triangles, a header that claims more than the file can hold, another format, copies of
 /// parts beyond 64 in the mean and 100000 vertices.
 TriangleMesh import_mesh(const std::string& file, double unit = 1.0);
+
+/// A mesh with its texture coordinates, which OBJ files have (vt); vertices times `unit`. Throws SceneError as import_mesh does,
+/// and for another format.
+TexturedMesh import_textured_mesh(const std::string& file, double unit = 1.0);
 
 }  // namespace percale::scenes

@@ -1,5 +1,7 @@
 #include "meshes/obj_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <istream>
 #include <iterator>
 #include <limits>
@@ -14,8 +16,19 @@ namespace {
 /// The corners of all faces read so far, one after another, as 0-based indices that are checked once all vertices are known.
 struct FaceList {
     std::vector<long long> corners;
-    std::vector<std::size_t> ends;   // one past a face's last corner
-    std::vector<std::size_t> lines;  // where the face stands
+    std::vector<long long> textures;  // of the corners; -1: none
+    std::vector<std::size_t> ends;    // one past a face's last corner
+    std::vector<std::size_t> lines;   // where the face stands
+};
+
+/// How many vertices and texture coordinates stand above a line.
+struct ReadSoFar {
+    std::size_t vertices = 0, textures = 0;
+};
+
+/// Indices of one corner as they stand in the file; texture 0: none.
+struct Corner {
+    long long vertex = 0, texture = 0;
 };
 
 /// Takes the next logical line off the text: a backslash before the line end joins lines, and comments end it.
@@ -49,27 +62,34 @@ Vec3 read_vertex(std::string_view line, const TextPlace& place) {
     return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// The vertex index of one corner a, a/b, a//c or a/b/c as it stands in the file; the others are only checked for form.
-long long read_corner(std::string_view word, const TextPlace& place) {
+/// One corner a, a/b, a//c or a/b/c; the index of its normal is only checked for form.
+Corner read_corner(std::string_view word, const TextPlace& place) {
     const std::size_t slash = word.find('/');
-    const long long index = to_integer(word.substr(0, slash), place, "vertex index");
-    if (slash == std::string_view::npos) return index;
+    Corner corner{.vertex = to_integer(word.substr(0, slash), place, "vertex index")};
+    if (slash == std::string_view::npos) return corner;
     std::string_view rest = word.substr(slash + 1);
     const std::size_t second = std::min(rest.find('/'), rest.size());
-    if (second > 0) to_integer(rest.substr(0, second), place, "texture index");
+    if (second > 0) corner.texture = to_integer(rest.substr(0, second), place, "texture index");
     if (second < rest.size()) to_integer(rest.substr(second + 1), place, "normal index");
-    return index;
+    return corner;
 }
 
-void read_face(std::string_view line, const TextPlace& place, std::size_t vertex_count, FaceList& faces) {
+/// Counted from 0, or backwards from what stands above the line; -1: none.
+long long from_zero(long long index, std::size_t so_far) {
+    return index >= 0 ? index - 1 : std::max(-1LL, static_cast<long long>(so_far) + index);
+}
+
+void read_face(std::string_view line, const TextPlace& place, const ReadSoFar& so_far, FaceList& faces) {
+    const std::size_t vertex_count = so_far.vertices;
     const std::size_t start = faces.corners.size();
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-        const long long index = read_corner(word, place);
+        const auto [index, texture] = read_corner(word, place);
         if (index == 0) fail_at_line(place, "vertex index 0: indices start at 1 (or at -1, backwards)");
         if (index < -static_cast<long long>(vertex_count))
             fail_at_line(place, "vertex index " + std::to_string(index) + " reaches before the first of " +
                                     std::to_string(vertex_count) + " vertices read so far");
-        faces.corners.push_back(index > 0 ? index - 1 : static_cast<long long>(vertex_count) + index);
+        faces.corners.push_back(from_zero(index, vertex_count));
+        faces.textures.push_back(from_zero(texture, so_far.textures));
     }
     const std::size_t count = faces.corners.size() - start;
     if (count < 3) fail_at_line(place, "a face needs 3 corners or more, this one has " + std::to_string(count));
@@ -92,6 +112,63 @@ std::vector<Triangle> fan(const FaceList& faces, std::size_t vertex_count, const
         start = faces.ends[face];
     }
     return triangles;
+}
+
+/// Texture coordinates of the corners, fanned likewise.
+std::vector<std::array<Eigen::Vector2d, 3>> fan_textures(const FaceList& faces, const std::vector<Eigen::Vector2d>& textures,
+                                                         const std::string& name) {
+    std::vector<std::array<Eigen::Vector2d, 3>> uv;
+    std::size_t start = 0;
+    for (std::size_t face = 0; face < faces.ends.size(); ++face) {
+        const auto corner = [&](std::size_t k) {
+            const long long index = faces.textures[k];
+            if (index >= 0 && index < static_cast<long long>(textures.size())) return textures[static_cast<std::size_t>(index)];
+            fail_at_line({name, faces.lines[face]}, index < 0
+                                                        ? "a corner has no texture index (vt), which every corner needs here"
+                                                        : "texture index " + std::to_string(index + 1) +
+                                                              " is out of range 1 ... " + std::to_string(textures.size()));
+        };
+        for (std::size_t k = start + 2; k < faces.ends[face]; ++k) uv.push_back({corner(start), corner(k - 1), corner(k)});
+        start = faces.ends[face];
+    }
+    return uv;
+}
+
+Eigen::Vector2d read_texture(std::string_view line, const TextPlace& place) {
+    constexpr const char* names[] = {"texture coordinate u", "texture coordinate v"};
+    Eigen::Vector2d uv;
+    for (int axis = 0; axis < 2; ++axis) {
+        const std::string_view word = next_word(line);
+        if (word.empty()) fail_at_line(place, std::string(names[axis]) + " is missing");
+        uv[axis] = to_double(word, place, names[axis]);
+        if (!std::isfinite(uv[axis])) fail_at_line(place, std::string(names[axis]) + " is not finite");
+    }
+    return uv;
+}
+
+/// With `textured`, vt are read, too.
+TexturedMesh read_content(std::istream& in, const std::string& name, bool textured) {
+    const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    if (in.bad()) throw SceneError(name, "cannot be read");
+    TexturedMesh result;
+    TriangleMesh& mesh = result.mesh;
+    std::vector<Eigen::Vector2d> textures;
+    FaceList faces;
+    std::size_t line_number = 0;
+    for (std::string_view text = content; !text.empty();) {
+        const TextPlace place{name, line_number + 1};
+        const std::string line = next_line(text, line_number);
+        std::string_view rest = line;
+        const std::string_view keyword = next_word(rest);
+        if (keyword == "v") mesh.vertices.push_back(read_vertex(rest, place));
+        if (keyword == "vt" && textured) textures.push_back(read_texture(rest, place));
+        if (keyword == "f") read_face(rest, place, {mesh.vertices.size(), textures.size()}, faces);
+    }
+    if (mesh.vertices.empty()) throw SceneError(name, "no vertices");
+    if (faces.ends.empty()) throw SceneError(name, "no triangles");
+    mesh.triangles = fan(faces, mesh.vertices.size(), name);
+    if (textured) result.uv = fan_textures(faces, textures, name);
+    return result;
 }
 
 template <typename Number>
@@ -118,25 +195,9 @@ std::string obj_text(std::span<const Vec3> vertices, std::span<const Triangle> t
 
 }  // namespace
 
-TriangleMesh read_obj(std::istream& in, const std::string& name) {
-    const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (in.bad()) throw SceneError(name, "cannot be read");
-    TriangleMesh mesh;
-    FaceList faces;
-    std::size_t line_number = 0;
-    for (std::string_view text = content; !text.empty();) {
-        const TextPlace place{name, line_number + 1};
-        const std::string line = next_line(text, line_number);
-        std::string_view rest = line;
-        const std::string_view keyword = next_word(rest);
-        if (keyword == "v") mesh.vertices.push_back(read_vertex(rest, place));
-        if (keyword == "f") read_face(rest, place, mesh.vertices.size(), faces);
-    }
-    if (mesh.vertices.empty()) throw SceneError(name, "no vertices");
-    if (faces.ends.empty()) throw SceneError(name, "no triangles");
-    mesh.triangles = fan(faces, mesh.vertices.size(), name);
-    return mesh;
-}
+TriangleMesh read_obj(std::istream& in, const std::string& name) { return read_content(in, name, false).mesh; }
+
+TexturedMesh read_textured_obj(std::istream& in, const std::string& name) { return read_content(in, name, true); }
 
 void write_obj(const std::string& file, std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
     write_whole_file(file, obj_text(vertices, triangles));

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <iosfwd>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "percale/mesh.h"
 
@@ -11,6 +13,15 @@ namespace percale::scenes {
 /// Wavefront OBJ: v and f (with or without /vt/vn, negative indices allowed, polygons fanned from their first vertex); other
 /// keywords are passed over. Vertex order is kept. Throws SceneError with name:line.
 TriangleMesh read_obj(std::istream& in, const std::string& name);
+
+/// A mesh and its texture coordinates: those of the three corners of every triangle.
+struct TexturedMesh {
+    TriangleMesh mesh;
+    std::vector<std::array<Eigen::Vector2d, 3>> uv;
+};
+
+/// The same with vt, of which every corner of every face must have one; throws SceneError with name:line where not.
+TexturedMesh read_textured_obj(std::istream& in, const std::string& name);
 
 /// Writes v and f; to a temporary name first, then renamed. Each coordinate has as many digits (at most 17) as it takes to read
 /// back the same bits. Throws SceneError with the system's reason if the file cannot be written.

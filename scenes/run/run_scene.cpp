@@ -11,6 +11,7 @@
 #include "common/text.h"
 #include "meshes/mesh_import.h"
 #include "percale/error.h"
+#include "run/cloth_shape.h"
 #include "run/motion_parts.h"
 #include "run/scene_plan.h"
 #include "run/step_count.h"

@@ -1,7 +1,5 @@
 #include "run/scene_build.h"
 
-#include <filesystem>
-
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "format/expectations.h"
@@ -9,6 +7,7 @@
 #include "percale/detectors.h"
 #include "percale/error.h"
 #include "percale/fabric_presets.h"
+#include "run/cloth_shape.h"
 #include "run/event_script.h"
 #include "run/obstacle_motion.h"
 #include "run/start_fault.h"
@@ -71,25 +70,26 @@ void check_shear(const ClothSpec& cloth, const TriangleMesh& mesh, double shear)
                                       " N/m, but a free mesh has no shear springs; it must be 0");
 }
 
-/// A preset has a warp, a mesh does not say where: there it is isotropic, which is not silent.
-Fabric fabric_on(BuiltScene& built, const ClothSpec& cloth, const TriangleMesh& mesh) {
+/// A preset has a warp. On a mesh that does not say where it is isotropic, which is not silent.
+Fabric fabric_on(BuiltScene& built, const ClothSpec& cloth, const TriangleMesh& mesh, const RestShape& rest) {
     const Fabric& fabric = fabric_of(built.scene, cloth);
-    if (mesh.is_grid() || !built.scene.preset_moduli.contains(cloth.fabric)) return fabric;
+    if (mesh.is_grid() || rest.warp != Vec3::Zero() || !built.scene.preset_moduli.contains(cloth.fabric)) return fabric;
     const Fabric result = isotropic(fabric);
     const auto [warp, weft] = *fabric.stretch_stiffness;
-    built.warnings.push_back(told(cloth) + ": a mesh does not say where warp is; instead of stretch_stiffness = [" +
-                             number_text(warp) + ", " + number_text(weft) + "] N/m, fabric." + cloth.fabric + " has " +
-                             number_text(result.stretch_stiffness->front()) +
-                             " N/m in every direction there, what belongs to its shear_stiffness");
+    built.warnings.push_back(
+        told(cloth) + ": its mesh does not say where warp is (key warp, or rest = \"uv\"); instead of stretch_stiffness = [" +
+        number_text(warp) + ", " + number_text(weft) + "] N/m, fabric." + cloth.fabric + " has " +
+        number_text(result.stretch_stiffness->front()) + " N/m in every direction there, what belongs to its shear_stiffness");
     return result;
 }
 
 void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
-    TriangleMesh mesh = rest_mesh(built.scene, cloth);
+    TriangleMesh mesh = start_mesh(built.scene, cloth);
     check_mesh(mesh, told(cloth), true);
-    const Fabric fabric = fabric_on(built, cloth, mesh);
+    const RestShape rest = rest_shape(built.scene, cloth, mesh, built.warnings);
+    const Fabric fabric = fabric_on(built, cloth, mesh, rest);
     check_shear(cloth, mesh, fabric.springs.shear);
-    const ClothId id = built.simulation.add_cloth(mesh, fabric, {}, cloth.name);
+    const ClothId id = built.simulation.add_cloth(mesh, fabric, {}, cloth.name, rest);
     built.cloths.push_back(id);
     built.cloth_meshes.push_back(std::move(mesh));
 }
@@ -152,18 +152,6 @@ void check_start(BuiltScene& built) {
 }
 
 }  // namespace
-
-std::string path_beside(const Scene& scene, const std::string& path) {
-    return (std::filesystem::path(scene.file).parent_path() / path).string();
-}
-
-TriangleMesh rest_mesh(const Scene& scene, const ClothSpec& cloth) {
-    TriangleMesh mesh =
-        cloth.grid ? make_grid(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->vertices[0], cloth.grid->vertices[1])
-                   : import_mesh(path_beside(scene, cloth.mesh), cloth.unit);
-    mesh.vertices = transform(cloth.pose, mesh.vertices);
-    return mesh;
-}
 
 TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle) {
     return obstacle.mesh.empty() ? shape_mesh(obstacle.shape) : import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit);

@@ -56,6 +56,8 @@ public:
                 return list(key.count, [&] { return one_of({"\"c0\"", "\"c1\""}); });
             case KeyKind::pairs:
                 return list(1 + below(3), [&] { return list(2, [&] { return integer_of(key); }); });
+            case KeyKind::direction:
+                return below(2) == 0 ? one_of({"\"u\"", "\"v\""}) : list(2, [&] { return number_of(key, path); });
             case KeyKind::limit:
                 return limit_of(key, path);
             case KeyKind::table:
@@ -82,7 +84,7 @@ private:
         const bool presets = wanted == "fabric.preset" || (wanted.empty() && below(3) == 0);
         const std::set<std::string> of_moduli = {"fabric.stretch_stiffness", "fabric.shear_stiffness", "fabric.poisson_ratio"};
         const bool moduli = of_moduli.contains(wanted) || (wanted.empty() && !presets && below(2) == 0);
-        must_ = {"fabric", presets ? "fabric.preset" : moduli ? "fabric.stretch_stiffness" : "fabric.springs"};
+        must_ = {"fabric", "cloth.rest", presets ? "fabric.preset" : moduli ? "fabric.stretch_stiffness" : "fabric.springs"};
         banned_ = of_moduli;
         banned_.insert("fabric.preset");
         if (presets || moduli) banned_ = {"fabric.springs", "fabric.membrane", presets ? "" : "fabric.preset"};
@@ -175,6 +177,7 @@ private:
     std::string text_of(const std::string& path) {
         if (path.ends_with(".name"))
             return "\"" + std::string(path.starts_with("cloth") ? "c" : "o") + std::to_string(item_) + "\"";
+        if (path == "cloth.rest") return "\"uv\"";
         if (path.ends_with(".fabric")) return one_of({"\"f0\"", "\"f1\""});
         if (path.ends_with(".cloth")) return one_of({"\"c0\"", "\"c1\""});
         return "\"some text " + std::to_string(below(1000000)) + "\"";

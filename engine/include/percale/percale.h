@@ -9,6 +9,7 @@
 #include "percale/options.h"
 #include "percale/plan.h"
 #include "percale/report.h"
+#include "percale/rest_shape.h"
 #include "percale/settings.h"
 #include "percale/simulation.h"
 #include "percale/workers.h"

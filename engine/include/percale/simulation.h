@@ -13,6 +13,7 @@
 #include "percale/mesh.h"
 #include "percale/plan.h"
 #include "percale/report.h"
+#include "percale/rest_shape.h"
 #include "percale/settings.h"
 #include "percale/workers.h"
 
@@ -49,8 +50,10 @@ public:
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
 
-    /// The mesh at `pose` (its scale included) is the rest shape. `name` is used in messages.
-    ClothId add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose = {}, const std::string& name = "cloth");
+    /// Cloth starts as the mesh at `pose` (its scale included), which is its rest shape, too, unless `rest` says another: of that
+    /// the pose's scale is taken alone. `name` is used in messages.
+    ClothId add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose = {}, const std::string& name = "cloth",
+                      const RestShape& rest = {});
     ObstacleId add_obstacle(const TriangleMesh& mesh, const Pose& pose = {}, const ObstacleSettings& settings = {});
 
     void pin(ClothId cloth, int vertex);

@@ -26,7 +26,7 @@ Corners equilateral(double side) { return {Eigen::Vector2d{0.0, 0.0}, {side, 0.0
 SpringNetwork network_of(const TriangleMesh& mesh, const Fabric& fabric, std::vector<MembraneTriangle>& triangles,
                          int first = 0) {
     SpringNetwork network;
-    append_membrane(network, triangles, mesh, fabric, first, "flag");
+    append_membrane(network, triangles, {mesh, {}}, fabric, first, "flag");
     return network;
 }
 

@@ -23,7 +23,7 @@ Fabric fabric_of(double structural, double shear, double bend) {
 
 SpringNetwork network_of(const TriangleMesh& mesh, const Fabric& fabric, int first = 0) {
     SpringNetwork network;
-    append_springs(network, mesh, fabric, first, "sail");
+    append_springs(network, {mesh, {}}, fabric, first, "sail");
     return network;
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("A spring constant of zero makes no springs") {
 TEST_CASE("A second cloth's springs are appended with its vertices shifted") {
     SpringNetwork network = network_of(make_grid(1.0, 1.0, 3, 3), sheet_fabric());
     const int before = network.size();
-    append_springs(network, make_grid(1.0, 1.0, 2, 2), sheet_fabric(), 9, "second");
+    append_springs(network, {make_grid(1.0, 1.0, 2, 2), {}}, sheet_fabric(), 9, "second");
     REQUIRE(network.size() == before + 6);
     for (int k = 0; k < network.size(); ++k) {
         CHECK((network.first[k] >= 9) == (k >= before));
@@ -134,7 +134,7 @@ TEST_CASE("Renumbered springs join the same places with the same constants, sort
     const int count = static_cast<int>(ball.vertices.size()), before = 9;
     SpringNetwork network = network_of(make_grid(1.0, 1.0, 3, 3), sheet_fabric());
     const int from = network.size();
-    append_springs(network, ball, fabric_of(900.0, 0.0, 7.0), before, "ball");
+    append_springs(network, {ball, {}}, fabric_of(900.0, 0.0, 7.0), before, "ball");
     const SpringNetwork old = network;
     const std::vector<int> springs = springs_at_vertices(network, from, before, count);
     CHECK(std::accumulate(springs.begin(), springs.end(), 0) == 2 * (network.size() - from));

@@ -117,6 +117,8 @@ std::vector<std::string> wrong_kinds(const SceneKey& key) {
             return {"7", "\"edges\""};
         case KeyKind::pairs:
             return {"7", "[]"};
+        case KeyKind::direction:
+            return {"7", "\"w\"", "[1]", "[1, 2, 3, 4]"};
         case KeyKind::limit:
             return {"\"small\"", "true", "[1, 2]"};
         case KeyKind::table:
@@ -199,6 +201,7 @@ TEST_CASE("every key that a run depends on changes its settings, and no other do
         const std::string one = values.value_of(key, key.path);
         std::string other = one;
         if (key.path.ends_with(".name")) other = "\"renamed\"";
+        if (key.path == "cloth.rest") other = "\"flat.obj\"";
         while (other == one) other = values.value_of(key, key.path);
         const SceneKey& top = *find_scene_key(key.path.substr(0, key.path.find('.')));
         CHECK((settings_with(one) != settings_with(other)) == top.setting);

@@ -105,16 +105,6 @@ TEST_CASE("a mesh is found beside the scene file and scaled by its unit") {
     CHECK_FALSE(scene.cloth_meshes.at(0).is_grid());
 }
 
-TEST_CASE("a relative path starts at the scene file's folder, an absolute one stays") {
-    Scene scene;
-    scene.file = "some/folder/scene.toml";
-    CHECK(path_beside(scene, "a.obj") == "some/folder/a.obj");
-    CHECK(path_beside(scene, "../a.obj") == "some/folder/../a.obj");
-    CHECK(path_beside(scene, "/folder/a.obj") == "/folder/a.obj");
-    scene.file = "scene.toml";
-    CHECK(path_beside(scene, "a.obj") == "a.obj");
-}
-
 TEST_CASE("a missing mesh is told with the place of its cloth and its path") {
     const test::TestFolder folder;
     const std::string file = mesh_scene(folder, square);
@@ -289,7 +279,9 @@ TEST_CASE("a preset on a mesh is isotropic and says so, on a grid, or with modul
     const BuiltScene on_mesh = build_scene(load_scene(mesh_scene(folder, square, "", "preset = \"denim_11oz\"")));
     REQUIRE(on_mesh.warnings.size() == 1);
     const std::string& warning = on_mesh.warnings.front();
-    CHECK(warning.starts_with("cloth 'flag': a mesh does not say where warp is; instead of stretch_stiffness = ["));
+    CHECK(
+        warning.starts_with("cloth 'flag': its mesh does not say where warp is (key warp, or rest = \"uv\"); instead of "
+                            "stretch_stiffness = ["));
     const Fabric expected = isotropic(fabric_preset("denim_11oz"));
     CHECK(warning.find(number_text(expected.stretch_stiffness->front()) + " N/m in every direction") != std::string::npos);
     CHECK(plan_of(on_mesh).warnings.front() == warning);

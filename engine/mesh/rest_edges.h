@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "percale/rest_shape.h"
+#include "topology.h"
+
+namespace percale {
+
+/// A cloth's mesh, in m, and where it has no strain if that is another place.
+struct ShapedMesh {
+    const TriangleMesh& mesh;
+    const RestShape& shape;
+};
+
+/// The corners of a triangle of the mesh where it has no strain, m.
+std::array<Vec3, 3> rest_corners(const TriangleMesh& mesh, const RestShape& shape, std::size_t triangle);
+
+/// An edge and its triangles without strain: both ends, then the opposite vertices (zero where there is no triangle), m.
+struct RestEdge {
+    std::array<Vec3, 4> corner;
+    double length = 0.0;  // m; the mean where the two triangles do not agree
+};
+
+/// Those of mesh_edges(triangles), in its order. Where two triangles have no places in common for the ends of their edge, or lie
+/// on one side of it in a plane (panels laid out mirrored), the second is taken as unfolded into the plane of the first.
+/// `corners`: of every triangle, m.
+std::vector<RestEdge> rest_edges(std::span<const Triangle> triangles, std::span<const MeshEdge> edges,
+                                 std::span<const std::array<Vec3, 3>> corners);
+
+}  // namespace percale

@@ -1,0 +1,85 @@
+#include "run/cloth_shape.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "common/text.h"
+#include "meshes/mesh_import.h"
+#include "percale/error.h"
+#include "tolerances.h"
+
+namespace percale::scenes {
+namespace {
+
+RestShape uv_shape(const std::string& file, const ClothSpec& cloth, const TriangleMesh& start) {
+    const TexturedMesh textured = import_textured_mesh(file, cloth.unit);
+    RestShape shape;
+    for (const auto& corners : textured.uv) {
+        auto& own = shape.corners.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) own[k] = cloth.uv_scale * Vec3(corners[k].x(), corners[k].y(), 0.0);
+    }
+    if (shape.corners.size() != start.triangles.size()) throw SceneError(file, "its vt are not those of the cloth's mesh");
+    return shape;
+}
+
+std::string short_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+/// The lengths of all edges.
+double length_of(const std::array<Vec3, 3>& x) { return (x[1] - x[0]).norm() + (x[2] - x[1]).norm() + (x[0] - x[2]).norm(); }
+
+void warn_of_scale(const ClothSpec& cloth, const RestShape& shape, const TriangleMesh& start,
+                   std::vector<std::string>& warnings) {
+    double rest = 0.0, now = 0.0;
+    for (std::size_t t = 0; t < start.triangles.size(); ++t) {
+        const auto& [a, b, c] = start.triangles[t];
+        rest += length_of(shape.corners[t]);
+        now += length_of({start.vertices[a], start.vertices[b], start.vertices[c]});
+    }
+    const double ratio = rest / now;
+    if (ratio > 1.0 / most_rest_ratio && ratio < most_rest_ratio) return;
+    const bool uv = cloth.rest == "uv";
+    warnings.push_back("cloth '" + cloth.name + "': its edges are " + short_text(ratio) +
+                       " times as long in its rest shape as they start" +
+                       (uv ? "; with uv_scale = " + short_text(cloth.uv_scale / ratio) + " they would be as long" : ""));
+}
+
+}  // namespace
+
+std::string path_beside(const Scene& scene, const std::string& path) {
+    return (std::filesystem::path(scene.file).parent_path() / path).string();
+}
+
+TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth) {
+    TriangleMesh mesh =
+        cloth.grid ? make_grid(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->vertices[0], cloth.grid->vertices[1])
+                   : import_mesh(path_beside(scene, cloth.mesh), cloth.unit);
+    mesh.vertices = transform(cloth.pose, mesh.vertices);
+    return mesh;
+}
+
+RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, std::vector<std::string>& warnings) {
+    RestShape shape;
+    const bool uv = cloth.rest == "uv";
+    if (uv) {
+        shape = uv_shape(path_beside(scene, cloth.mesh), cloth, start);
+    } else if (!cloth.rest.empty()) {
+        shape = rest_shape_of(start, import_mesh(path_beside(scene, cloth.rest), cloth.unit), "cloth '" + cloth.name + "'");
+    }
+    if (cloth.warp) shape.warp = cloth.warp->direction;
+    if (uv && !cloth.warp) shape.warp = Vec3::UnitY();
+    if (shape.corners.empty()) {
+        shape.warp = transform({.rotation = cloth.pose.rotation}, shape.warp);
+        return shape;
+    }
+    for (auto& corners : shape.corners) {
+        for (Vec3& corner : corners) corner *= cloth.pose.scale;
+    }
+    warn_of_scale(cloth, shape, start, warnings);
+    return shape;
+}
+
+}  // namespace percale::scenes

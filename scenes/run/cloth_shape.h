@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "format/scene.h"
+#include "percale/rest_shape.h"
+
+namespace percale::scenes {
+
+/// A path of the scene file as the program can open it: relative ones start at the scene file's folder.
+std::string path_beside(const Scene& scene, const std::string& path);
+
+/// A cloth as it starts: mesh file or grid at its pose, in m; not yet checked (check_mesh). Throws SceneError for a file that
+/// cannot be read.
+TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth);
+
+/// Where a cloth has no strain, in m, the pose's scale applied, and where its warp runs; nothing is said for a cloth that says
+/// neither. `warnings`: what is likely a mistake. Throws SceneError.
+RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, std::vector<std::string>& warnings);
+
+}  // namespace percale::scenes
