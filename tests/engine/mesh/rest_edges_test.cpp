@@ -69,7 +69,7 @@ TEST_CASE("An edge that is longer in one of its panels has the mean length, and 
     CHECK((diagonal.corner[3] - diagonal.corner[0]).cross(Vec3(1, 1, 0)).norm() == Approx(3.0));  // height 3/sqrt(2) over it
 }
 
-TEST_CASE("The rest shape of another mesh has its corners; other triangles are refused by number") {
+TEST_CASE("The rest shape of another mesh has its corners, and other triangles are refused by number") {
     const TriangleMesh mesh = square_mesh();
     TriangleMesh rest = mesh;
     for (Vec3& x : rest.vertices) x *= 2.0;
