@@ -78,7 +78,7 @@ constexpr Option<Fabric> fabric_list[] = {
      .unit = "N/m",
      .sentence =
          "Force per width and strain of a strip pulled along warp and along weft (Young's modulus times thickness); instead "
-         "of springs. Warp and weft are the x and z axes of a grid.",
+         "of springs. Warp and weft are the x and z axes of a grid; on a mesh cloth.warp says where.",
      .lowest = 1e-2,
      .highest = 1e9,
      .optional_pair = [](Fabric& f) { return &f.stretch_stiffness; }},

@@ -314,6 +314,9 @@ constexpr double negligible_allowance_share = 0.1;
 /// Relative. Moves below it are rounding of positions (a few units in the last place of a double).
 constexpr double position_rounding = 1e-15;
 
+/// Just below 1: squares of lengths that are smaller by this factor are smaller but for rounding. Cost alone.
+constexpr double strain_rounding = 1.0 - 1e-12;
+
 /// How much more a cloth's worst vertex may change than its mean: times the share of its time error, times what means nothing.
 constexpr double worst_vertex_factor = 2.0, worst_vertex_floor_factor = 10.0;
 

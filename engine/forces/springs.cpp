@@ -2,16 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "tolerances.h"
 
 namespace percale {
 namespace {
 
-double length(const SpringNetwork& network, const Vectors& x, int k) {
+double square_length(const SpringNetwork& network, const Vectors& x, int k) {
     const int i = network.first[k], j = network.second[k];
     const double dx = x.x[i] - x.x[j], dy = x.y[i] - x.y[j], dz = x.z[i] - x.z[j];
-    return std::sqrt(dx * dx + dy * dy + dz * dz);
+    return dx * dx + dy * dy + dz * dz;
+}
+
+double length(const SpringNetwork& network, const Vectors& x, int k) { return std::sqrt(square_length(network, x, k)); }
+
+/// The first structural spring from number k on; how many springs there are where none is. Other kinds come in long rows.
+int next_structural(const SpringNetwork& network, int k) {
+    static_assert(sizeof(SpringKind) == 1);
+    if (k < network.size() && network.kind[k] == SpringKind::structural) return k;
+    const SpringKind* kinds = network.kind.data();
+    const void* found = std::memchr(kinds + k, static_cast<int>(SpringKind::structural), network.kind.size() - k);
+    return found ? static_cast<int>(static_cast<const SpringKind*>(found) - kinds) : network.size();
 }
 
 /// A copy of all rest lengths with those of seams replaced: the model's stay as they are.
@@ -159,10 +171,13 @@ double elastic_energy(const SpringNetwork& network, const Vectors& positions, st
 }
 
 double largest_strain(const SpringNetwork& network, const Vectors& positions) {
-    double largest = 0.0;
-    for (int k = 0; k < network.size(); ++k) {
-        if (network.kind[k] != SpringKind::structural) continue;
-        largest = std::max(largest, length(network, positions, k) / network.rest_length[k] - 1.0);
+    // Most springs are told by their squares, the rounding of which is allowed for, not to be the largest.
+    double largest = 0.0, square_below = strain_rounding;
+    for (int k = next_structural(network, 0); k < network.size(); k = next_structural(network, k + 1)) {
+        const double rest = network.rest_length[k], square = square_length(network, positions, k);
+        if (square <= square_below * (rest * rest)) continue;
+        largest = std::max(largest, std::sqrt(square) / rest - 1.0);
+        square_below = strain_rounding * (1.0 + largest) * (1.0 + largest);
     }
     return largest;
 }

@@ -6,7 +6,7 @@
 
 #include "percale/error.h"
 #include "percale/mesh.h"
-#include "tolerances.h"
+#include "topology.h"
 
 namespace percale {
 namespace {
@@ -34,13 +34,6 @@ void check_indices(const TriangleMesh& mesh, const std::string& name) {
     }
 }
 
-/// A triangle whose height over its longest edge is below rounding has no area.
-bool has_area(const TriangleMesh& mesh, const Triangle& t) {
-    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return (b - a).cross(c - a).norm() > least_triangle_area * longest;
-}
-
 void check_triangles(const TriangleMesh& mesh, const std::string& name) {
     std::map<Triangle, int> seen;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -52,7 +45,8 @@ void check_triangles(const TriangleMesh& mesh, const std::string& name) {
             throw SceneError(name,
                              triangle_text(index, mesh.triangles[i]) + " repeats triangle " + std::to_string(entry->second));
         }
-        if (!has_area(mesh, mesh.triangles[i])) {
+        const auto [a, b, c] = mesh.triangles[i];
+        if (!has_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c])) {
             throw SceneError(name, triangle_text(index, mesh.triangles[i]) + " has no area");
         }
     }

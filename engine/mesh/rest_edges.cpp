@@ -104,8 +104,7 @@ void check_rest_shape(const TriangleMesh& mesh, const RestShape& shape, const st
         const std::string triangle = "triangle " + std::to_string(t) + " of its rest shape ";
         const Vec3 normal = (b - a).cross(c - a);
         if (!normal.allFinite()) throw SceneError(name, triangle + "is not finite");
-        const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-        if (!(normal.norm() > least_triangle_area * longest)) throw SceneError(name, triangle + "has no area");
+        if (!has_area(a, b, c)) throw SceneError(name, triangle + "has no area");
         const double across = shape.warp.cross(normal).norm();
         if (shape.warp != Vec3::Zero() && !(across > least_warp_share * shape.warp.norm() * normal.norm()))
             throw SceneError(name, "its warp stands upright on " + triangle);

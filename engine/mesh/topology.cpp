@@ -39,6 +39,11 @@ Extent extent_of(const TriangleMesh& mesh) {
 
 }  // namespace
 
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return (b - a).cross(c - a).norm() > least_triangle_area * longest;
+}
+
 std::vector<MeshEdge> mesh_edges(std::span<const Triangle> triangles) {
     std::vector<MeshEdge> edges;
     edges.reserve(3 * triangles.size());

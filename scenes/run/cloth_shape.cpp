@@ -1,6 +1,5 @@
 #include "run/cloth_shape.h"
 
-#include <cstdio>
 #include <filesystem>
 
 #include "common/text.h"
@@ -22,12 +21,6 @@ RestShape uv_shape(const std::string& file, const ClothSpec& cloth, const Triang
     return shape;
 }
 
-std::string short_text(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
-
 /// The lengths of all edges.
 double length_of(const std::array<Vec3, 3>& x) { return (x[1] - x[0]).norm() + (x[2] - x[1]).norm() + (x[0] - x[2]).norm(); }
 
@@ -42,9 +35,9 @@ void warn_of_scale(const ClothSpec& cloth, const RestShape& shape, const Triangl
     const double ratio = rest / now;
     if (ratio > 1.0 / most_rest_ratio && ratio < most_rest_ratio) return;
     const bool uv = cloth.rest == "uv";
-    warnings.push_back("cloth '" + cloth.name + "': its edges are " + short_text(ratio) +
+    warnings.push_back("cloth '" + cloth.name + "': its edges are " + short_number(ratio) +
                        " times as long in its rest shape as they start" +
-                       (uv ? "; with uv_scale = " + short_text(cloth.uv_scale / ratio) + " they would be as long" : ""));
+                       (uv ? "; with uv_scale = " + short_number(cloth.uv_scale / ratio) + " they would be as long" : ""));
 }
 
 }  // namespace

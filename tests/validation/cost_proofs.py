@@ -137,17 +137,14 @@ SCHEMES = {'forward_euler': 1e-6, 'symplectic_euler': 2e-5, 'midpoint': 1e-6, 'r
 
 
 def prove_measuring(runner):
-    """What is measured by default, 30 frames a second, adds at most 2.5 % to a step without any measuring, in all schemes.
-
-    2.2 % of the cheapest implicit step there is (hanging, 17 x 17 vertices, 60 steps a second); the more a step has to solve, the less.
-    """
+    """What is measured by default, 30 frames a second, adds at most 2 % to a step without any measuring, in all schemes."""
     good = True
     for scheme, time_step in SCHEMES.items():
         steps = (4, 24) if time_step > 1e-3 else (10, 10 + min(round(1 / 30 / time_step), 2000))
         cost = [added_cost(runner, steps, lambda function: function.startswith('percale::'), options,
                            scheme=scheme, time_step=time_step, fps=30) for options in ((), ('--set', 'step.measure="none"'))]
         print(f'{scheme}: {cost[0]:.4g} instructions a step, {cost[1]:.4g} with measure = none: ratio {cost[0] / cost[1]:.4f}')
-        good = good and cost[0] <= 1.025 * cost[1]
+        good = good and cost[0] <= 1.02 * cost[1]
     return good
 
 

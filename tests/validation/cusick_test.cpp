@@ -52,7 +52,8 @@ double shadow(std::span<const Vec3> positions, int rings) {
 double drape_coefficient(Fabric fabric, int rings) {
     fabric.damping_time.reset();
     fabric.spring_damping = 0.05;
-    Simulation simulation(StepSettings{.measure = StepMeasures::all});
+    // Folds form on the way, and looser steps may form others: what is told apart here are fabrics and meshes.
+    Simulation simulation(StepSettings{.newton_share = 0.05, .measure = StepMeasures::all});
     const TriangleMesh mesh = disc(rings);
     const ClothId cloth = simulation.add_cloth(mesh, fabric, {});
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -81,7 +82,7 @@ TEST_CASE(
         CAPTURE(range.preset);
         const Fabric fabric = isotropic(fabric_preset(range.preset));
         const double coarse = drape_coefficient(fabric, 10), fine = drape_coefficient(fabric, 15);
-        CHECK(std::abs(coarse - fine) <= 5.0);  // silk falls into other folds on the other mesh
+        CHECK(std::abs(coarse - fine) <= 4.0);
         CHECK(fine >= range.lowest);
         CHECK(fine <= range.highest);
     }

@@ -107,7 +107,7 @@ private:
 /// Which cloth meets cloth, and what for that is known of each vertex.
 struct SelfContact {
     std::span<const int> cloth;        // the number of its cloth; -1: it meets no cloth
-    std::span<const Vec3> rest;        // m, positions without strain
+    std::span<const Vec3> rest;        // m, positions as the cloth was added
     std::span<const double> friction;  // Coulomb coefficient of its fabric; between two fabrics the mean counts
 };
 

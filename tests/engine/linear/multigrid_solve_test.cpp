@@ -276,7 +276,7 @@ TEST_CASE("A net limit keeps both solvers going until the sum of the residuals i
     system.matrix.free.assign(system.matrix.free.size(), 1.0);
     system.touch_share(0.3, 10.0, 1e4);
     const auto net_of = [&](const Vectors& x) {
-        Vectors r = system.right, points = system.zeros();
+        Vectors r = system.right;
         AlignedVector<double> space;
         set_residual(system.matrix, system.right, x, space, r);
         Vec3 sum = Vec3::Zero();
