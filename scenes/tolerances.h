@@ -96,15 +96,6 @@ constexpr double whole_steps_rounding = 1e-9, least_last_step = 1e-3;
 /// Radians. Below it the chord between two turns differs from the arc by less than rounding, and sines would divide 0 by 0.
 constexpr double least_arc = 1e-5;
 
-// ---- program/
-
-/// m/s. Cloth that is slower everywhere, for `rest_steps` steps in a row, has settled for `percale drape`. Larger: it goes on
-/// sliding after the picture. Smaller: cloth that trembles in a fold never ends.
-constexpr double rest_speed = 0.02;
-
-/// Steps in a row. 1: a swing that only turns around is taken for rest.
-constexpr int rest_steps = 10;
-
 // ---- doctor/: from where on it warns. Smaller or larger: warnings of what is right, or none of what is wrong.
 
 /// Elements that a finding names.

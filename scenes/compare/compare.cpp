@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene_file_error.h"
 #include "percale/error.h"
 #include "percale/options.h"
 #include "tolerances.h"
@@ -86,8 +87,16 @@ std::vector<std::string> scheme_words() {
     return words;
 }
 
+void demand_duration(const Scene& scene) {
+    if (!scene.until_rest) return;
+    fail_at(
+        scene.duration_place,
+        "duration = \"rest\": runs are compared at one time, and each would end at its own; say one, such as --set duration=2");
+}
+
 Comparison compare_scene(const SceneSource& source, const CompareSettings& settings, const CompareHooks& hooks) {
     const Scene scene = source({});
+    demand_duration(scene);
     Comparison comparison{.title = scene.title,
                           .duration = scene.duration,
                           .reference = make_reference(source, settings.reference_error, hooks.stop_asked),

@@ -47,6 +47,9 @@ struct CompareHooks {
 /// All words of step.scheme that name one scheme, in the order of the options.
 std::vector<std::string> scheme_words();
 
+/// Throws SceneError where no time is given at which all runs end: with duration = "rest".
+void demand_duration(const Scene& scene);
+
 /// Runs the reference, then every scheme at every step and tolerance, repeats in rounds. A run that failed, blew up or was
 /// refused is a row that says so; one that ends farther from the reference than the cloth is large blew up, too. Throws
 /// SceneError where the scene is wrong, ComparisonStopped after a stop.

@@ -127,12 +127,27 @@ void find_free_fall(const Scene& scene, std::vector<Finding>& found) {
     if (!scene.obstacles.empty() || !scene.seams.empty() || pinned || !pulls(scene)) return;
     for (const ClothSpec& cloth : scene.cloths) {
         if (!pins_nothing(cloth)) continue;
-        found.push_back({.severity = Severity::warning,
+        found.push_back({.severity = scene.until_rest ? Severity::error : Severity::warning,
                          .kind = "free_fall",
                          .place = place_text(cloth.place),
                          .what = "cloth '" + cloth.name + "' has no pin and the scene no obstacle: it falls for ever",
                          .fix = "pin vertices (pin = [0]), add an [[obstacle]], or set gravity = [0, 0, 0]"});
     }
+}
+
+/// The air that blows at the end of a scene that ends at rest may keep cloth fluttering.
+void find_flutter(const Scene& scene, std::vector<Finding>& found) {
+    const EventSpec* last = nullptr;
+    for (const EventSpec& event : scene.events)
+        if (std::holds_alternative<WindEvent>(event.what)) last = &event;
+    if (!scene.until_rest || last == nullptr || std::get<WindEvent>(last->what).wind == Vec3::Zero()) return;
+    found.push_back(
+        {.severity = Severity::warning,
+         .kind = "flutter",
+         .place = place_text(last->place),
+         .what = "duration is \"rest\" and this wind never ends: cloth that flutters is not at rest within longest = " +
+                 short_number(scene.longest) + " s, and the run fails",
+         .fix = "end it by an event with wind = [0, 0, 0], or say a duration in s"});
 }
 
 /// Why a measure of [expect] says nothing in this scene, and what does; two empty texts where it does.
@@ -178,7 +193,7 @@ double most_parts(const Scene& scene, const ObstacleSpec& obstacle) {
             std::max(obstacle.motion[i - 1].time, 0.5 * (obstacle.motion[i - 1].time + obstacle.motion[i].time - dt)));
     double parts = 1.0;
     for (const double start : starts) {
-        if (start >= scene.duration) continue;
+        if (start >= scene.latest_end()) continue;
         const MotionAmount amount = motion_between(obstacle, start, start + dt);
         parts = std::max({parts, amount.angle / largest_part_turn, amount.path / (largest_part_displacement * thickness)});
     }
@@ -269,6 +284,7 @@ std::vector<Finding> examine_scene(const Scene& scene) {
     examine_meshes(scene, meshes, found);
     find_unused_fabrics(scene, found);
     find_free_fall(scene, found);
+    find_flutter(scene, found);
     find_idle_expectations(scene, meshes, found);
     find_fast_motion(scene, found);
     if (!has_errors(found)) {
@@ -288,12 +304,13 @@ std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan
     const auto warn = [&](const std::string& kind, const std::string& what, const std::string& fix) {
         found.push_back({.severity = Severity::warning, .kind = kind, .place = scene.file, .what = what, .fix = fix});
     };
-    const double steps = static_cast<double>(count_steps(scene.duration, scene.step.time_step).steps);
+    const double steps = static_cast<double>(count_steps(scene.latest_end(), scene.step.time_step).steps);
     const double springs = plan.springs.total() + plan.springs.triangle;
     const double seconds = steps * plan.evaluations_a_step * springs * seconds_a_spring;
     if (seconds > much_time)
         warn("long_run", short_number(steps) + " steps will take about " + duration_text(seconds) + ", without contact",
-             "shorten duration, take a larger step.time_step, or fewer vertices");
+             (scene.until_rest ? "lower longest" : "shorten duration") +
+                 std::string(", take a larger step.time_step, or fewer vertices"));
     if (plan.memory_bytes > much_memory)
         warn("much_memory", "it will take about " + short_number(1e-9 * plan.memory_bytes) + " GB of memory",
              "take fewer vertices (grid.vertices) or simpler obstacle meshes");
@@ -301,7 +318,7 @@ std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan
     for (const TriangleMesh& mesh : built.cloth_meshes)
         frame += bytes_a_vertex * static_cast<double>(mesh.vertices.size()) +
                  bytes_a_triangle * static_cast<double>(mesh.triangles.size());
-    const double disk = scene.output.frames == no_frames ? 0.0 : frame * scene.duration * scene.output.fps;
+    const double disk = scene.output.frames == no_frames ? 0.0 : frame * scene.latest_end() * scene.output.fps;
     if (disk > much_disk)
         warn("much_output", "its frames will take about " + short_number(1e-9 * disk) + " GB on disk",
              "lower output.fps, or set output.frames = \"none\"");

@@ -12,7 +12,7 @@ namespace percale::scenes {
 
 using nlohmann::json;
 
-constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 2, .words = "checkpoint"};
+constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 3, .words = "checkpoint"};
 
 template <class Archive, OfType<RunTotals> Value>
 void exchange(Archive& archive, Value& totals) {
@@ -45,10 +45,15 @@ void exchange(Archive& archive, Value& pin) {
     archive(pin.cloth, pin.vertex, pin.start, pin.displacement, pin.from, pin.over);
 }
 
+template <class Archive, OfType<RestFigures> Value>
+void exchange(Archive& archive, Value& rest) {
+    archive(rest.at_rest, rest.time, rest.largest_speed, rest.rms_speed, rest.fastest_cloth, rest.force_over_weight);
+}
+
 template <class Archive, OfType<RunState> Value>
 void exchange(Archive& archive, Value& run) {
-    archive(run.totals, run.measures, run.resumed_at, run.steps_made, run.step_length, run.next_frame, run.timeline.next_event,
-            run.timeline.moving_pins, run.simulation);
+    archive(run.totals, run.measures, run.resumed_at, run.steps_made, run.step_length, run.next_frame, run.framed, run.rest,
+            run.timeline.next_event, run.timeline.moving_pins, run.simulation);
 }
 
 template <class Archive, OfType<FrameRecord> Value>

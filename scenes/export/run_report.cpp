@@ -95,6 +95,16 @@ void put_measures(ordered_json& json, const Measures& m) {
     if (m.matches) json["matches"] = *m.matches;
 }
 
+ordered_json rest_figures(const Scene& scene, const RestFigures& rest) {
+    const bool known = rest.fastest_cloth >= 0;
+    return {{"at_rest", rest.at_rest},
+            {"time_s", rest.time},
+            {"largest_speed", rest.largest_speed},
+            {"rms_speed", rest.rms_speed},
+            {"fastest_cloth", known ? ordered_json(scene.cloths[static_cast<std::size_t>(rest.fastest_cloth)].name) : nullptr},
+            {"force_over_weight", rest.force_over_weight}};
+}
+
 ordered_json step_certificate(const Measures& measures) {
     if (!measures.steps) return nullptr;
     const StepChecks& checks = *measures.steps;
@@ -172,6 +182,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     if (!result.resumed_at.empty()) json["resumed_at_s"] = result.resumed_at;
     json["title"] = built.scene.title;
     json["scene"] = built.scene.file;
+    if (result.rest) json["rest"] = rest_figures(built.scene, *result.rest);
     put_counts(json, result.totals);
     put_costs(json, result.totals);
     json["obstacles"] = obstacle_list(built);

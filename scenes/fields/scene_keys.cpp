@@ -22,6 +22,8 @@ std::string kind_text(const SceneKey& key) {
             return "a number or \"auto\"";
         case KeyKind::integer_or_auto:
             return "a whole number or \"auto\"";
+        case KeyKind::number_or_rest:
+            return "a number or \"rest\"";
         case KeyKind::numbers:
             return "a list of " + std::to_string(key.count) + " numbers";
         case KeyKind::integers:

@@ -15,14 +15,15 @@ enum class KeyKind {
     integer,         // in [lowest, highest]
     number_or_auto,  // or the word "auto"
     integer_or_auto,
-    numbers,    // a list of `count`, each in [lowest, highest]
-    integers,   // a list of `count`, each in [lowest, highest]
-    box,        // [[x, y, z], [x, y, z]], each in [lowest, highest], the first nowhere above the second
-    vertices,   // a list of indices, { box = ... } or "boundary"
-    names,      // a list of `count` texts
-    pairs,      // a list of lists of two integers, each in [lowest, highest]
-    direction,  // "u", "v" or a list of two or three numbers
-    limit,      // a number, { below = }, { above = } or { between = [a, b] }
+    number_or_rest,  // or the word "rest"
+    numbers,         // a list of `count`, each in [lowest, highest]
+    integers,        // a list of `count`, each in [lowest, highest]
+    box,             // [[x, y, z], [x, y, z]], each in [lowest, highest], the first nowhere above the second
+    vertices,        // a list of indices, { box = ... } or "boundary"
+    names,           // a list of `count` texts
+    pairs,           // a list of lists of two integers, each in [lowest, highest]
+    direction,       // "u", "v" or a list of two or three numbers
+    limit,           // a number, { below = }, { above = } or { between = [a, b] }
     table,
     table_list,   // [[...]]
     named_tables  // [... .NAME]

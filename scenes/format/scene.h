@@ -137,7 +137,10 @@ inline constexpr std::string_view word_of(Detector detector) { return detector_w
 struct Scene {
     std::string file;  // as given; "" for a scene made in memory
     std::string title;
-    double duration = 1.0;            // s
+    double duration = 1.0;            // s; idle if it ends at rest
+    bool until_rest = false;          // ends when all cloth is proven at rest
+    double longest = 20.0;            // s, if it ends at rest: by then, or it has failed
+    SourcePlace duration_place;       // of `duration`; of the whole file where that is not said
     StepSettings step{.threads = 0};  // gravity included; as many threads as pay
     SourcePlace scheme_place;         // of step.scheme; of the whole file where that is not said
     Detector detector = Detector::fcl;
@@ -150,6 +153,8 @@ struct Scene {
     std::vector<Expectation> expectations;
     OutputSpec output;
 
+    /// s, when it ends at the latest.
+    double latest_end() const { return until_rest ? longest : duration; }
     /// Whether this cloth meets itself and other such cloth.
     bool meets_cloth(const ClothSpec& cloth) const {
         const auto found = fabrics.find(cloth.fabric);

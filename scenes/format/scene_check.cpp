@@ -47,8 +47,8 @@ void check_word(const TomlNode& node, const SceneKey& key, const std::string& sh
     fail_at(node.place, shown + " has no choice '" + node.text + "'" + suggestion(node.text, key.choices));
 }
 
-void check_number_or_auto(const TomlNode& node, const SceneKey& key, const std::string& shown) {
-    if (node.kind == TomlKind::text && node.text == "auto") return;
+void check_number_or_word(const TomlNode& node, const SceneKey& key, const std::string& shown, const char* word) {
+    if (node.kind == TomlKind::text && node.text == word) return;
     check_number(node, key, shown, key.kind == KeyKind::integer_or_auto);
 }
 
@@ -179,7 +179,9 @@ void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot, Fa
             return check_number(node, key, spot.shown, true);
         case KeyKind::number_or_auto:
         case KeyKind::integer_or_auto:
-            return check_number_or_auto(node, key, spot.shown);
+            return check_number_or_word(node, key, spot.shown, "auto");
+        case KeyKind::number_or_rest:
+            return check_number_or_word(node, key, spot.shown, "rest");
         case KeyKind::numbers:
         case KeyKind::integers:
             return check_numbers(node, key, spot.shown);

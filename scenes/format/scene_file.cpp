@@ -65,7 +65,7 @@ void check_references(const Scene& scene, FaultList& faults) {
 Scene scene_of(const TomlNode& document, const std::string& name, FaultList& faults) {
     Scene scene;
     scene.file = name;
-    scene.scheme_place = {.file = name};
+    scene.scheme_place = scene.duration_place = {.file = name};
     read_fields(document, scene_table(), scene, faults);
     return scene;
 }

@@ -1,6 +1,7 @@
 #include "format/scene_table.h"
 
 #include "common/scene_file_error.h"
+#include "common/text.h"
 #include "fields/option_fields.h"
 #include "format/body_tables.h"
 #include "format/script_tables.h"
@@ -86,6 +87,47 @@ Field<Scene> step_field() {
     return table_field<Scene>({.path = "step", .sentence = "How the simulation steps."}, itself, table);
 }
 
+/// A number of seconds, or until rest.
+Field<Scene> duration_field() {
+    return with_default<Scene>(
+        {.key = {.path = "duration",
+                 .kind = KeyKind::number_or_rest,
+                 .sentence = "How long to simulate; \"rest\": until all cloth has been still and its forces balanced for half a "
+                             "second and nothing more is to happen.",
+                 .unit = "s",
+                 .lowest = 1e-6,
+                 .highest = scenes::longest},
+         .read =
+             [](const TomlNode& node, Scene& scene, FaultList&) {
+                 scene.until_rest = !node.is_number();
+                 scene.duration_place = node.place;
+                 if (!scene.until_rest) read_value(node, scene.duration);
+             },
+         .write = [](const Scene& scene) -> std::optional<TomlNode> {
+             return scene.until_rest ? value_node(std::string("rest")) : value_node(scene.duration);
+         }});
+}
+
+/// Only scenes that end at rest have it.
+Field<Scene> longest_field() {
+    return {.key = {.path = "longest",
+                    .kind = KeyKind::number,
+                    .sentence = "With duration = \"rest\": the run fails if it is not at rest by then.",
+                    .unit = "s",
+                    .lowest = 1e-6,
+                    .highest = scenes::longest,
+                    .default_text = number_text(Scene().longest)},
+            .read =
+                [](const TomlNode& node, Scene& scene, FaultList&) {
+                    if (!scene.until_rest)
+                        fail_at(node.key_place, "longest is that of a scene with duration = \"rest\"; without, it means nothing");
+                    read_value(node, scene.longest);
+                },
+            .write = [](const Scene& scene) -> std::optional<TomlNode> {
+                return scene.until_rest ? std::optional(value_node(scene.longest)) : std::nullopt;
+            }};
+}
+
 const FieldTable<OutputSpec>& output_table() {
     static const FieldTable<OutputSpec> table = {
         .fields = {
@@ -131,9 +173,8 @@ const FieldTable<Scene>& scene_table() {
     static const FieldTable<Scene> table = {
         .fields = {
             value_field<Scene>({.path = "title", .sentence = "What the scene shows.", .setting = false}, &Scene::title),
-            value_field<Scene>(
-                {.path = "duration", .sentence = "How long to simulate.", .unit = "s", .lowest = 1e-6, .highest = longest},
-                &Scene::duration),
+            duration_field(),
+            longest_field(),
             value_field<Scene>(
                 {.path = "gravity",
                  .sentence = "Acceleration of free fall; y is up.",

@@ -89,6 +89,7 @@ int compare(const CompareOptions& options) {
     const CompareSettings settings = settings_of(options);
     const SceneSource source = scene_source(options.scene, options.common);
     check_settings(settings, source);
+    demand_duration(source({}));
     build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
     const std::string name = options.folder.empty() ? default_folder(options.scene) : options.folder;
     const OutputFolder folder(name);

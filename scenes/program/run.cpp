@@ -85,9 +85,9 @@ BuiltScene built_scene(const RunOptions& options, const Checkpoint* from) {
 void print_summary(const RunOptions& options, const BuiltScene& built, const RunResult& result,
                    std::span<const ExpectationResult> expectations) {
     const Measures& m = result.measures;
-    std::printf("%s: %d steps, %.6g s simulated in %.3g s (CPU %.3g s), largest strain %.3g, speed at end %.3g m/s",
-                status_word(result.status), result.totals.steps, result.totals.simulated_s, result.totals.wall_s,
-                result.totals.cpu_s, m.largest_strain, m.speed_at_end);
+    std::printf("%s%s: %d steps, %.6g s simulated in %.3g s (CPU %.3g s), largest strain %.3g, speed at end %.3g m/s",
+                status_word(result.status), result.rest && result.rest->at_rest ? " at rest" : "", result.totals.steps,
+                result.totals.simulated_s, result.totals.wall_s, result.totals.cpu_s, m.largest_strain, m.speed_at_end);
     if (built.scene.has_contact())
         std::printf(", %d intersecting pairs, %s", m.intersections, nearness_text(m.smallest_distance).c_str());
     std::printf("; %s/report.json\n", options.folder.c_str());
@@ -133,7 +133,7 @@ int run(RunOptions options) {
     BuiltScene built = built_scene(options, from ? &*from : nullptr);
     RunFolder folder(options.folder, built.scene, options.common.replay_hash);
     const StopSignals signals;
-    ProgressBar bar(!options.common.quiet && !options.verbose, built.scene.duration);
+    ProgressBar bar(!options.common.quiet && !options.verbose, built.scene.latest_end());
     RunHooks hooks;
     hooks.begin = [&] {
         from ? folder.begin_from(from->folder, folder_of(options.resume)) : folder.begin();

@@ -77,4 +77,13 @@ std::vector<ScriptedEvent> script_events(const Scene& scene, std::span<const Tri
     return events;
 }
 
+Vec3 gravity_at(const Scene& scene, double time) {
+    Vec3 gravity = scene.step.gravity;
+    for (const EventSpec& event : scene.events) {
+        const auto* changed = std::get_if<GravityEvent>(&event.what);
+        if (changed != nullptr && event.time <= time) gravity = changed->gravity;
+    }
+    return gravity;
+}
+
 }  // namespace percale::scenes

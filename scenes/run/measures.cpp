@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/text.h"
+
 namespace percale::scenes {
 
 void add_certificate(FrameCheck& check, const Certificate& certificate) {
@@ -76,6 +78,64 @@ void add_end(Measures& measures, const Simulation& simulation, std::span<const C
     }
     measures.speed_at_end = std::sqrt(largest_squared);
     measures.rms_speed_at_end = count > 0 ? std::sqrt(sum_squared / static_cast<double>(count)) : 0.0;
+}
+
+namespace {
+
+std::vector<Vec3> of_all(const Simulation& simulation, std::span<const ClothId> cloths,
+                         std::span<const Vec3> (Simulation::*view)(ClothId) const) {
+    std::vector<Vec3> all;
+    for (const ClothId cloth : cloths) {
+        const std::span<const Vec3> values = (simulation.*view)(cloth);
+        all.insert(all.end(), values.begin(), values.end());
+    }
+    return all;
+}
+
+/// The cloth of a vertex, counted through all.
+int number_of_cloth(const Simulation& simulation, std::span<const ClothId> cloths, std::size_t vertex) {
+    std::size_t cloth = 0, end = simulation.positions(cloths[0]).size();
+    while (vertex >= end) end += simulation.positions(cloths[++cloth]).size();
+    return static_cast<int>(cloth);
+}
+
+}  // namespace
+
+void RestWatch::begin(const Simulation& simulation, std::span<const ClothId> cloths) {
+    positions_ = of_all(simulation, cloths, &Simulation::positions);
+    velocities_ = of_all(simulation, cloths, &Simulation::velocities);
+}
+
+void RestWatch::look(const Simulation& simulation, std::span<const ClothId> cloths, const StepReport& report, const Vec3& gravity,
+                     bool over) {
+    const bool asleep = report.sleeping_cloths == static_cast<int>(cloths.size());
+    figures_.time = report.time;
+    figures_.at_rest = asleep && over;
+    if (report.slept) return;
+    const std::vector<Vec3> from = std::move(positions_), before = std::move(velocities_);
+    begin(simulation, cloths);
+    double fastest = -1.0, sum = 0.0, change = 0.0;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        // Falling asleep has set velocities to zero, so that the displacement has to tell them.
+        const Vec3 velocity = asleep ? Vec3((positions_[i] - from[i]) / report.dt) : velocities_[i];
+        change = std::max(change, (velocity - before[i]).squaredNorm());
+        sum += velocity.squaredNorm();
+        if (velocity.squaredNorm() <= fastest) continue;
+        fastest = velocity.squaredNorm();
+        figures_.fastest_cloth = number_of_cloth(simulation, cloths, i);
+    }
+    figures_.largest_speed = std::sqrt(std::max(0.0, fastest));
+    figures_.rms_speed = from.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(from.size()));
+    const double fall = report.dt * gravity.norm();
+    figures_.force_over_weight = fall > 0.0 ? std::sqrt(change) / fall : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string not_at_rest_text(const RestFigures& figures, const std::string& cloth) {
+    const std::string text = "not at rest after " + short_number(figures.time) + " s, the longest that it may take: cloth '" +
+                             cloth + "' moves fastest, at " + short_number(figures.largest_speed) + " m/s; all vertices " +
+                             short_number(figures.rms_speed) + " m/s rms";
+    if (std::isnan(figures.force_over_weight)) return text;
+    return text + "; the largest net force on one is " + short_number(figures.force_over_weight) + " times its weight";
 }
 
 double largest_vertex_distance(const Simulation& simulation, std::span<const ClothId> cloths, std::span<const Vec3> reference) {

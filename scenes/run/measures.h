@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "percale/certify.h"
 #include "percale/simulation.h"
@@ -59,6 +60,39 @@ struct Measures {
 
     std::optional<StepChecks> steps;  // if every step was certified
 };
+
+/// Of a scene that ends at rest: how still all cloth was in the last step that was solved.
+struct RestFigures {
+    bool at_rest = false;        // proven: all cloth fell asleep, and nothing was to come
+    double time = 0.0;           // s, of the state they are of
+    double largest_speed = 0.0;  // m/s, of a vertex at its end, before falling asleep set it to zero
+    double rms_speed = 0.0;      // m/s, over all vertices
+    int fastest_cloth = -1;      // in the order of the scene
+    /// Largest change of a vertex's velocity in that step over that of free fall; NaN without gravity. Net force over weight.
+    double force_over_weight = 0.0;
+};
+
+/// Follows the cloth of a run from step to step.
+class RestWatch {
+public:
+    explicit RestWatch(const RestFigures& from = {}) : figures_(from) {}
+
+    const RestFigures& figures() const { return figures_; }
+
+    /// Before a step.
+    void begin(const Simulation& simulation, std::span<const ClothId> cloths);
+    /// After it. `over`: nothing is to come. A step that was slept through keeps what is known of the last one that was solved,
+    /// but for time and at_rest.
+    void look(const Simulation& simulation, std::span<const ClothId> cloths, const StepReport& report, const Vec3& gravity,
+              bool over);
+
+private:
+    RestFigures figures_;
+    std::vector<Vec3> positions_, velocities_;  // before the step, of all cloths in turn
+};
+
+/// Why a run that was not at rest at its latest end failed. `cloth`: the name of the fastest.
+std::string not_at_rest_text(const RestFigures& figures, const std::string& cloth);
 
 /// Of two frames with equal distances (0 where both intersect) the one with more intersecting pairs is the worse.
 void add_frame(Measures& measures, int index, const FrameCheck& check);

@@ -92,12 +92,13 @@ void place_and_certify(const BuiltScene& built, Frame& frame) {
 /// Looks at the state after each step: certificates, frames.
 class Observer {
 public:
-    Observer(const BuiltScene& built, const RunHooks& hooks, Measures& measures, int next_frame)
-        : built_(built), hooks_(hooks), measures_(measures), frame_(first_frame(built)) {
-        frame_.index = next_frame;
+    Observer(const BuiltScene& built, const RunHooks& hooks, Measures& measures, const RunState* from)
+        : built_(built), hooks_(hooks), measures_(measures), frame_(first_frame(built)), framed_(from && from->framed) {
+        frame_.index = from ? from->next_frame : 0;
     }
 
     int next_frame() const { return frame_.index; }
+    bool framed() const { return framed_; }
 
     /// Whether the present time has a frame that was not made yet.
     bool frame_is_due() const {
@@ -107,12 +108,19 @@ public:
 
     /// The state after so many steps.
     void look(int steps) {
-        seen_ = false;
+        seen_ = framed_ = false;
         if (measures_.steps) {
             see();
             add_state(*measures_.steps, steps, frame_.time, frame_.check);
         }
         make_due_frames();
+    }
+
+    /// A frame of the present state, which is the last one, unless it has one.
+    void look_at_end() {
+        if (framed_) return;
+        see();
+        make_frame();
     }
 
 private:
@@ -125,10 +133,15 @@ private:
     void make_due_frames() {
         while (frame_is_due()) {
             see();
-            add_frame(measures_, frame_.index, frame_.check);
-            if (hooks_.frame) hooks_.frame(frame_);
-            ++frame_.index;
+            make_frame();
         }
+    }
+
+    void make_frame() {
+        add_frame(measures_, frame_.index, frame_.check);
+        if (hooks_.frame) hooks_.frame(frame_);
+        ++frame_.index;
+        framed_ = true;
     }
 
     const BuiltScene& built_;
@@ -136,6 +149,7 @@ private:
     Measures& measures_;
     Frame frame_;
     bool seen_ = false;  // the frame shows the current state
+    bool framed_;        // and was made
 };
 
 void add_cost(RunTotals& totals, const StepReport& report) {
@@ -179,6 +193,7 @@ void measure_frame(const Simulation& simulation, StepReport& report) {
 struct RunScript {
     Timeline timeline;
     Observer observer;
+    std::optional<RestWatch> rest;  // where the scene ends at rest
 };
 
 /// One step of the simulation: script, simulation, figures. False if it failed.
@@ -188,6 +203,7 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, doub
     // A gravity event changes the potential energy without any work, so the energy before the step is taken after it.
     const bool look = changes_gravity(built.scene) && !is_measured_by_frames(built);
     const double before = look ? built.simulation.energy().total() : totals.energy.total();
+    if (script.rest) script.rest->begin(built.simulation, built.cloths);
     StepReport report = built.simulation.step();
     totals.cpu_s += report.cpu_s;
     if (is_measured_by_frames(built) && script.observer.frame_is_due()) measure_frame(built.simulation, report);
@@ -198,6 +214,9 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, doub
         result.reason = report.explanation();
         return false;
     }
+    if (script.rest)
+        script.rest->look(built.simulation, built.cloths, report, gravity_at(built.scene, report.time - 0.5 * report.dt),
+                          !script.timeline.more_to_come(built.scene, report.time));
     add_step(result.measures, report, before);
     add_accepted(totals, report);
     return true;
@@ -217,7 +236,7 @@ bool make_parts(BuiltScene& built, const RunHooks& hooks, RunScript& script, dou
 /// The next time at which adaptive steps have to end: that of a frame or an event, or the scene's end.
 double next_stop(const Scene& scene, double now) {
     const double after = now + 1e-9 * scene.step.time_step;
-    double stop = scene.duration;
+    double stop = scene.latest_end();
     const double frame = (std::floor(after * scene.output.fps) + 1.0) / scene.output.fps;
     if (frame > after) stop = std::min(stop, frame);
     for (const EventSpec& event : scene.events)
@@ -230,7 +249,7 @@ class StepLengths {
 public:
     StepLengths(const Scene& scene, const RunState* from)
         : scene_(scene),
-          count_(count_steps(scene.duration, scene.step.time_step)),
+          count_(count_steps(scene.latest_end(), scene.step.time_step)),
           length_(from ? from->step_length : scene.step.time_step),
           made_(from ? from->steps_made : 0) {}
 
@@ -250,13 +269,14 @@ public:
     }
 
     std::string made_text(double now) const {
-        if (scene_.step.adaptive) return "stopped at " + std::to_string(now) + " of " + std::to_string(scene_.duration) + " s";
+        if (scene_.step.adaptive)
+            return "stopped at " + std::to_string(now) + " of " + std::to_string(scene_.latest_end()) + " s";
         return "stopped after " + std::to_string(made_) + " of " + std::to_string(count_.steps) + " steps";
     }
 
 private:
     static constexpr double rounding = 1e-7;  // of a step
-    double left(double now) const { return (scene_.duration - now) / scene_.step.time_step; }
+    double left(double now) const { return (scene_.latest_end() - now) / scene_.step.time_step; }
 
     const Scene& scene_;
     StepCount count_;
@@ -289,8 +309,9 @@ public:
           hooks_(hooks),
           result_(result),
           lengths_(built.scene, settings.from),
-          script_{Timeline(built), Observer(built, hooks, result.measures, settings.from ? settings.from->next_frame : 0)},
+          script_{Timeline(built), Observer(built, hooks, result.measures, settings.from), {}},
           checkpoints_(settings.checkpoint_every, settings.from ? settings.from->totals.simulated_s : 0.0) {
+        if (built.scene.until_rest) script_.rest.emplace(settings.from ? settings.from->rest : RestFigures{});
         if (settings.from) {
             go_on_from(settings);
         } else {
@@ -301,9 +322,9 @@ public:
 
     void make_steps() {
         if (lengths_.made() == 0) script_.observer.look(0);
-        while (!lengths_.over(built_.simulation.time())) {
+        while (!over()) {
             if (!make_parts(built_, hooks_, script_, lengths_.next(built_.simulation.time()), result_)) return;
-            const bool stop = !lengths_.over(built_.simulation.time()) && hooks_.stop_asked && hooks_.stop_asked();
+            const bool stop = !over() && hooks_.stop_asked && hooks_.stop_asked();
             const bool due = checkpoints_.due(built_.simulation.time());
             if ((stop || due) && hooks_.checkpoint) hooks_.checkpoint(state());
             if (!stop) continue;
@@ -311,20 +332,37 @@ public:
             result_.reason = lengths_.made_text(built_.simulation.time());
             return;
         }
+        if (script_.rest) end_at_rest(script_.rest->figures());
     }
 
     /// Brings the totals up to date that are no sums over steps.
     void measure() {
+        if (script_.rest) result_.rest = script_.rest->figures();
         result_.totals.simulated_s = built_.simulation.time();
         result_.totals.wall_s =
             earlier_wall_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
 
 private:
+    bool over() const { return (script_.rest && script_.rest->figures().at_rest) || lengths_.over(built_.simulation.time()); }
+
+    /// The last frame, and what became of a scene that has to end at rest.
+    void end_at_rest(const RestFigures& figures) {
+        script_.observer.look_at_end();
+        if (is_measured_by_frames(built_))
+            result_.measures.largest_strain = std::max(result_.measures.largest_strain, built_.simulation.largest_strain());
+        if (figures.at_rest) return;
+        result_.status = RunStatus::failed;
+        result_.reason =
+            not_at_rest_text(figures, built_.scene.cloths.at(static_cast<std::size_t>(std::max(0, figures.fastest_cloth))).name);
+    }
+
     void go_on_from(const RunSettings& settings) {
         const RunState& from = *settings.from;
         at_place({.file = settings.from_file}, "", [&] {
             script_.timeline.go_on_from(built_, from.timeline);
+            if (from.rest.fastest_cloth < -1 || from.rest.fastest_cloth >= static_cast<int>(built_.cloths.size()))
+                throw SceneError("how still the cloth is, is that of another scene");
             built_.simulation.restore(from.simulation);
         });
         result_.totals = from.totals;
@@ -342,6 +380,8 @@ private:
                 .steps_made = lengths_.made(),
                 .step_length = lengths_.length(),
                 .next_frame = script_.observer.next_frame(),
+                .framed = script_.observer.framed(),
+                .rest = script_.rest ? script_.rest->figures() : RestFigures{},
                 .timeline = script_.timeline.state(),
                 .simulation = built_.simulation.save()};
     }

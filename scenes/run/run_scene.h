@@ -52,7 +52,8 @@ struct RunResult {
     RunTotals totals;
     ScenePlan plan;  // before the first step
     Measures measures;
-    std::vector<double> resumed_at;  // s, where the run was resumed; empty for one that was not
+    std::optional<RestFigures> rest;  // of a scene that ends at rest
+    std::vector<double> resumed_at;   // s, where the run was resumed; empty for one that was not
 };
 
 /// Where a run stands between two steps of the scene: together with the scene, all that it takes to go on.
@@ -63,6 +64,8 @@ struct RunState {
     long steps_made = 0;             // of the scene, undivided
     double step_length = 0.0;        // s, of the last one
     int next_frame = 0;
+    bool framed = false;  // the state has a frame
+    RestFigures rest;     // of a scene that ends at rest
     Timeline::State timeline;
     std::vector<std::byte> simulation;  // Simulation::save
 };
@@ -83,14 +86,16 @@ struct RunSettings {
     std::string from_file = {};      // where that was read, for messages
 };
 
-/// Steps until the scene's duration is over (where the duration is no multiple of the time step the last step is shorter, or up
-/// to a thousandth longer), a step fails or a stop is asked for. Adaptive steps (time_step = "auto") end at every frame's and
-/// event's time. Frame k follows the first step that ends at or after k / fps; frame 0 is the start. Every frame is certified
-/// against every obstacle, and cloth that meets cloth against that, also when nothing is written. A step in which an obstacle
-/// moves far is made in equal parts (motion_parts), each a step of the simulation and of the totals. Throws SceneError if the
-/// reference of a `matches` expectation cannot be read or has another number of vertices, or if the state to go on from is not
-/// one of this scene, before the first step; what a hook throws passes through. A run that goes on from a state ends with the
-/// same bits and figures as one that was never interrupted; the scene must have been built anew.
+/// Steps until the scene's duration is over, or with duration = "rest" until all cloth is proven at rest and nothing is to come;
+/// that has a last frame of its own, and has failed if it is not at rest by its longest duration (where the duration is no
+/// multiple of the time step the last step is shorter, or up to a thousandth longer), a step fails or a stop is asked for.
+/// Adaptive steps (time_step = "auto") end at every frame's and event's time. Frame k follows the first step that ends at or
+/// after k / fps; frame 0 is the start. Every frame is certified against every obstacle, and cloth that meets cloth against that,
+/// also when nothing is written. A step in which an obstacle moves far is made in equal parts (motion_parts), each a step of the
+/// simulation and of the totals. Throws SceneError if the reference of a `matches` expectation cannot be read or has another
+/// number of vertices, or if the state to go on from is not one of this scene, before the first step; what a hook throws passes
+/// through. A run that goes on from a state ends with the same bits and figures as one that was never interrupted; the scene must
+/// have been built anew.
 RunResult run_scene(BuiltScene& built, const RunHooks& hooks = {}, const RunSettings& settings = {});
 
 /// The vertices of the file that `matches` names, if the scene expects that. Throws SceneError where it cannot be read or has

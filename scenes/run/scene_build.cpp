@@ -3,6 +3,7 @@
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "format/expectations.h"
+#include "format/rest_check.h"
 #include "meshes/mesh_import.h"
 #include "percale/detectors.h"
 #include "percale/error.h"
@@ -177,6 +178,7 @@ BuiltScene build_scene(const Scene& given) {
     for (const SeamSpec& seam : scene.seams) add_seam(built, seam);
     script_events(scene, built.cloth_meshes);
     check_start(built);
+    if (scene.until_rest) check_can_rest(scene, built.simulation.plan());
     return built;
 }
 

@@ -44,9 +44,11 @@ std::string springs_text(const SpringCounts& springs) {
 
 std::string steps_text(const Scene& scene) {
     const StepSettings& step = scene.step;
-    if (step.adaptive) return "steps as long as an error of " + short_number(step.tolerance) + " m a second allows";
-    const StepCount count = count_steps(scene.duration, step.time_step);
-    return counted(count.steps, "step") + " of " + short_number(step.time_step) + " s";
+    const std::string until = scene.until_rest ? "until rest, at most " + short_number(scene.longest) + " s; " : "";
+    if (step.adaptive) return until + "steps as long as an error of " + short_number(step.tolerance) + " m a second allows";
+    const StepCount count = count_steps(scene.latest_end(), step.time_step);
+    return until + (scene.until_rest ? "at most " : "") + counted(count.steps, "step") + " of " + short_number(step.time_step) +
+           " s";
 }
 
 ScenePlan plan_of(const BuiltScene& built) {
@@ -80,7 +82,7 @@ std::string plan_text(const BuiltScene& built) {
 
 std::string plan_json(const BuiltScene& built) {
     const ScenePlan plan = plan_of(built);
-    const StepCount count = count_steps(built.scene.duration, built.scene.step.time_step);
+    const StepCount count = count_steps(built.scene.latest_end(), built.scene.step.time_step);
     ordered_json json;
     json["title"] = built.scene.title;
     json["scene"] = built.scene.file;
@@ -89,6 +91,7 @@ std::string plan_json(const BuiltScene& built) {
     json["warnings"] = plan.warnings;
     json["time_step_s"] = built.scene.step.adaptive ? ordered_json("auto") : ordered_json(built.scene.step.time_step);
     json["steps"] = built.scene.step.adaptive ? ordered_json(nullptr) : ordered_json(count.steps);
+    json["until_rest"] = built.scene.until_rest;
     json["vertices"] = plan.vertices;
     json["pinned_vertices"] = plan.pinned_vertices;
     json["springs"] = {{"structural", plan.springs.structural},

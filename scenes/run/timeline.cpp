@@ -27,6 +27,16 @@ void Timeline::apply(BuiltScene& built, double time, double dt) {
     move_obstacles(built, time + dt);
 }
 
+bool Timeline::more_to_come(const Scene& scene, double time) const {
+    const auto moves = [&](const ObstacleSpec& obstacle) {
+        const bool spins = obstacle.spin && obstacle.spin->turns_per_s != 0.0;
+        return spins || (!obstacle.motion.empty() && obstacle.motion.back().time > time);
+    };
+    return next_event_ < events_.size() || !moving_pins_.empty() ||
+           std::any_of(scene.obstacles.begin(), scene.obstacles.end(), moves) ||
+           std::any_of(scene.seams.begin(), scene.seams.end(), [&](const SeamSpec& seam) { return seam.over > time; });
+}
+
 void Timeline::go_on_from(const BuiltScene& built, const State& state) {
     const auto known = [&](const MovingPin& pin) {
         if (pin.cloth < 0 || pin.cloth >= static_cast<int>(built.cloth_meshes.size())) return false;

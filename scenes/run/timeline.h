@@ -16,6 +16,9 @@ public:
     /// depend on the steps; it begins where the vertex is when the event is applied, and replaces an earlier move of the vertex.
     void apply(BuiltScene& built, double time, double dt);
 
+    /// Whether something is still to happen after `time`: an event, a pin on its way, an obstacle that moves, a seam that closes.
+    bool more_to_come(const Scene& scene, double time) const;
+
     struct MovingPin {
         int cloth = 0;
         int vertex = 0;

@@ -78,6 +78,8 @@ StressRow run_scene_cell(const SceneSource& source, const StressCell& cell, cons
                                           {"step.time_step", number_text(cell.time_step), "--steps"}};
     Scene scene = source(overrides);
     leave_only_steps(scene);
+    scene.duration = scene.latest_end();  // every scheme makes as many steps
+    scene.until_rest = false;
     scene.step.measure = StepMeasures::ledger;
     for (auto& [name, fabric] : scene.fabrics) scale(fabric, cell.stiffness);
     try {

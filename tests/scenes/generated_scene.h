@@ -24,6 +24,7 @@ public:
 
     std::string text() {
         choose_fabric();
+        choose_end();
         return entries(keys_of(scene_table()), "", "\n") + "\n";
     }
 
@@ -44,6 +45,8 @@ public:
                 return below(3) == 0 ? "\"auto\"" : integer_of(key);
             case KeyKind::number_or_auto:
                 return below(3) == 0 ? "\"auto\"" : number_of(key, path);
+            case KeyKind::number_or_rest:
+                return until_rest_ ? "\"rest\"" : number_of(key, path);
             case KeyKind::numbers:
                 return numbers_of(key, path);
             case KeyKind::integers:
@@ -92,6 +95,12 @@ private:
                                                               {"fabric.spring_damping", "fabric.damping_time"},
                                                               {"fabric.pressure", "fabric.gas_volume"}};
         for (const auto& [one, other] : either) banned_.insert(wanted == one || (wanted != other && below(2) == 0) ? other : one);
+    }
+
+    /// Only scenes that end at rest have a longest duration.
+    void choose_end() {
+        until_rest_ = wanted == "longest" || (wanted.empty() && below(2) == 0);
+        until_rest_ ? must_.insert("duration") : banned_.insert("longest");
     }
 
     bool has(const SceneKey& key, const std::string& path) {
@@ -210,6 +219,7 @@ private:
     double chance_;
     std::mt19937 random_;
     std::set<std::string> must_, banned_;
+    bool until_rest_ = false;
     int item_ = 0;
 };
 

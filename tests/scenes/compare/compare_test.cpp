@@ -30,6 +30,12 @@ TEST_CASE("The errors of a free fall are those of the schemes: g t dt/2 for Eule
     }
 }
 
+TEST_CASE("A scene that ends at rest gives no time to compare at, and is refused where it says so") {
+    std::string text = falling_sheet();
+    text.replace(text.find("0.1"), 3, "\"rest\"");
+    CHECK(message_of([&] { compare_scene(source_of(text), {}); }).starts_with("scene.toml:2:12: duration = \"rest\": runs are"));
+}
+
 TEST_CASE("What blows up or is refused is a row that says so, and the others are compared all the same") {
     const CompareSettings fast{.schemes = {"rk4", "backward_euler"}, .steps = {1.0 / 60.0}, .repeats = 1};
     const Comparison strip = compare_scene(source_of(standing_strip()), fast);

@@ -193,6 +193,24 @@ TEST_CASE("cloth that nothing holds falls for ever") {
     CHECK(severity(examined(falling_sheet() + caught), "free_fall") == "none");
 }
 
+TEST_CASE("what keeps a scene from ending at rest is found up front") {
+    const Override rest{"duration", "rest"};
+    CHECK(kinds(examined(quiet_scene(), {rest})).empty());
+    const Override implicit{"step.scheme", "backward_euler"};
+    CHECK(severity(examined(falling_sheet(), {rest, implicit}), "free_fall") == "error");
+    const auto blowing = [](const std::string& wind) { return quiet_scene() + "[[event]]\ntime = 0.1\nwind = " + wind + "\n"; };
+    const auto found = examined(blowing("[2, 0, 0]"), {rest});
+    CHECK(severity(found, "flutter") == "warning");
+    CHECK(find(found, "flutter")->place.find("scene.toml:21:") != std::string::npos);
+    CHECK(severity(examined(blowing("[2, 0, 0]")), "flutter") == "none");
+    CHECK(severity(examined(blowing("[0, 0, 0]"), {rest}), "flutter") == "none");
+    std::string turning = quiet_scene();
+    turning.insert(turning.find("[output]"), "spin = { turns_per_s = 1.0 }\n");
+    const auto spins = examined(turning, {rest});
+    CHECK(severity(spins, "refused") == "error");
+    CHECK(find(spins, "refused")->what.find("it never stands still") != std::string::npos);
+}
+
 TEST_CASE("expectations that say nothing are warned of at their place") {
     const auto expecting = [](const std::string& scene, const std::string& measure, const Overrides& overrides = {}) {
         return examined(scene + "[expect]\n" + measure + " = { below = 1.0 }\n", overrides);

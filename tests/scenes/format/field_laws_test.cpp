@@ -104,6 +104,7 @@ std::vector<std::string> wrong_kinds(const SceneKey& key) {
             return {"\"true\"", "1"};
         case KeyKind::number:
         case KeyKind::number_or_auto:
+        case KeyKind::number_or_rest:
             return {"\"many\"", "true", "[1]"};
         case KeyKind::integer:
         case KeyKind::integer_or_auto:
@@ -141,7 +142,7 @@ std::string with_number(const SceneKey& key, const std::string& number, const st
 bool holds_numbers(const SceneKey& key) {
     const std::set<KeyKind> kinds = {
         KeyKind::number,   KeyKind::integer, KeyKind::number_or_auto, KeyKind::integer_or_auto, KeyKind::numbers,
-        KeyKind::integers, KeyKind::box,     KeyKind::pairs};
+        KeyKind::integers, KeyKind::box,     KeyKind::pairs,          KeyKind::number_or_rest};
     return kinds.contains(key.kind);
 }
 

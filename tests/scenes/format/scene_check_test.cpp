@@ -69,7 +69,7 @@ TEST_CASE("a missing required key is named at its table") {
 }
 
 TEST_CASE("a wrong kind of value says what was expected and what was there") {
-    CHECK(fault("duration = \"two\"\n") == "t:1:12: duration must be a number (s), not the text \"two\"");
+    CHECK(fault("duration = \"two\"\n") == "t:1:12: duration must be a number or \"rest\" (s), not the text \"two\"");
     CHECK(fault("title = 3\n") == "t:1:9: title must be a text, not the number 3");
     CHECK(fault("step = 3\n") == "t:1:8: step must be a table, not the number 3");
     CHECK(fault("cloth = 3\n") == "t:1:9: cloth must be a list of tables, not the number 3");
@@ -81,8 +81,8 @@ TEST_CASE("a wrong kind of value says what was expected and what was there") {
     CHECK(fault("[step]\ntime_step = \"small\"\n") ==
           "t:2:13: step.time_step must be a number or \"auto\" (s), not the text \"small\"");
     CHECK(fault("[step]\nscheme = 1\n").starts_with("t:2:10: step.scheme must be one of "));
-    CHECK(fault("duration = true\n") == "t:1:12: duration must be a number (s), not true");
-    CHECK(fault("duration = 2024-01-01\n") == "t:1:12: duration must be a number (s), not a date or time");
+    CHECK(fault("duration = true\n") == "t:1:12: duration must be a number or \"rest\" (s), not true");
+    CHECK(fault("duration = 2024-01-01\n") == "t:1:12: duration must be a number or \"rest\" (s), not a date or time");
 }
 
 TEST_CASE("a number out of range is told with key, value, unit and allowed range") {

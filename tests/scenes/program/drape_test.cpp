@@ -41,6 +41,20 @@ TEST_CASE("a garment that settles is written at rest and clean") {
     CHECK(folder.file_count() == 3);
 }
 
+TEST_CASE("a garment is draped until it is proven at rest, asked or not") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    const auto draped = [&](const std::string& out, std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"drape", "sheet.obj", "block.obj", "-o", out, "--friction", "0.8"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramRun run = run_program(arguments, folder.path());
+        CHECK(run.exit_code == 0);
+        CHECK(run.out.find(out + ": at rest, ") != std::string::npos);
+        return read(folder, out).vertices;
+    };
+    CHECK(draped("a.obj", {}) == draped("b.obj", {"--until-rest"}));
+}
+
 TEST_CASE("when the time is up the garment is written all the same, and the speed named") {
     const TestFolder folder;
     write_pair(folder, 1.0);

@@ -42,6 +42,35 @@ TEST_CASE("run writes into a folder of the scene's name where it is called") {
     CHECK_FALSE(folder.holds("sheet on box/obstacles/box_00001.obj"));
 }
 
+TEST_CASE("a run until rest ends by itself, with a last frame, or fails and says how the cloth moves") {
+    const TestFolder folder;
+    folder.write("sheet.toml", sheet_on_box());
+    const ProgramRun run = run_program({"run", "sheet.toml", "-o", "out", "--set", "duration=rest"}, folder.path());
+    CHECK(run.exit_code == 0);
+    CHECK(run.out.starts_with("sheet.toml: until rest, at most 20 s; at most 1200 steps of 0.0167 s into out\n"));
+    CHECK(run.out.find("finished at rest: ") != std::string::npos);
+    const auto report = report_in(folder, "out");
+    CHECK(report.at("status") == "finished");
+    CHECK(report.at("rest").at("at_rest") == true);
+    CHECK(report.at("rest").at("time_s") == report.at("simulated_s"));
+    CHECK(report.at("frames").back().at("time") == report.at("simulated_s"));
+    CHECK(folder.holds("out/" + report.at("frames").back().at("cloths").at(0).get<std::string>()));
+    CHECK(report.at("settings").at("duration") == "rest");
+    CHECK(report.at("settings").at("longest") == 20.0);
+    const ProgramRun early = run_program(
+        {"run", "sheet.toml", "-o", "early", "--set", "duration=\"rest\"", "--set", "longest=0.3", "--quiet"}, folder.path());
+    CHECK(early.exit_code == 1);
+    CHECK(
+        early.error.starts_with("percale: sheet.toml: the run failed: not at rest after 0.3 s, the longest that it may take: "));
+    const auto failed = report_in(folder, "early");
+    CHECK(failed.at("status") == "failed");
+    CHECK(failed.at("rest").at("at_rest") == false);
+    CHECK(failed.at("rest").at("fastest_cloth") == "sheet");
+    CHECK(failed.at("rest").at("largest_speed") == failed.at("speed_at_end"));
+    CHECK(refused(run_program({"run", "sheet.toml", "-o", "none", "--set", "duration=rest", "--no-skip"}, folder.path()),
+                  "--no-skip"));
+}
+
 TEST_CASE("no text says that a distance is inf") {
     const TestFolder folder;
     std::string far = sheet_on_box();

@@ -110,6 +110,16 @@ TEST_CASE("a plan says which scheme was chosen and why, and warns of steps that 
     CHECK(nlohmann::json::parse(plan_json(adaptive)).at("time_step_s") == "auto");
 }
 
+TEST_CASE("a plan of a scene that ends at rest says so, and how many steps that may take") {
+    const BuiltScene scene = built(sheet_on_box(), {{"duration", "rest"}, {"longest", "3"}});
+    CHECK(plan_text(scene).find("until rest, at most 3 s; at most 180 steps of 0.0167 s, backward_euler") != std::string::npos);
+    CHECK(nlohmann::json::parse(plan_json(scene)).at("steps") == 180);
+    CHECK(nlohmann::json::parse(plan_json(scene)).at("until_rest") == true);
+    const BuiltScene adaptive = built(sheet_on_box(), {{"duration", "rest"}, {"step.time_step", "auto"}});
+    CHECK(plan_text(adaptive).find("until rest, at most 20 s; steps as long as an error of ") != std::string::npos);
+    CHECK(nlohmann::json::parse(plan_json(built(sheet_on_box()))).at("until_rest") == false);
+}
+
 TEST_CASE("text and JSON say the same") {
     const BuiltScene scene = built(sheet_on_box());
     const std::string text = plan_text(scene);

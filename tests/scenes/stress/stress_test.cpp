@@ -49,6 +49,18 @@ TEST_CASE("A scene is run with every scheme, step and factor, each at most so ma
     CHECK(run.failures() == 0);
 }
 
+TEST_CASE("A scene that ends at rest is run with every scheme for its longest duration") {
+    std::string text = falling_sheet();
+    text.replace(text.find("0.1"), 3, "\"rest\"\nlongest = 0.1");
+    const SceneStress settings{.schemes = {"rk4", "backward_euler"}, .time_steps = {0.05}, .factors = {1.0}, .steps = 5};
+    const StressRun run = stress_scene(source_of(text), settings, {.stop_asked = never_stop, .progress = {}});
+    REQUIRE(run.rows.size() == 2);
+    for (const StressRow& row : run.rows) {
+        CHECK(row.figures.steps == 2);
+        CHECK(row.verdict == StressVerdict::stable);
+    }
+}
+
 TEST_CASE("A scene whose gravity changes is refused at the event") {
     const std::string text = falling_sheet() + "[[event]]\ntime = 0.05\ngravity = [0.0, 0.0, 0.0]\n";
     CHECK_THROWS_AS(stress_scene(source_of(text), {}, {}), SceneError);

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "format/scene.h"
+#include "percale/plan.h"
+
+namespace percale::scenes {
+
+/// Throws SceneError with its place for what keeps a scene with duration = "rest" from ever being proven at rest: a scheme or
+/// setting under which no cloth falls asleep, an obstacle that spins, or what is still to happen at `longest`. Others pass.
+void check_can_rest(const Scene& scene, const ScenePlan& plan);
+
+}  // namespace percale::scenes
