@@ -72,9 +72,11 @@ std::string leave_picture(const RunOptions& options, const TriangleMesh& triangl
 
 BuiltScene built_scene(const RunOptions& options, const Checkpoint* from) {
     const Scene scene = load_scene(options.scene, scene_overrides(options.common));
-    if (from) check_same_run(options.resume, *from, scene, options.common.certify_steps, options.common.replay_hash);
     try {
-        return build_scene(scene);
+        BuiltScene built = build_scene(scene);
+        // What [expect] reads is in its settings, and was in those of the run that was left.
+        if (from) check_same_run(options.resume, *from, built.scene, options.common.certify_steps, options.common.replay_hash);
+        return built;
     } catch (const StartRefused& refused) {
         const std::string file = refused.triangles().triangles.empty() ? "" : leave_picture(options, refused.triangles());
         if (file.empty()) throw;

@@ -131,9 +131,10 @@ void RestWatch::look(const Simulation& simulation, std::span<const ClothId> clot
 }
 
 std::string not_at_rest_text(const RestFigures& figures, const std::string& cloth) {
-    const std::string text = "not at rest after " + short_number(figures.time) + " s, the longest that it may take: cloth '" +
-                             cloth + "' moves fastest, at " + short_number(figures.largest_speed) + " m/s; all vertices " +
-                             short_number(figures.rms_speed) + " m/s rms";
+    const std::string text = "not at rest (still for half a second, its forces balanced) after " + short_number(figures.time) +
+                             " s, the longest that it may take: cloth '" + cloth + "' moves fastest, at " +
+                             short_number(figures.largest_speed) + " m/s; all vertices " + short_number(figures.rms_speed) +
+                             " m/s rms";
     if (std::isnan(figures.force_over_weight)) return text;
     return text + "; the largest net force on one is " + short_number(figures.force_over_weight) + " times its weight";
 }

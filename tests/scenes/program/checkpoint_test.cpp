@@ -86,6 +86,26 @@ TEST_CASE("a run with checkpoints is the same as one without, and one that is re
     CHECK(run_program({"replay", "plain", "other"}, folder.path()).exit_code == 0);
 }
 
+TEST_CASE("a run until rest that expects something of its steps is resumed, from its end, too") {
+    const TestFolder folder;
+    folder.write("box.toml", sheet_on_box() + "[expect]\nlargest_strain = { below = 1.0 }\n");
+    const std::vector<std::string> until_rest = {"--set", "duration=rest", "--fps", "7"};
+    const auto run_until_rest = [&](std::vector<std::string> more) {
+        more.insert(more.end(), until_rest.begin(), until_rest.end());
+        return run_box(folder, more);
+    };
+    REQUIRE(run_until_rest({"-o", "plain"}).exit_code == 0);
+    for (const std::string interval : {"1.5", "0.0166"}) {
+        CAPTURE(interval);
+        REQUIRE(run_until_rest({"-o", "out", "--checkpoint", interval}).exit_code == 0);
+        const ProgramRun resumed = run_until_rest({"--resume", "out/checkpoint.percale", "-o", "other"});
+        CAPTURE(resumed.error);
+        CHECK(resumed.exit_code == 0);
+        CHECK(same_files(folder, "plain", "other"));
+        CHECK(figures(folder, "plain") == figures(folder, "other"));
+    }
+}
+
 TEST_CASE("a run that was killed leaves whole files, and is resumed from its last checkpoint in the same bits") {
     const TestFolder folder;
     folder.write("sheet.toml", falling_sheet());

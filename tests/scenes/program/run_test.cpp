@@ -60,8 +60,8 @@ TEST_CASE("a run until rest ends by itself, with a last frame, or fails and says
     const ProgramRun early = run_program(
         {"run", "sheet.toml", "-o", "early", "--set", "duration=\"rest\"", "--set", "longest=0.3", "--quiet"}, folder.path());
     CHECK(early.exit_code == 1);
-    CHECK(
-        early.error.starts_with("percale: sheet.toml: the run failed: not at rest after 0.3 s, the longest that it may take: "));
+    CHECK(early.error.starts_with(
+        "percale: sheet.toml: the run failed: not at rest (still for half a second, its forces balanced) after 0.3 s, the "));
     const auto failed = report_in(folder, "early");
     CHECK(failed.at("status") == "failed");
     CHECK(failed.at("rest").at("at_rest") == false);
