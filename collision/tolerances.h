@@ -165,6 +165,11 @@ constexpr double self_skin = 0.5;
 /// than its thickness pushes itself apart at rest. Small: a fold closes to nearly nothing at its crease.
 constexpr double contact_of_rest = 0.5;
 
+/// The same on the way through a seam. Sides of a seam are sampled each in its own way, so that edges from places close to each
+/// other cross where it is folded: at 0.5 such a fold cannot close below 60 degrees, and contact holds the seam open. 0: nothing
+/// keeps its sides apart near it.
+constexpr double contact_of_seam = 0.1;
+
 /// Pairs of cloth with cloth that are looked at, in all and for each vertex. As most_packs.
 constexpr long most_self_pairs = 4000000, most_self_pairs_per_vertex = 300;
 

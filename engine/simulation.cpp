@@ -10,6 +10,7 @@
 #include "start/start_check.h"
 #include "state/saved_world.h"
 #include "step/measure.h"
+#include "step/sewing.h"
 #include "step/step.h"
 #include "support/hash.h"
 #include "support/stage_timer.h"
@@ -50,13 +51,6 @@ void check_range(const std::string& owner, const std::string& what, const std::s
     if (value >= lowest && value <= highest) return;
     throw SceneError(owner, what + " = " + number_text(value) + " " + unit + " is outside the allowed range " +
                                 number_text(lowest) + " ... " + number_text(highest));
-}
-
-/// Of springs that are new in the network, where the state has rest lengths of its own.
-void add_rest_lengths(const SpringNetwork& network, std::vector<double>& rest_length) {
-    if (rest_length.empty()) return;
-    const auto known = static_cast<long>(rest_length.size());
-    rest_length.insert(rest_length.end(), network.rest_length.begin() + known, network.rest_length.end());
 }
 
 void check_finite(const Vec3& value, const std::string& what) {
@@ -101,24 +95,6 @@ struct Simulation::Implementation {
                    same_gravity = settings.gravity == world.scene.settings.gravity;
         if (!same_air || !same_gravity || settings.time_step != world.scene.settings.time_step) scene_changed(world);
         world.scene.settings = settings;
-    }
-
-    void pass_cloth_to_detector() {
-        if (!world.scene.detector) return;
-        std::vector<double> zone = world.scene.model.thickness;
-        const double factor = world.work.newton.law(world.scene.settings.contact_response).zone();
-        for (double& thickness : zone) thickness *= factor;
-        world.scene.detector->set_cloth(world.scene.model.triangles, zone);
-        if (!meets_cloth(world.scene)) return;
-        std::vector<int> owner;
-        std::vector<double> friction;
-        for (std::size_t c = 0; c < world.scene.model.cloths.size(); ++c) {
-            const ClothRange& cloth = world.scene.model.cloths[c];
-            const auto end = static_cast<std::size_t>(cloth.first + cloth.count);
-            owner.resize(end, cloth.fabric.self_contact ? static_cast<int>(c) : -1);
-            friction.resize(end, cloth.fabric.friction);
-        }
-        world.scene.detector->set_self_contact({.cloth = owner, .rest = world.scene.model.rest, .friction = friction});
     }
 
     /// Brings the view of positions up to date.
@@ -202,7 +178,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     world.scene.script.pin_targets = std::move(targets);
     implementation_->update_views();
     implementation_->add_masses(world.scene.model.cloths.back());
-    implementation_->pass_cloth_to_detector();
+    pass_cloth_to_detector(world);
     world.changed = true;
     scene_changed(world);
     return {static_cast<int>(world.scene.model.cloths.size()) - 1};
@@ -275,28 +251,41 @@ void Simulation::set_wind(const Vec3& velocity) {
     implementation_->change(settings);
 }
 
-void Simulation::add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices,
-                          const SeamSettings& settings) {
+SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const Stitch> stitches, const SeamSettings& settings) {
     World& world = implementation_->world;
     check_range(settings.name, "over", "s", settings.over, 0.0, 1e6);
     check_range(settings.name, "stiffness", "N/m", settings.stiffness, 1e-3, 1e9);
-    if (vertices.empty()) throw SceneError(settings.name, "no vertices, a seam joins at least one pair");
-    std::vector<std::array<int, 2>> pairs;
-    for (const auto& [one, other] : vertices) {
-        pairs.push_back({implementation_->vertex(first, one), implementation_->vertex(second, other)});
-        if (pairs.back()[0] != pairs.back()[1]) continue;
-        throw SceneError(settings.name,
-                         "vertex " + std::to_string(one) + " of " + implementation_->cloth(first).name + " is sewn to itself");
+    std::vector<Stitch> sewn;
+    for (const Stitch& stitch : stitches) {
+        check_range(settings.name, "the share of a stitch", "", stitch.share, 0.0, 1.0);
+        sewn.push_back({implementation_->vertex(first, stitch.vertex), implementation_->vertex(second, stitch.from),
+                        implementation_->vertex(second, stitch.to), stitch.share});
+        if (!joins_itself(sewn.back())) continue;
+        throw SceneError(settings.name, "vertex " + std::to_string(stitch.vertex) + " of " + implementation_->cloth(first).name +
+                                            " is sewn to itself");
     }
-    ClothModel model = world.scene.model;
-    Seam seam{.length = {}, .from = world.state.time, .over = settings.over};
-    append_seam(pairs, settings.stiffness, world.state.cloth.positions, seam, model);
-    finish_model(model);
-    world.scene.model = std::move(model);
-    add_rest_lengths(world.scene.model.springs, world.state.cloth.rest_length);
-    world.scene.script.seams.push_back(std::move(seam));
-    world.work.newton.solver.forget_model();
-    scene_changed(world);
+    if (sewn.empty()) throw SceneError(settings.name, "no vertices, a seam joins at least one pair");
+    return {sew(world, sewn, settings)};
+}
+
+SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices,
+                            const SeamSettings& settings) {
+    std::vector<Stitch> stitches;
+    for (const auto& [one, other] : vertices) stitches.push_back({one, other, other, 0.0});
+    return add_seam(first, second, stitches, settings);
+}
+
+std::vector<double> Simulation::seam_gaps(SeamId seam) const {
+    const std::vector<Seam>& seams = implementation_->world.scene.script.seams;
+    if (seam.index < 0 || seam.index >= static_cast<int>(seams.size())) {
+        throw SceneError("there is no seam " + std::to_string(seam.index) + ", seams are 0 ... " +
+                         std::to_string(static_cast<int>(seams.size()) - 1));
+    }
+    std::vector<double> gaps;
+    for (const Stitch& stitch : seams[seam.index].stitches) {
+        gaps.push_back(stitch_gap(stitch, implementation_->world.state.cloth.positions).norm());
+    }
+    return gaps;
 }
 
 void Simulation::set_time_step(double time_step) {

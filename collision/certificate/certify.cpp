@@ -9,6 +9,7 @@
 #include "certificate/box_tree.h"
 #include "certificate/exact_orientation.h"
 #include "certificate/inside_test.h"
+#include "certificate/sewn_triangles.h"
 #include "certificate/triangle_gap.h"
 #include "certificate/triangle_overlap.h"
 #include "percale/error.h"
@@ -183,18 +184,20 @@ Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, dou
     return result;
 }
 
-ClothCertificate certify_cloth(const TriangleMesh& cloth) {
+ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches) {
     check(cloth, "certify_cloth: cloth");
     const Surface surface(cloth);
+    const SewnTriangles sewn(cloth, stitches);
     ClothCertificate result;
     surface.tree.walk_overlaps(surface.tree, [&](int i, int j) {
         if (i >= j) return;
         const Overlap overlap = overlap_within(cloth, surface, i, j);
-        if (overlap == Overlap::crossing) result.crossing.push_back({i, j});
-        if (overlap == Overlap::touching) result.touching.push_back({i, j});
+        if (overlap == Overlap::disjoint) return;
+        const bool together = sewn.together(i, j), cross = overlap == Overlap::crossing;
+        if (cross) (together ? result.at_seams : result.crossing).push_back({i, j});
+        if (!cross && !together) result.touching.push_back({i, j});
     });
-    sort(result.crossing);
-    sort(result.touching);
+    for (auto* pairs : {&result.crossing, &result.touching, &result.at_seams}) sort(*pairs);
     return result;
 }
 

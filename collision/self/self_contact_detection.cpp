@@ -20,7 +20,9 @@ bool stays_clear(double distance, double thickness, double shrink) {
 
 SelfContactDetection::SelfContactDetection(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
                                            const SelfContact& cloth)
-    : lists_(triangles, vertex_thickness, cloth), friction_(cloth.friction.begin(), cloth.friction.end()) {
+    : lists_(triangles, vertex_thickness, cloth),
+      friction_(cloth.friction.begin(), cloth.friction.end()),
+      stitches_(cloth.stitches.begin(), cloth.stitches.end()) {
     for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
         if (cloth.cloth[triangles[t][0]] >= 0) met_triangles_.push_back(t);
     }
@@ -29,7 +31,7 @@ SelfContactDetection::SelfContactDetection(std::span<const Triangle> triangles, 
 StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) const {
     TriangleMesh cloth{.vertices = {positions.begin(), positions.end()}, .triangles = {}};
     for (const int t : met_triangles_) cloth.triangles.push_back(lists_.surface().triangles[t]);
-    const ClothCertificate certificate = certify_cloth(cloth);
+    const ClothCertificate certificate = certify_cloth(cloth, stitches_);
     const auto& pairs = certificate.crossing.empty() ? certificate.touching : certificate.crossing;
     if (pairs.empty()) return {};
     StartFault fault;

@@ -36,6 +36,7 @@ private:
     SelfContactLists lists_;
     std::vector<double> friction_;
     std::vector<int> met_triangles_;  // of cloth that meets cloth
+    std::vector<Stitch> stitches_;
 };
 
 }  // namespace percale

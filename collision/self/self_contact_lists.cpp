@@ -10,6 +10,8 @@
 namespace percale {
 namespace {
 
+double largest(std::span<const double> list) { return list.empty() ? 0.0 : *std::max_element(list.begin(), list.end()); }
+
 bool comes_before(const SelfPair& a, const SelfPair& b) { return std::tie(a.shape, a.feature) < std::tie(b.shape, b.feature); }
 
 }  // namespace
@@ -20,6 +22,7 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
       cloth_(cloth.cloth.begin(), cloth.cloth.end()),
       rest_(cloth.rest.begin(), cloth.rest.end()),
       surface_(make_cloth_surface(triangles, vertex_thickness.size())),
+      sewn_(surface_, cloth.stitches, rest_, largest(vertex_thickness) / tolerances::contact_of_seam),
       memory_{.start = rest_,
               .displacement = std::vector<Vec3>(rest_.size(), Vec3::Zero()),
               .seen = rest_,
@@ -224,15 +227,24 @@ void SelfContactLists::pair_edges(bool one, Reach reach, std::span<const Vec3> f
     }
 }
 
+/// m, through a seam near the pair; 0 where it is sewn together, infinity without such a seam.
+double SelfContactLists::sewn_distance(const SelfPair& pair) const {
+    const std::span<const int> vertices = pair.vertex;
+    const std::size_t of_first = pair.shape == PairShape::edge_edge ? 2 : 1;
+    return sewn_.distance(vertices.first(of_first), vertices.subspan(of_first));
+}
+
 /// Keeps a pair that may come into contact if its distance can shrink by `room`.
 void SelfContactLists::consider(SelfPair pair, double room, std::span<const Vec3> from) {
     ++considered_;
     pair.thickness = 0.5 * (thickness_[pair.vertex[0]] + thickness_[pair.vertex[3]]);
     pair.reach = self_distance(pair, from);
     if (pair.reach >= pair.thickness + room) return;
-    if (cloth_[pair.vertex[0]] == cloth_[pair.vertex[3]]) {
-        pair.thickness = std::min(pair.thickness, tolerances::contact_of_rest * self_distance(pair, rest_));
-    }
+    const bool one_cloth = cloth_[pair.vertex[0]] == cloth_[pair.vertex[3]];
+    const double through_seam = sewn_distance(pair);
+    if (through_seam == 0.0) return;
+    pair.thickness = std::min(pair.thickness, tolerances::contact_of_seam * through_seam);
+    if (one_cloth) pair.thickness = std::min(pair.thickness, tolerances::contact_of_rest * self_distance(pair, rest_));
     if (pair.reach < pair.thickness + room) memory_.pairs.push_back(pair);
 }
 

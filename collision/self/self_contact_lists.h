@@ -8,6 +8,7 @@
 #include "percale/contact.h"
 #include "self/cluster_tree.h"
 #include "self/self_pair.h"
+#include "self/sewn_rest.h"
 
 namespace percale {
 
@@ -81,6 +82,7 @@ private:
     void find_near(const Cluster& cluster, const Box& other, Near& near) const;
     void pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from);
     void pair_edges(bool one, Reach reach, std::span<const Vec3> from);
+    double sewn_distance(const SelfPair& pair) const;
     void consider(SelfPair pair, double room, std::span<const Vec3> from);
     void take_over_zones();
 
@@ -88,6 +90,7 @@ private:
     std::vector<int> cloth_;
     std::vector<Vec3> rest_;
     ClothSurface surface_;
+    SewnRest sewn_;
     std::vector<Cluster> clusters_;
     ClusterTree tree_;
     std::vector<int> vertices_;  // that meet cloth

@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "forces/coupled_block.h"
-#include "forces/diagonal_blocks.h"
+#include "forces/blocks.h"
 #include "friction.h"
 #include "model/vectors.h"
 #include "multipliers.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "forces/symmetric_block.h"
+#include "forces/blocks.h"
 
 namespace percale {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "coupled_block.h"
+#include "blocks.h"
 #include "kernels/compute.h"
 #include "model/cloth_facts.h"
 #include "model/cloth_model.h"

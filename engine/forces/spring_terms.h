@@ -14,6 +14,7 @@ struct StepSprings {
     bool velocity_damping = false;                 // there is a c
     AlignedVector<double> stiffness, rest_length;  // of this step, where they are not those of the model
     AlignedVector<double> seam_rest_length;        // m, where seams have changed theirs
+    const double* undamped_rest_length = nullptr;  // m, of each place: without damping
     AlignedVector<double> points;                  // work space
 };
 

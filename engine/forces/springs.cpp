@@ -112,6 +112,7 @@ void set_step_springs(const Compute& compute, const SpringStart& start, StepSpri
     springs.adjacency = &adjacency;
     springs.entries = adjacency.springs();
     if (!start.rest_length.empty()) set_seam_lengths(start, springs);
+    springs.undamped_rest_length = springs.entries.rest_length;
     springs.velocity_damping = adjacency.damped && start.form == DampingForm::velocity;
     if (!adjacency.damped || start.form == DampingForm::velocity) return;
     springs.stiffness.resize(adjacency.stiffness.size());

@@ -6,14 +6,15 @@
 #include "hinge_bending.h"
 #include "membrane_springs.h"
 #include "pressure.h"
+#include "sewing.h"
 #include "springs.h"
 #include "wind.h"
 
 namespace percale {
 
 std::span<const ForceTerm* const> force_terms() {
-    static const std::array<const ForceTerm*, 6> terms = {&gravity_term(), &spring_term(), &membrane_term(),
-                                                          &hinge_term(),   &wind_term(),   &pressure_term()};
+    static const std::array<const ForceTerm*, 7> terms = {&gravity_term(), &spring_term(), &membrane_term(), &hinge_term(),
+                                                          &sewing_term(),  &wind_term(),   &pressure_term()};
     return terms;
 }
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "blocks.h"
 #include "percale/mesh.h"
-#include "symmetric_block.h"
 
 namespace percale {
 

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "forces/coupled_block.h"
-#include "forces/diagonal_blocks.h"
+#include "forces/blocks.h"
 #include "forces/springs.h"
 #include "model/adjacency.h"
 #include "model/vectors.h"

@@ -84,6 +84,7 @@ Multigrid::Multigrid(const Compute& compute, const Adjacency& pattern, std::span
     guarded_.assign(pattern.bands.count > 0 ? pattern.point_count() : 0, 0.0f);
     levels_.push_back(std::move(fine));
     for (const LevelPattern& coarser : patterns_) add_level(coarser);
+    find_eased();
     if (patterns_.empty() || patterns_.back().vertices > dense_vertices) return;
     bottom_size_ = 3 * patterns_.back().vertices;
     bottom_stride_ = (bottom_size_ + slice_lanes - 1) / slice_lanes * slice_lanes;
@@ -100,6 +101,38 @@ void Multigrid::add_level(const LevelPattern& pattern) {
     level.ground.resize(6 * level.padded);
     level.inverse.resize(6 * level.padded);
     levels_.push_back(std::move(level));
+}
+
+/// The ends of springs of sewn points, and what coarser vertices they hang on.
+void Multigrid::find_eased() {
+    const auto sort_out = [](std::vector<int>& list) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    };
+    std::vector<bool> sewn(adjacency_.place.size(), false);
+    for (const int spring : adjacency_.sewn) sewn[spring] = true;
+    std::vector<int>& finest = levels_[0].eased;
+    for (std::size_t e = 0; e < adjacency_.other.size(); ++e) {
+        const std::size_t spring = adjacency_.spring[e];
+        if (spring < sewn.size() && sewn[spring]) finest.push_back(adjacency_.other[e]);
+    }
+    sort_out(finest);
+    for (int k = 1; k < levels(); ++k) {
+        std::vector<int>& own = levels_[k].eased;
+        for (const int vertex : levels_[k - 1].eased) {
+            const InterpolationRow& row = patterns_[k - 1].rows[vertex];
+            own.insert(own.end(), row.vertex.begin(), row.vertex.begin() + row.count);
+        }
+        sort_out(own);
+    }
+}
+
+/// The block w w^T K of a vertex sewn to a point has, over its part of the diagonal, three times that as eigenvalue; a spring has
+/// twice that.
+void Multigrid::ease(Level& level) const {
+    for (const int vertex : level.eased) {
+        for (std::size_t entry = 0; entry < 6; ++entry) level.inverse[entry * level.padded + vertex] *= sewn_point_easing;
+    }
 }
 
 Multigrid::Level Multigrid::sized_level(EntryPattern pattern, int slices) const {
@@ -139,6 +172,7 @@ void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {
     fine.corners = matrix.springs->corners.empty() ? nullptr : matrix.springs->corners.data();
     std::transform(matrix.mass.begin(), matrix.mass.end(), fine.ground.begin(), [](double m) { return static_cast<float>(m); });
     fine.inverse = matrix.inverse;
+    ease(fine);
     contacts_ = matrix.contacts;
     set_filters(matrix);
     if (coarser == Coarser::kept) return;
@@ -224,6 +258,7 @@ void Multigrid::fill_level(int k) {
                             .inverse = level.inverse.data(),
                             .padded = level.padded};
     for_chunks(compute_, level.slices, [&](Slices range) { compute_.kernels->coarse_diagonal(pass, range); });
+    ease(level);
 }
 
 /// Row sums: what holds a finer vertex holds the coarser ones by its weights.

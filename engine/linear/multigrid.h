@@ -49,6 +49,7 @@ private:
         AlignedVector<float> ground;      // the mass alone (finest), or six arrays
         AlignedVector<float> inverse;
         AlignedVector<float> x, b, r, points;
+        std::vector<int> eased;  // vertices, ascending: damped more in smoothing
     };
     /// A vertex of the finest level whose transfers are filtered.
     struct Filtered {
@@ -59,6 +60,8 @@ private:
     };
 
     void add_level(const LevelPattern& pattern);
+    void find_eased();
+    void ease(Level& level) const;
     Level sized_level(EntryPattern pattern, int slices) const;
     void set_filters(const BlockMatrix& matrix);
     void expand_blocks(const SpringTerms& springs);

@@ -31,6 +31,7 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
                      .damping = {},
                      .bending = {},
                      .damped = false,
+                     .sewn = {},
                      .membrane = {}};
     const std::size_t entries = result.start.back();
     result.other.resize(entries);
@@ -101,6 +102,10 @@ void copy_constants(const SpringNetwork& network, Adjacency& adjacency) {
     copy_bending(network, adjacency);
 }
 
+bool is_sewn_to_point(const SpringNetwork& network, int k) {
+    return network.kind[k] == SpringKind::point || (network.kind[k] == SpringKind::seam && network.stiffness[k] == 0.0);
+}
+
 }  // namespace
 
 Adjacency make_adjacency(const SpringNetwork& network, int vertex_count, SpringLayout layout) {
@@ -119,6 +124,7 @@ Adjacency make_adjacency(const SpringNetwork& network, int vertex_count, SpringL
         return at;
     };
     for (int k = 0; k < network.size(); ++k) {
+        if (is_sewn_to_point(network, k)) result.sewn.push_back(k);
         result.place[k] = enter(network.first[k], network.second[k], k);
         enter(network.second[k], network.first[k], k);
     }
@@ -139,7 +145,8 @@ void add_membrane(Adjacency& adjacency, const SpringNetwork& network, const std:
 }
 
 double Adjacency::strength(int k) const {
-    const double alone = stiffness[place[k]];
+    const bool point = std::binary_search(sewn.begin(), sewn.end(), k);
+    const double alone = point ? bending[place[k]] : stiffness[place[k]];
     return membrane.empty() ? alone : alone + 4.0 * membrane.numbers[0][place[k]] * membrane.numbers[1][place[k]];
 }
 

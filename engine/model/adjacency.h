@@ -24,7 +24,8 @@ struct Adjacency {
     AlignedVector<double> stiffness, rest_length, damping;  // N/m, m, N s/m of each place
     AlignedVector<double> bending;                          // N/m of each place; empty without hinges
     bool damped = false;                                    // any spring has damping
-    MembraneEntries membrane;                               // empty without triangles
+    std::vector<int> sewn;     // springs, ascending: a vertex sewn to a point, with each of its two ends
+    MembraneEntries membrane;  // empty without triangles
 
     /// How many numbers the blocks a, w of all places take, and where those of a spring stand, `apart` from each other.
     std::size_t value_count() const;
@@ -32,7 +33,7 @@ struct Adjacency {
         std::size_t first, apart;
     };
     ValuePlace value_place(int k) const;
-    /// What a spring resists with when it alone becomes longer, its triangles included, N/m.
+    /// What a spring resists with when it alone becomes longer, its triangles included, but hinges left out, N/m.
     double strength(int k) const;
     /// The size of a vector as kernels want it (pack_points).
     std::size_t point_count() const;

@@ -101,8 +101,13 @@ void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness, const
     append_hinges(mesh, bend_stiffness, model.hinges, model.springs);
 }
 
-void finish_model(ClothModel& model) {
+void set_bending(ClothModel& model) {
     set_pair_bending(model.hinges, model.springs);
+    add_sewn_pairs(model.sewn_points, model.springs);
+}
+
+void finish_model(ClothModel& model) {
+    set_bending(model);
     const SpringLayout layout = model.membrane.empty() ? SpringLayout::best : SpringLayout::slices;
     model.adjacency = make_adjacency(model.springs, model.vertex_count(), layout);
     if (!model.membrane.empty()) add_membrane(model.adjacency, model.springs, model.membrane);
@@ -111,7 +116,7 @@ void finish_model(ClothModel& model) {
 
 void set_model_clamps(std::span<const double> free, ClothModel& model) {
     set_clamps(free, model.hinges);
-    set_pair_bending(model.hinges, model.springs);
+    set_bending(model);
     copy_bending(model.springs, model.adjacency);
 }
 

@@ -10,6 +10,7 @@
 #include "mesh/vertex_order.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
+#include "sewn_points.h"
 #include "spring_network.h"
 #include "vectors.h"
 
@@ -46,6 +47,7 @@ struct ClothModel {
     std::vector<Triangle> triangles;  // in the user's order, whatever that of the vertices
     SpringNetwork springs;
     Hinges hinges;
+    std::vector<SewnPoint> sewn_points;
     std::vector<MembraneTriangle> membrane;
     Adjacency adjacency;
     std::vector<Body> bodies;
@@ -63,6 +65,8 @@ void order_last_cloth(ClothModel& model);
 /// Gives the cloth that was appended last hinges of its own, after its order is settled.
 void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness, const RestShape& shape = {});
 void finish_model(ClothModel& model);
+/// Sets springs.bending: of hinges and of sewn points.
+void set_bending(ClothModel& model);
 /// Makes hinges beside clamps stiffer. `free`: 1, or 0 at pinned vertices.
 void set_model_clamps(std::span<const double> free, ClothModel& model);
 

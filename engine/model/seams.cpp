@@ -5,27 +5,42 @@
 namespace percale {
 namespace {
 
-double distance(const Vectors& x, int i, int j) { return (x.at(i) - x.at(j)).norm(); }
-
 /// What of the lengths is left at a time.
 double share_left(const Seam& seam, double time) {
     if (time <= seam.from) return 1.0;
     return seam.closes_after(time) ? 1.0 - (time - seam.from) / seam.over : 0.0;
 }
 
+void append_pair_of(const Stitch& stitch, double stiffness, double length, SpringNetwork& network) {
+    const int other = stitch.other();
+    append_pair(std::min(stitch.vertex, other), std::max(stitch.vertex, other), network);
+    network.rest_length.back() = length;
+    network.stiffness.back() = stiffness;
+    network.kind.back() = SpringKind::seam;
+}
+
 }  // namespace
 
-void append_seam(std::span<const std::array<int, 2>> pairs, double stiffness, const Vectors& positions, Seam& seam,
-                 ClothModel& model) {
+void append_seam(std::span<const Stitch> stitches, double stiffness, const Vectors& positions, Seam& seam, ClothModel& model) {
     SpringNetwork& network = model.springs;
     seam.first_spring = network.size();
     seam.length.clear();
-    for (const auto& [one, other] : pairs) {
-        append_pair(std::min(one, other), std::max(one, other), network);
-        seam.length.push_back(distance(positions, one, other));
-        network.rest_length.back() = seam.length.back();
-        network.stiffness.back() = stiffness;
-        network.kind.back() = SpringKind::seam;
+    seam.stitches.assign(stitches.begin(), stitches.end());
+    for (const Stitch& stitch : stitches) {
+        const Vec3 gap = stitch_gap(stitch, positions);
+        const double length = gap.norm();
+        seam.length.push_back(length);
+        // The spring of a point has no stiffness of its own: it joins, and tells the length.
+        append_pair_of(stitch, stitch.joins_vertices() ? stiffness : 0.0, length, network);
+    }
+    for (std::size_t k = 0; k < stitches.size(); ++k) {
+        const Stitch& stitch = stitches[k];
+        if (stitch.joins_vertices()) continue;
+        const Vec3 direction = seam.length[k] > 0.0 ? Vec3(stitch_gap(stitch, positions) / seam.length[k]) : Vec3(Vec3::Zero());
+        model.sewn_points.push_back({stitch, stiffness, direction, seam.first_spring + static_cast<int>(k), network.size()});
+        append_pair(stitch.vertex, stitch.to, network);
+        network.kind.back() = SpringKind::point;
+        append_pair(stitch.from, stitch.to, network);
     }
 }
 
@@ -34,16 +49,27 @@ void set_seam_lengths(const Seam& seam, double time, std::vector<double>& rest_l
     for (std::size_t k = 0; k < seam.length.size(); ++k) rest_length[seam.first_spring + k] = left * seam.length[k];
 }
 
-double seam_energy(const Seam& seam, double time, const SpringNetwork& network, const Vectors& positions) {
+double seam_energy(const Seam& seam, double time, const ClothModel& model, const Vectors& positions) {
     const double left = share_left(seam, time);
     double twice_energy = 0.0;
     for (std::size_t k = 0; k < seam.length.size(); ++k) {
         const int spring = seam.first_spring + static_cast<int>(k);
-        const double rest_length = left * seam.length[k];
-        const double stretch = distance(positions, network.first[spring], network.second[spring]) - rest_length;
-        twice_energy += network.stiffness[spring] * stretch * stretch;
+        const double stretch = stitch_gap(seam.stitches[k], positions).norm() - left * seam.length[k];
+        twice_energy += model.springs.stiffness[spring] * stretch * stretch;
     }
-    return 0.5 * twice_energy;
+    double energy = 0.5 * twice_energy;
+    const int end = seam.first_spring + static_cast<int>(seam.length.size());
+    for (const SewnPoint& point : model.sewn_points) {
+        if (point.spring < seam.first_spring || point.spring >= end) continue;
+        energy += sewn_energy(point, left * seam.length[point.spring - seam.first_spring], positions);
+    }
+    return energy;
+}
+
+Vec3 stitch_gap(const Stitch& stitch, const Vectors& positions) {
+    if (stitch.joins_vertices()) return positions.at(stitch.vertex) - positions.at(stitch.other());
+    return positions.at(stitch.vertex) -
+           ((1.0 - stitch.share) * positions.at(stitch.from) + stitch.share * positions.at(stitch.to));
 }
 
 }  // namespace percale

@@ -11,8 +11,9 @@
 namespace percale {
 
 /// hinge: two vertices of a hinge that no spring joins; without stiffness, all it has is `bending`.
-/// seam: sewn together, without a length of its own.
-enum class SpringKind : std::uint8_t { structural, shear, bend, hinge, seam };
+/// seam: sewn together, without a length of its own; where that is to a point between two vertices, all it has is `bending`, as
+/// has `point`, the pair with the second of the two.
+enum class SpringKind : std::uint8_t { structural, shear, bend, hinge, seam, point };
 
 /// All springs of a simulation, a structure of arrays.
 struct SpringNetwork {

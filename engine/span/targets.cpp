@@ -46,7 +46,7 @@ double seam_work(const Span& span, const StepState& start, const ClothState& end
     const auto energy = [&](double place, const Vectors& positions) {
         double sum = 0.0;
         for (const Seam& seam : span.scene.script.seams) {
-            sum += seam_energy(seam, time_at(span, place, start), span.scene.model.springs, positions);
+            sum += seam_energy(seam, time_at(span, place, start), span.scene.model, positions);
         }
         return sum;
     };

@@ -14,7 +14,7 @@
 
 namespace percale {
 
-constexpr SealKind state_seal{.name = "PERCALES", .version = 4, .words = "saved state"};
+constexpr SealKind state_seal{.name = "PERCALES", .version = 5, .words = "saved state"};
 
 /// What an obstacle's name is not needed for.
 struct SavedObstacle {
@@ -37,8 +37,9 @@ struct SavedWorld {
     AlignedVector<double> free;
     Vectors pin_targets;
     std::vector<SavedObstacle> obstacles;
-    std::vector<Seam> seams;
-    std::vector<double> clamps;  // of the hinges
+    std::vector<Seam> seams;            // without their stitches, which are the cloth's
+    std::vector<Vec3> sewn_directions;  // of the points sewn to
+    std::vector<double> clamps;         // of the hinges
     StepPlan plan;
     RestState rest;
     bool solver_is_set = false;
@@ -132,7 +133,8 @@ template <class Archive, OfType<SavedWorld> Value>
 void exchange(Archive& archive, Value& saved) {
     archive(saved.changed, saved.plan_outdated);
     archive(saved.settings.time_step, saved.settings.gravity, saved.settings.wind);
-    archive(saved.state, saved.contact, saved.free, saved.pin_targets, saved.obstacles, saved.seams, saved.clamps);
+    archive(saved.state, saved.contact, saved.free, saved.pin_targets, saved.obstacles, saved.seams, saved.sewn_directions,
+            saved.clamps);
     archive(saved.plan, saved.rest, saved.solver_is_set);
     archive.choice(saved.solver.first, 4);
     archive.choice(saved.solver.in_use, 4);
@@ -186,6 +188,7 @@ SavedWorld state_of(const World& world) {
     saved.pin_targets = scene.script.pin_targets;
     for (const ObstacleState& o : scene.script.obstacles) saved.obstacles.push_back({o.start, o.end, o.settled});
     saved.seams = scene.script.seams;
+    for (const SewnPoint& point : scene.model.sewn_points) saved.sewn_directions.push_back(point.direction);
     for (const Hinge& hinge : scene.model.hinges.all) saved.clamps.push_back(hinge.clamp);
     saved.plan = scene.plan;
     saved.rest = world.rest;
@@ -280,6 +283,9 @@ private:
         const std::vector<double>& lengths = saved_.state.cloth.rest_length;
         const auto springs = static_cast<std::size_t>(world_.scene.model.springs.size());
         reader_.demand(same && (lengths.empty() || (lengths.size() == springs && !saved_.seams.empty())), "other seams");
+        reader_.demand(saved_.sewn_directions.size() == world_.scene.model.sewn_points.size(), "a wrong number of sewn points");
+        reader_.demand(std::ranges::all_of(saved_.sewn_directions, [](const Vec3& d) { return d.allFinite(); }),
+                       "a seam that closes in no direction");
         reader_.demand(std::all_of(lengths.begin(), lengths.end(), [](double length) { return length >= 0.0 && length < 1e300; }),
                        "a rest length out of range");
     }
@@ -330,13 +336,15 @@ void put_script(SavedWorld& saved, Script& script) {
         obstacle.end = saved.obstacles[k].end;
         obstacle.settled = saved.obstacles[k].settled;
     }
+    for (std::size_t k = 0; k < saved.seams.size(); ++k) saved.seams[k].stitches = std::move(script.seams[k].stitches);
     script.seams = std::move(saved.seams);
 }
 
-/// Hinges beside pins.
+/// Hinges beside pins, and seams.
 void put_model(const SavedWorld& saved, ClothModel& model) {
     for (std::size_t k = 0; k < saved.clamps.size(); ++k) model.hinges.all[k].clamp = saved.clamps[k];
-    set_pair_bending(model.hinges, model.springs);
+    for (std::size_t k = 0; k < saved.sewn_directions.size(); ++k) model.sewn_points[k].direction = saved.sewn_directions[k];
+    set_bending(model);
     copy_bending(model.springs, model.adjacency);
 }
 

@@ -15,6 +15,27 @@ bool meets_cloth(const StepScene& scene) {
                        [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
 }
 
+void pass_cloth_to_detector(World& world) {
+    const ClothModel& model = world.scene.model;
+    if (!world.scene.detector) return;
+    std::vector<double> zone = model.thickness;
+    const double factor = world.work.newton.law(world.scene.settings.contact_response).zone();
+    for (double& thickness : zone) thickness *= factor;
+    world.scene.detector->set_cloth(model.triangles, zone);
+    if (!meets_cloth(world.scene)) return;
+    std::vector<int> owner;
+    std::vector<double> friction;
+    for (std::size_t c = 0; c < model.cloths.size(); ++c) {
+        const ClothRange& cloth = model.cloths[c];
+        const auto end = static_cast<std::size_t>(cloth.first + cloth.count);
+        owner.resize(end, cloth.fabric.self_contact ? static_cast<int>(c) : -1);
+        friction.resize(end, cloth.fabric.friction);
+    }
+    std::vector<Stitch> stitches;
+    for (const Seam& seam : world.scene.script.seams) stitches.insert(stitches.end(), seam.stitches.begin(), seam.stitches.end());
+    world.scene.detector->set_self_contact({.cloth = owner, .rest = model.rest, .friction = friction, .stitches = stitches});
+}
+
 void check_scheme(const StepScene& scene) {
     if (scene.settings.scheme == Scheme::automatic) return;
     const SchemeFacts& scheme = facts_of(scene.settings.scheme);

@@ -32,6 +32,9 @@ struct World {
 /// Some cloth has self_contact.
 bool meets_cloth(const StepScene& scene);
 
+/// Tells the detector all cloth anew, and what of it meets cloth.
+void pass_cloth_to_detector(World& world);
+
 /// Throws SceneError where the scheme takes no contact and the scene has some, or takes none by projection.
 void check_scheme(const StepScene& scene);
 

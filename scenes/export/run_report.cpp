@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -135,6 +136,7 @@ ordered_json frame_list(std::span<const FrameRecord> frames) {
                         {"cloths", frame.cloths},
                         {"obstacles", frame.obstacles},
                         {"intersections", frame.check.intersections},
+                        {"crossings_at_seams", frame.check.at_seams},
                         {"deepest_penetration", frame.check.deepest_penetration},
                         {"smallest_distance", frame.check.smallest_distance},
                         {"self_contact", frame.meeting}});
@@ -152,6 +154,27 @@ ordered_json obstacle_list(const BuiltScene& built) {
                         {"duplicate_triangles", cleaning.duplicate_triangles},
                         {"unreferenced_vertices", cleaning.unreferenced_vertices},
                         {"internal_triangles", cleaning.internal_triangles}});
+    }
+    return list;
+}
+
+/// How far apart the stitches of a seam are at the end, in the order of their gaps: median, 95 %, largest.
+ordered_json seam_list(const BuiltScene& built) {
+    ordered_json list = ordered_json::array();
+    for (const BuiltSeam& seam : built.seams) {
+        std::vector<double> gaps = built.simulation.seam_gaps(seam.id);
+        const auto worst = std::max_element(gaps.begin(), gaps.end()) - gaps.begin();
+        ordered_json stitches = ordered_json::array();
+        for (const auto& [vertex, from, to, share] : seam.sewn.stitches) stitches.push_back({vertex, from, to, share});
+        std::sort(gaps.begin(), gaps.end());
+        const auto [first, second] = seam.sewn.cloths;
+        list.push_back({{"name", seam.name},
+                        {"cloths", {first, second}},
+                        {"median_gap", gaps[gaps.size() / 2]},
+                        {"gap_of_95_percent", gaps[(95 * (gaps.size() - 1)) / 100]},
+                        {"largest_gap", gaps.back()},
+                        {"widest_stitch", worst},
+                        {"stitches", std::move(stitches)}});
     }
     return list;
 }
@@ -186,6 +209,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     put_counts(json, result.totals);
     put_costs(json, result.totals);
     json["obstacles"] = obstacle_list(built);
+    json["seams"] = seam_list(built);
     json["start_repair"] = start_move_list(built.simulation);
     json["scheme"] = result.plan.scheme_word;
     if (!result.plan.scheme_reason.empty()) json["scheme_reason"] = result.plan.scheme_reason;
@@ -221,23 +245,50 @@ FrameRecord frame_record(const ordered_json& json) {
     return record;
 }
 
-}  // namespace
+ClothStitches seam_record(const ordered_json& json) {
+    ClothStitches seam;
+    seam.cloths = json.at("cloths").get<std::array<int, 2>>();
+    for (const ordered_json& stitch : json.at("stitches")) {
+        seam.stitches.push_back(
+            {stitch.at(0).get<int>(), stitch.at(1).get<int>(), stitch.at(2).get<int>(), stitch.at(3).get<double>()});
+    }
+    return seam;
+}
 
-std::vector<FrameRecord> read_frame_records(const std::string& folder) {
+/// What `read` makes of the report in a run's folder.
+template <class Read>
+auto read_report(const std::string& folder, Read read) {
     const std::string file = folder + "/report.json";
     std::ifstream in(file);
     if (!in) throw SceneError(file + ": cannot be read; a folder written by `percale run` holds it");
     try {
-        std::vector<FrameRecord> records;
-        const ordered_json json = ordered_json::parse(in);
-        for (const ordered_json& frame : json.at("frames")) records.push_back(frame_record(frame));
-        return records;
+        return read(ordered_json::parse(in));
     } catch (const ordered_json::parse_error& error) {
         throw SceneError(file + ": is not the report of a run: it is no JSON from its byte " + std::to_string(error.byte) +
                          " on");
     } catch (const ordered_json::exception&) {
         throw SceneError(file + ": is not the report of a run: its 'frames' are not those that `percale run` lists");
     }
+}
+
+}  // namespace
+
+std::vector<FrameRecord> read_frame_records(const std::string& folder) {
+    return read_report(folder, [](const ordered_json& json) {
+        std::vector<FrameRecord> records;
+        for (const ordered_json& frame : json.at("frames")) records.push_back(frame_record(frame));
+        return records;
+    });
+}
+
+std::vector<ClothStitches> read_seam_records(const std::string& folder) {
+    return read_report(folder, [](const ordered_json& json) {
+        std::vector<ClothStitches> seams;
+        // Reports of earlier builds lack it.
+        if (!json.contains("seams")) return seams;
+        for (const ordered_json& seam : json.at("seams")) seams.push_back(seam_record(seam));
+        return seams;
+    });
 }
 
 }  // namespace percale::scenes

@@ -6,6 +6,7 @@
 
 #include "export/frames.h"
 #include "format/expectations.h"
+#include "garment/seam_stitches.h"
 #include "run/run_scene.h"
 
 namespace percale::scenes {
@@ -17,5 +18,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
 
 /// The frames that FOLDER/report.json lists. Throws SceneError naming the file if it is missing or is no report.
 std::vector<FrameRecord> read_frame_records(const std::string& folder);
+/// The seams that it lists, likewise.
+std::vector<ClothStitches> read_seam_records(const std::string& folder);
 
 }  // namespace percale::scenes

@@ -36,6 +36,8 @@ std::string kind_text(const SceneKey& key) {
             return "a list of " + std::to_string(key.count) + " names";
         case KeyKind::pairs:
             return "a list of pairs [i, j] of vertex indices";
+        case KeyKind::stitches:
+            return "a list of stitches [i, j, k, t] of three vertex indices and a share 0 ... 1";
         case KeyKind::direction:
             return "\"u\", \"v\", a list of 2 numbers (in uv) or of 3";
         case KeyKind::limit:

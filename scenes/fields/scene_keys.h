@@ -22,6 +22,7 @@ enum class KeyKind {
     vertices,        // a list of indices, { box = ... } or "boundary"
     names,           // a list of `count` texts
     pairs,           // a list of lists of two integers, each in [lowest, highest]
+    stitches,        // a list of lists [i, j, k, t] of three integers, each in [lowest, highest], and a number 0 ... 1
     direction,       // "u", "v" or a list of two or three numbers
     limit,           // a number, { below = }, { above = } or { between = [a, b] }
     table,

@@ -49,6 +49,17 @@ void read_value(const TomlNode& node, std::vector<std::array<int, 2>>& value) {
     for (std::size_t i = 0; i < value.size(); ++i) read_value(node.items[i], value[i]);
 }
 
+void read_value(const TomlNode& node, std::vector<Stitch>& value) {
+    value.clear();
+    for (const TomlNode& item : node.items) {
+        Stitch& stitch = value.emplace_back();
+        read_value(item.items[0], stitch.vertex);
+        read_value(item.items[1], stitch.from);
+        read_value(item.items[2], stitch.to);
+        read_value(item.items[3], stitch.share);
+    }
+}
+
 Rotation read_rotation(const TomlNode& node, const std::string& shown) {
     const auto part = [&](std::size_t i) { return node.items[i].number; };
     const double length = std::sqrt(part(0) * part(0) + part(1) * part(1) + part(2) * part(2) + part(3) * part(3));
@@ -93,6 +104,18 @@ TomlNode value_node(const std::array<double, 2>& value) { return list_of(value);
 TomlNode value_node(const std::array<int, 2>& value) { return list_of(value); }
 TomlNode value_node(const std::array<std::string, 2>& value) { return list_of(value); }
 TomlNode value_node(const std::vector<std::array<int, 2>>& value) { return list_of(value); }
+
+TomlNode value_node(const std::vector<Stitch>& value) {
+    TomlNode node;
+    node.kind = TomlKind::list;
+    for (const Stitch& stitch : value) {
+        TomlNode& item = node.items.emplace_back();
+        item.kind = TomlKind::list;
+        for (const int vertex : {stitch.vertex, stitch.from, stitch.to}) item.items.push_back(value_node(vertex));
+        item.items.push_back(value_node(stitch.share));
+    }
+    return node;
+}
 
 std::string value_text(KeyKind kind, const TomlNode& node) {
     if (node.is_number()) return number_text(node.number);

@@ -9,6 +9,7 @@
 #include "fields/scene_keys.h"
 #include "fields/toml_document.h"
 #include "percale/mesh.h"
+#include "percale/stitch.h"
 
 // Values of a document that check_document() has found in order, as plain data and back.
 namespace percale::scenes {
@@ -25,6 +26,7 @@ void read_value(const TomlNode& node, std::array<double, 2>& value);
 void read_value(const TomlNode& node, std::array<int, 2>& value);
 void read_value(const TomlNode& node, std::array<std::string, 2>& value);
 void read_value(const TomlNode& node, std::vector<std::array<int, 2>>& value);
+void read_value(const TomlNode& node, std::vector<Stitch>& value);
 template <class Value>
 void read_value(const TomlNode& node, std::optional<Value>& value) {
     read_value(node, value.emplace());
@@ -44,6 +46,7 @@ TomlNode value_node(const std::array<double, 2>& value);
 TomlNode value_node(const std::array<int, 2>& value);
 TomlNode value_node(const std::array<std::string, 2>& value);
 TomlNode value_node(const std::vector<std::array<int, 2>>& value);
+TomlNode value_node(const std::vector<Stitch>& value);
 template <class Value>
 std::optional<TomlNode> value_node(const std::optional<Value>& value) {
     return value ? std::optional(value_node(*value)) : std::nullopt;
@@ -74,6 +77,8 @@ template <>
 inline constexpr ValueKind value_kind<std::array<std::string, 2>> = {KeyKind::names, 2};
 template <>
 inline constexpr ValueKind value_kind<std::vector<std::array<int, 2>>> = {KeyKind::pairs};
+template <>
+inline constexpr ValueKind value_kind<std::vector<Stitch>> = {KeyKind::stitches};
 template <class Value>
 inline constexpr ValueKind value_kind<std::optional<Value>> = value_kind<Value>;
 

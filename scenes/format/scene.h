@@ -14,6 +14,7 @@
 #include "percale/fabric.h"
 #include "percale/mesh.h"
 #include "percale/settings.h"
+#include "percale/stitch.h"
 
 // What a scene file says, as plain data: nothing is read from disk or checked against meshes here.
 namespace percale::scenes {
@@ -80,12 +81,15 @@ struct ObstacleSpec {
     SourcePlace place;
 };
 
-/// Pairs of vertices sewn together; closing begins with the scene.
+/// Vertices sewn to vertices, or to points between two; closing begins with the scene.
 struct SeamSpec {
-    std::array<std::string, 2> cloths;
-    std::vector<std::array<int, 2>> vertices;  // of the first and of the second cloth
-    double over = 1.0;                         // s
-    double stiffness = 1000.0;                 // N/m
+    std::string name;                                         // for messages; "" = its number
+    std::optional<std::array<std::string, 2>> cloths;         // without, the only one with itself
+    std::optional<std::vector<std::array<int, 2>>> vertices;  // of the first and of the second cloth
+    std::optional<std::vector<Stitch>> points;                // likewise
+    std::string file;                                         // of more, relative to the scene file; "mesh": that of the cloth
+    double over = 1.0;                                        // s
+    double stiffness = 1000.0;                                // N/m
     SourcePlace place;
 };
 

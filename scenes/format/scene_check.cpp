@@ -95,6 +95,19 @@ void check_pairs(const TomlNode& node, const SceneKey& key, const std::string& s
     }
 }
 
+void check_stitches(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind != TomlKind::list || node.items.empty()) fail_kind(node, key, shown);
+    const SceneKey share{.path = key.path, .kind = KeyKind::number, .lowest = 0.0, .highest = 1.0};
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const TomlNode& stitch = node.items[i];
+        const std::string place = shown + "[" + std::to_string(i) + "]";
+        if (stitch.kind != TomlKind::list || stitch.items.size() != 4) fail_kind(stitch, key, place);
+        for (std::size_t k = 0; k < 4; ++k) {
+            check_number(stitch.items[k], k < 3 ? key : share, place + "[" + std::to_string(k) + "]", k < 3);
+        }
+    }
+}
+
 void check_direction(const TomlNode& node, const SceneKey& key, const std::string& shown) {
     if (node.kind == TomlKind::text && (node.text == "u" || node.text == "v")) return;
     if (node.kind != TomlKind::list || node.items.size() < 2 || node.items.size() > 3) fail_kind(node, key, shown);
@@ -193,6 +206,8 @@ void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot, Fa
             return check_names(node, key, spot.shown);
         case KeyKind::pairs:
             return check_pairs(node, key, spot.shown);
+        case KeyKind::stitches:
+            return check_stitches(node, key, spot.shown);
         case KeyKind::direction:
             return check_direction(node, key, spot.shown);
         case KeyKind::limit:

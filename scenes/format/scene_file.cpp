@@ -40,6 +40,11 @@ std::string cloth_of(const EventSpec& event) {
         event.what);
 }
 
+void check_only_cloth(const std::vector<std::string>& cloths, const SeamSpec& seam) {
+    if (cloths.size() == 1) return;
+    fail_at(seam.place, "seam lacks cloths: the scene has " + std::to_string(cloths.size()) + ", name the two that it joins");
+}
+
 void check_references(const Scene& scene, FaultList& faults) {
     const std::vector<std::string> cloths = checked_names(scene.cloths, "cloth", faults);
     checked_names(scene.obstacles, "obstacle", faults);
@@ -54,8 +59,11 @@ void check_references(const Scene& scene, FaultList& faults) {
     };
     for (const ClothSpec& cloth : scene.cloths)
         check_name(fabrics, cloth.fabric, cloth.place, "cloth '" + cloth.name + "': no fabric");
-    for (const SeamSpec& seam : scene.seams)
-        for (const std::string& name : seam.cloths) check_name(cloths, name, seam.place, "seam: no cloth");
+    for (const SeamSpec& seam : scene.seams) {
+        if (!seam.cloths) faults.attempt([&] { check_only_cloth(cloths, seam); });
+        if (!seam.cloths) continue;
+        for (const std::string& name : *seam.cloths) check_name(cloths, name, seam.place, "seam: no cloth");
+    }
     for (const EventSpec& event : scene.events) {
         const std::string name = cloth_of(event);
         if (!name.empty()) check_name(cloths, name, event.place, "event: no cloth");

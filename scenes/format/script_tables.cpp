@@ -113,29 +113,48 @@ std::vector<SceneKey> expect_keys() {
 
 const FieldTable<SeamSpec>& seam_table() {
     static const FieldTable<SeamSpec> table = {
-        .fields = {
-            value_field<SeamSpec>(
-                {.path = "cloths", .sentence = "NAMEs of the two cloths; twice the same is one with itself.", .required = true},
-                &SeamSpec::cloths),
-            value_field<SeamSpec>({.path = "vertices",
-                                   .sentence = "Pairs [i, j], i a vertex of the first cloth, j one of the second.",
-                                   .lowest = 0,
-                                   .highest = 2147483647,
-                                   .required = true},
-                                  &SeamSpec::vertices),
-            value_field<SeamSpec>({.path = "over",
-                                   .sentence = "How long closing takes, from the start of the scene on.",
-                                   .unit = "s",
-                                   .lowest = 0.0,
-                                   .highest = longest},
-                                  &SeamSpec::over),
-            value_field<SeamSpec>({.path = "stiffness",
-                                   .sentence = "Constant of the spring that draws a pair together and then holds it.",
-                                   .unit = "N/m",
-                                   .lowest = 1e-3,
-                                   .highest = 1e9},
-                                  &SeamSpec::stiffness),
-        }};
+        .fields =
+            {
+                value_field<SeamSpec>(
+                    {.path = "name", .sentence = "For messages and report.json; without one a seam has its number."},
+                    &SeamSpec::name),
+                value_field<SeamSpec>(
+                    {.path = "cloths",
+                     .sentence =
+                         "NAMEs of the two cloths; twice the same is one with itself, as is an only cloth without this key."},
+                    &SeamSpec::cloths),
+                value_field<SeamSpec>({.path = "vertices",
+                                       .sentence = "Pairs [i, j], i a vertex of the first cloth, j one of the second.",
+                                       .lowest = 0,
+                                       .highest = 2147483647},
+                                      &SeamSpec::vertices),
+                value_field<SeamSpec>({.path = "points",
+                                       .sentence = "Stitches [i, j, k, t]: vertex i of the first cloth joins the point "
+                                                   "(1 - t) x_j + t x_k between two vertices of the second.",
+                                       .lowest = 0,
+                                       .highest = 2147483647},
+                                      &SeamSpec::points),
+                value_field<SeamSpec>(
+                    {.path = "file",
+                     .sentence = "A text file of stitches, a line \"i j\" or \"i j k t\" each, relative to the scene "
+                                 "file; \"mesh\": the lines \"stitch i j k t\" of the cloth's OBJ file."},
+                    &SeamSpec::file),
+                value_field<SeamSpec>({.path = "over",
+                                       .sentence = "How long closing takes, from the start of the scene on.",
+                                       .unit = "s",
+                                       .lowest = 0.0,
+                                       .highest = longest},
+                                      &SeamSpec::over),
+                value_field<SeamSpec>({.path = "stiffness",
+                                       .sentence = "Constant of the spring that draws a stitch together and then holds it.",
+                                       .unit = "N/m",
+                                       .lowest = 1e-3,
+                                       .highest = 1e9},
+                                      &SeamSpec::stiffness),
+            },
+        .rules = {.shown = [](const TomlNode&) -> std::string { return "seam"; },
+                  .at_least_one = {"vertices", "points", "file"},
+                  .at_least_one_why = "what is sewn together"}};
     return table;
 }
 

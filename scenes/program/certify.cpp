@@ -8,8 +8,10 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "export/run_report.h"
+#include "garment/seam_stitches.h"
 #include "meshes/mesh_import.h"
 #include "percale/error.h"
 #include "program/commands.h"
@@ -34,6 +36,7 @@ struct CertifiedFrame {
     std::string label;
     std::vector<std::string> cloths, obstacles, meeting;
     FrameCheck check;
+    std::vector<ClothStitches> seams = {};  // between the cloths by number
 };
 
 struct Verdict {
@@ -54,6 +57,14 @@ std::vector<CertifiedFrame> frames_of_run(const std::string& folder) {
         frames.push_back(frame);
     }
     if (frames.empty()) throw SceneError(folder + ": the report lists no frames");
+    const std::vector<ClothStitches> seams = read_seam_records(folder);
+    for (CertifiedFrame& frame : frames) {
+        const auto there = [&](int cloth) { return cloth >= 0 && static_cast<std::size_t>(cloth) < frame.cloths.size(); };
+        for (const ClothStitches& seam : seams) {
+            if (!std::ranges::all_of(seam.cloths, there)) throw SceneError(folder + ": the report has a seam of no cloth");
+        }
+        frame.seams = seams;
+    }
     return frames;
 }
 
@@ -87,13 +98,18 @@ void check_frame(CertifiedFrame& frame, double distance_limit, MeshCache& obstac
         entry = needed ? std::next(entry) : obstacles.erase(entry);
     }
     std::vector<TriangleMesh> meeting;
-    for (const std::string& file : frame.cloths) {
+    std::vector<int> first_vertex(frame.cloths.size(), -1);
+    int vertices = 0;
+    for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
+        const std::string& file = frame.cloths[i];
         const TriangleMesh cloth = import_mesh(file);
         for (const std::string& obstacle : frame.obstacles)
             add_certificate(frame.check, certify(cloth, cached_mesh(obstacles, obstacle), distance_limit));
-        if (std::find(frame.meeting.begin(), frame.meeting.end(), file) != frame.meeting.end()) meeting.push_back(cloth);
+        if (std::find(frame.meeting.begin(), frame.meeting.end(), file) == frame.meeting.end()) continue;
+        meeting.push_back(cloth);
+        first_vertex[i] = std::exchange(vertices, vertices + static_cast<int>(cloth.vertices.size()));
     }
-    if (!meeting.empty()) add_cloth_certificate(frame.check, meeting);
+    if (!meeting.empty()) add_cloth_certificate(frame.check, meeting, joined_stitches(frame.seams, first_vertex));
 }
 
 Verdict check_frames(std::vector<CertifiedFrame> frames, double distance_limit) {
@@ -147,6 +163,7 @@ void print_verdict(const Verdict& verdict, double limit) {
 nlohmann::ordered_json check_object(const FrameCheck& check) {
     return {{"intersections", check.intersections},
             {"touching_pairs", check.touching_pairs},
+            {"crossings_at_seams", check.at_seams},
             {"vertices_inside", check.vertices_inside},
             {"deepest_penetration", check.deepest_penetration},
             {"smallest_distance", check.smallest_distance}};

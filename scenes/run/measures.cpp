@@ -16,16 +16,17 @@ void add_certificate(FrameCheck& check, const Certificate& certificate) {
     check.smallest_distance = std::min(check.smallest_distance, certificate.smallest_distance);
 }
 
-void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths) {
+void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const Stitch> stitches) {
     TriangleMesh all;
     for (const TriangleMesh& cloth : cloths) {
         const int first = static_cast<int>(all.vertices.size());
         all.vertices.insert(all.vertices.end(), cloth.vertices.begin(), cloth.vertices.end());
         for (const auto& [a, b, c] : cloth.triangles) all.triangles.push_back({first + a, first + b, first + c});
     }
-    const ClothCertificate certificate = certify_cloth(all);
+    const ClothCertificate certificate = certify_cloth(all, stitches);
     check.intersections += static_cast<int>(certificate.crossing.size());
     check.touching_pairs += static_cast<int>(certificate.touching.size());
+    check.at_seams += static_cast<int>(certificate.at_seams.size());
 }
 
 namespace {

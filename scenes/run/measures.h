@@ -17,16 +17,17 @@ namespace percale::scenes {
 struct FrameCheck {
     int intersections = 0;  // intersecting triangle pairs
     int touching_pairs = 0;
-    int vertices_inside = 0;                                             // of watertight obstacles
-    double deepest_penetration = 0.0;                                    // m
+    int at_seams = 0;                  // crossing pairs of triangles that a stitch joins; not among the intersections
+    int vertices_inside = 0;           // of watertight obstacles
+    double deepest_penetration = 0.0;  // m
     double smallest_distance = std::numeric_limits<double>::infinity();  // m; infinity if nothing was near
 
     bool clean() const { return intersections == 0 && vertices_inside == 0; }
 };
 
 void add_certificate(FrameCheck& check, const Certificate& certificate);
-/// Of cloths that meet each other, all together; distances between them are not measured.
-void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths);
+/// Of cloths that meet each other, all together; distances between them are not measured. `stitches`: among the vertices of all.
+void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const Stitch> stitches);
 
 /// What the certificates of all states say, one after each step and one of the start.
 struct StepChecks {

@@ -6,12 +6,13 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
+#include "garment/cloth_shape.h"
 #include "meshes/mesh_import.h"
 #include "percale/error.h"
-#include "run/cloth_shape.h"
 #include "run/motion_parts.h"
 #include "run/scene_plan.h"
 #include "run/step_count.h"
@@ -69,6 +70,20 @@ Frame first_frame(const BuiltScene& built) {
     return frame;
 }
 
+void certify_meeting_cloth(const BuiltScene& built, Frame& frame) {
+    std::vector<TriangleMesh> meeting;
+    std::vector<int> first_vertex(frame.cloths.size(), -1);
+    int vertices = 0;
+    for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth) {
+        if (!built.scene.meets_cloth(built.scene.cloths[cloth])) continue;
+        meeting.push_back(frame.cloths[cloth]);
+        first_vertex[cloth] = std::exchange(vertices, vertices + static_cast<int>(frame.cloths[cloth].vertices.size()));
+    }
+    std::vector<ClothStitches> sewn;
+    for (const BuiltSeam& seam : built.seams) sewn.push_back(seam.sewn);
+    if (!meeting.empty()) add_cloth_certificate(frame.check, meeting, joined_stitches(sewn, first_vertex));
+}
+
 void place_and_certify(const BuiltScene& built, Frame& frame) {
     const Simulation& simulation = built.simulation;
     frame.time = simulation.time();
@@ -83,10 +98,7 @@ void place_and_certify(const BuiltScene& built, Frame& frame) {
     for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth)
         for (const TriangleMesh& obstacle : frame.obstacles)
             add_certificate(frame.check, certify(frame.cloths[cloth], obstacle, distance_limit(built, cloth)));
-    std::vector<TriangleMesh> meeting;
-    for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth)
-        if (built.scene.meets_cloth(built.scene.cloths[cloth])) meeting.push_back(frame.cloths[cloth]);
-    if (!meeting.empty()) add_cloth_certificate(frame.check, meeting);
+    certify_meeting_cloth(built, frame);
 }
 
 /// Looks at the state after each step: certificates, frames.

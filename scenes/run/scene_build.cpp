@@ -4,11 +4,11 @@
 #include "common/text.h"
 #include "format/expectations.h"
 #include "format/rest_check.h"
+#include "garment/cloth_shape.h"
 #include "meshes/mesh_import.h"
 #include "percale/detectors.h"
 #include "percale/error.h"
 #include "percale/fabric_presets.h"
-#include "run/cloth_shape.h"
 #include "run/event_script.h"
 #include "run/obstacle_motion.h"
 #include "run/start_fault.h"
@@ -110,16 +110,15 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     built.obstacle_meshes.push_back(std::move(mesh));
 }
 
-ClothId cloth_named(const BuiltScene& built, const std::string& name) {
-    for (std::size_t i = 0; i < built.scene.cloths.size(); ++i)
-        if (built.scene.cloths[i].name == name) return built.cloths[i];
-    throw SceneError("no cloth '" + name + "'");
-}
-
 void add_seam(BuiltScene& built, const SeamSpec& seam) {
     at_place(seam.place, "", [&] {
-        const ClothId first = cloth_named(built, seam.cloths[0]), second = cloth_named(built, seam.cloths[1]);
-        built.simulation.add_seam(first, second, seam.vertices, {.over = seam.over, .stiffness = seam.stiffness});
+        const std::string number = "seam " + std::to_string(built.seams.size());
+        BuiltSeam made{.name = seam.name.empty() ? number : seam.name,
+                       .sewn = {seam_cloths(built.scene, seam), seam_stitches(built.scene, seam)}};
+        const auto [first, second] = made.sewn.cloths;
+        made.id = built.simulation.add_seam(built.cloths[first], built.cloths[second], made.sewn.stitches,
+                                            {.over = seam.over, .stiffness = seam.stiffness, .name = made.name});
+        built.seams.push_back(std::move(made));
     });
 }
 
@@ -169,6 +168,7 @@ BuiltScene build_scene(const Scene& given) {
                      .cloth_meshes = {},
                      .obstacles = {},
                      .obstacle_meshes = {},
+                     .seams = {},
                      .warnings = {}};
     for (const ClothSpec& cloth : scene.cloths) {
         at_place_of(cloth, [&] { add_cloth(built, cloth); });

@@ -4,9 +4,16 @@
 #include <vector>
 
 #include "format/scene.h"
+#include "garment/seam_stitches.h"
 #include "percale/simulation.h"
 
 namespace percale::scenes {
+
+struct BuiltSeam {
+    std::string name;
+    ClothStitches sewn;
+    SeamId id = {};
+};
 
 /// A scene with its meshes read and its simulation made.
 struct BuiltScene {
@@ -16,6 +23,7 @@ struct BuiltScene {
     std::vector<TriangleMesh> cloth_meshes;     // as they start, in world coordinates
     std::vector<ObstacleId> obstacles;          // in the order of scene.obstacles
     std::vector<TriangleMesh> obstacle_meshes;  // in their own coordinates, unit applied, pose not
+    std::vector<BuiltSeam> seams;               // in the order of scene.seams
     std::vector<std::string> warnings;          // what is not quite as the scene file says
 };
 

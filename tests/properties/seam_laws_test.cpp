@@ -45,13 +45,14 @@ Vec3 momentum(const Simulation& simulation, ClothId cloth) {
 }
 
 /// How far two triangles face to face, three point masses each, are from the exact gap at 0.2 s while seams of 0.1 N/m close over
-/// `over`, m; and the work reported from the exact one, J. With the reduced mass mu, w^2 = k/mu and L = L0 (1 - t/T)
+/// `over`, m; and the work reported from the exact one, J. The corners of the first lie over the other's edges, at this share of
+/// them. With the reduced mass mu, w^2 = k/mu and L = L0 (1 - t/T)
 ///     gap = L + L0/(T w) sin w t.
 struct DrawnTogether {
     double gap_error = 0.0, work_error = 0.0;
 };
 
-DrawnTogether draw_together(Scheme scheme, double dt) {
+DrawnTogether draw_together(Scheme scheme, double dt, double share) {
     constexpr double density = 0.2, side = 0.1, stiffness = 0.1, start = 0.05, over = 1.0, end = 0.2;
     TriangleMesh mesh;
     mesh.vertices = {{0, 0, 0}, {0, 0, side}, {side, 0, 0}};
@@ -61,18 +62,23 @@ DrawnTogether draw_together(Scheme scheme, double dt) {
     fabric.spring_damping = 0.0;
     Simulation simulation(
         {.time_step = dt, .scheme = scheme, .newton_tolerance = 1e-12, .measure = StepMeasures::all, .gravity = Vec3::Zero()});
-    const ClothId one = simulation.add_cloth(mesh, fabric, {.translation = {0, start, 0}}, "one");
+    TriangleMesh inner = mesh;
+    for (int k = 0; k < 3; ++k) inner.vertices[k] += share * (mesh.vertices[(k + 1) % 3] - mesh.vertices[k]);
+    const ClothId one = simulation.add_cloth(inner, fabric, {.translation = {0, start, 0}}, "one");
     const ClothId other = simulation.add_cloth(mesh, fabric, {}, "other");
-    simulation.add_seam(one, other, Pairs{{0, 0}, {1, 1}, {2, 2}}, {.over = over, .stiffness = stiffness});
+    const std::vector<Stitch> stitches = {{0, 0, 1, share}, {1, 1, 2, share}, {2, 2, 0, share}};
+    const SeamId seam = simulation.add_seam(one, other, stitches, {.over = over, .stiffness = stiffness});
     double work = 0.0;
     for (int n = 0; n < std::lround(end / dt); ++n) {
         const StepReport report = simulation.step();
         REQUIRE(report.ok());
         work += report.energy.work;
     }
-    const double reduced = density * side * side / 2.0 / 3.0 / 2.0, w = std::sqrt(stiffness / reduced);
+    const double first = simulation.masses(one)[0], second = simulation.masses(other)[0];
+    const double reduced = first * second / (first + second), w = std::sqrt(stiffness / reduced);
     const double swing = start / over / w * std::sin(w * end), speed = start / over * (std::cos(w * end) - 1.0);
     const double gap = simulation.positions(one)[0].y() - simulation.positions(other)[0].y();
+    CHECK(simulation.seam_gaps(seam)[1] == Approx(gap).epsilon(1e-12));
     const double exact_work = 3.0 * (0.5 * stiffness * swing * swing + 0.5 * reduced * speed * speed);
     return {std::abs(gap - start * (1.0 - end / over) - swing), std::abs(work - exact_work)};
 }
@@ -80,10 +86,12 @@ DrawnTogether draw_together(Scheme scheme, double dt) {
 }  // namespace
 
 TEST_CASE("Schemes keep their order, in gap and in work, while a seam closes", "[law]") {
+    const double share = GENERATE(0.0, 0.1);
     for (const Scheme scheme : all_schemes) {
-        const DrawnTogether coarse = draw_together(scheme, 0.002), fine = draw_together(scheme, 0.001);
+        const DrawnTogether coarse = draw_together(scheme, 0.002, share), fine = draw_together(scheme, 0.001, share);
         const bool second = facts_of(scheme).order >= 2;
-        const std::string name = "closing seam, " + std::string(facts_of(scheme).word) + ": ";
+        const std::string name =
+            (share > 0.0 ? "closing points, " : "closing seam, ") + std::string(facts_of(scheme).word) + ": ";
         check_law_between(name + "error of the gap over that of half the step", coarse.gap_error / fine.gap_error,
                           second ? 3.4 : 1.7, second ? 4.4 : 2.3);
         if (!second || scheme == Scheme::bdf2) continue;
@@ -135,6 +143,34 @@ TEST_CASE("Energy never rises beyond the work of a closing seam") {
     }
 }
 
+TEST_CASE("Sides of unequal sampling are sewn vertex to point, and momentum is kept") {
+    Simulation simulation({.gravity = Vec3::Zero()});
+    Fabric fabric = sheet_fabric();
+    fabric.spring_damping = 0.02;
+    const ClothId fine = simulation.add_cloth(make_grid(0.3, 0.4, 7, 14), fabric, {.translation = {0, 0.05, 0}}, "fine");
+    const ClothId coarse = simulation.add_cloth(make_grid(0.3, 0.4, 5, 6), fabric, {.translation = {0, -0.05, 0}}, "coarse");
+    std::vector<Stitch> stitches;
+    for (int row = 0; row < 14; ++row) {
+        const double place = row / 13.0 * 5.0;
+        const int below = std::min(static_cast<int>(place), 4);
+        stitches.push_back({7 * row, 5 * below, 5 * (below + 1), place - below});
+    }
+    const SeamId seam = simulation.add_seam(fine, coarse, stitches, {.over = 0.5, .stiffness = 2000.0});
+    CHECK(simulation.plan().springs.seam == 14);
+    for (int n = 0; n < 120; ++n) {
+        REQUIRE(simulation.step().ok());
+        CHECK((momentum(simulation, fine) + momentum(simulation, coarse)).norm() < 1e-9);
+    }
+    const std::vector<double> gaps = simulation.seam_gaps(seam);
+    CHECK(gaps.size() == 14);
+    CHECK(*std::max_element(gaps.begin(), gaps.end()) < 2e-4);
+    // A vertex in the middle of an edge holds what the edge's ends hold.
+    const auto x = simulation.positions(coarse);
+    const auto& [vertex, from, to, share] = stitches[6];
+    CHECK((simulation.positions(fine)[vertex] - ((1.0 - share) * x[from] + share * x[to])).norm() ==
+          Approx(gaps[6]).margin(1e-12));
+}
+
 TEST_CASE("Explicit schemes close seams, too") {
     Tube tube({.time_step = 5e-5, .scheme = Scheme::symplectic_euler, .gravity = Vec3::Zero()}, 0.1);
     for (int n = 0; n < 3000; ++n) REQUIRE(tube.simulation.step().ok());
@@ -169,6 +205,12 @@ TEST_CASE("A wrong seam is refused and changes nothing") {
     CHECK(refused(tube.front, tube.back, {{0, 0}}, {.over = -1.0}) ==
           "seam: over = -1 s is outside the allowed range 0 ... 1e+06");
     CHECK(refused(tube.front, tube.back, {{0, 0}}, {.stiffness = 0.0}).find("stiffness = 0 N/m") != std::string::npos);
+    const auto refused_point = [&](const Stitch& stitch) {
+        return scene_error([&] { tube.simulation.add_seam(tube.front, tube.front, std::vector{stitch}); });
+    };
+    CHECK(refused_point({0, 1, 2, 1.5}) == "seam: the share of a stitch = 1.5  is outside the allowed range 0 ... 1");
+    CHECK(refused_point({1, 1, 2, 0.5}) == "seam: vertex 1 of front is sewn to itself");
+    CHECK(scene_error([&] { tube.simulation.seam_gaps({3}); }) == "there is no seam 3, seams are 0 ... 0");
     CHECK(tube.simulation.state_hash() == hash);
     CHECK(tube.simulation.plan().springs.seam == 18);
 }

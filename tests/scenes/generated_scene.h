@@ -59,6 +59,9 @@ public:
                 return list(key.count, [&] { return one_of({"\"c0\"", "\"c1\""}); });
             case KeyKind::pairs:
                 return list(1 + below(3), [&] { return list(2, [&] { return integer_of(key); }); });
+            case KeyKind::stitches:
+                return list(1 + below(3),
+                            [&] { return "[" + integer_of(key) + ", " + integer_of(key) + ", " + integer_of(key) + ", 0.25]"; });
             case KeyKind::direction:
                 return below(2) == 0 ? one_of({"\"u\"", "\"v\""}) : list(2, [&] { return number_of(key, path); });
             case KeyKind::limit:
@@ -87,7 +90,10 @@ private:
         const bool presets = wanted == "fabric.preset" || (wanted.empty() && below(3) == 0);
         const std::set<std::string> of_moduli = {"fabric.stretch_stiffness", "fabric.shear_stiffness", "fabric.poisson_ratio"};
         const bool moduli = of_moduli.contains(wanted) || (wanted.empty() && !presets && below(2) == 0);
-        must_ = {"fabric", "cloth.rest", presets ? "fabric.preset" : moduli ? "fabric.stretch_stiffness" : "fabric.springs"};
+        must_ = {"fabric", "cloth.rest", "seam.cloths", "seam.vertices",
+                 presets  ? "fabric.preset"
+                 : moduli ? "fabric.stretch_stiffness"
+                          : "fabric.springs"};
         banned_ = of_moduli;
         banned_.insert("fabric.preset");
         if (presets || moduli) banned_ = {"fabric.springs", "fabric.membrane", presets ? "" : "fabric.preset"};

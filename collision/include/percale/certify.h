@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "percale/mesh.h"
+#include "percale/stitch.h"
 
 namespace percale {
 
@@ -38,11 +39,13 @@ Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle,
 struct ClothCertificate {
     std::vector<IntersectingPair> crossing;  // first < second, ordered; neighbours that share vertices included
     std::vector<IntersectingPair> touching;  // that share a point though no vertex, and do not cross
+    std::vector<IntersectingPair> at_seams;  // crossing pairs of triangles at one stitch; in neither of the other lists
 };
 
 /// Exact, with the triangle-triangle tests of certify; shares no code with the solver. Neighbours cross where they share more
-/// than the vertices, edge or points that they have to. Thread-safe.
-ClothCertificate certify_cloth(const TriangleMesh& cloth);
+/// than the vertices, edge or points that they have to. Triangles at one stitch (where it is, they share a point once it is
+/// closed) are counted apart, since how far they cross is a matter of the gap. Thread-safe.
+ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches = {});
 
 /// Crossing pairs of one mesh, as far as they were looked for.
 struct CrossingSearch {

@@ -15,6 +15,7 @@
 #include "percale/report.h"
 #include "percale/rest_shape.h"
 #include "percale/settings.h"
+#include "percale/stitch.h"
 #include "percale/workers.h"
 
 namespace percale {
@@ -25,17 +26,14 @@ struct ClothId {
 struct ObstacleId {
     int index = -1;
 };
+struct SeamId {
+    int index = -1;
+};
 
 struct ObstacleSettings {
     double friction = 0.3;          // Coulomb coefficient against cloth, 0 ... 10
     double restitution = 0.0;       // share of its normal speed with which cloth that hits it leaves, 0 ... 1
     std::string name = "obstacle";  // for messages
-};
-
-struct SeamSettings {
-    double over = 1.0;          // s, how long closing takes, 0 ... 1e6
-    double stiffness = 1000.0;  // N/m of each pair, 1e-3 ... 1e9
-    std::string name = "seam";  // for messages
 };
 
 /// Cloth, obstacles and their motion in time. Wrong arguments throw SceneError from the call that was wrong; a step never
@@ -66,9 +64,13 @@ public:
     /// Velocity of the air, m/s; before the first call there is no air (StepSettings::wind). Drag: Fabric::drag_normal,
     /// drag_tangential, StepSettings::air_density. In an implicit step triangles meet the air as they lay at its start.
     void set_wind(const Vec3& velocity);
-    /// Sews vertices of two cloths, or of one, together, pair by pair: springs whose rest length goes from the distance of now
-    /// to 0 and stays 0. Where cloth has self_contact the two sides stay a thickness apart.
-    void add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices, const SeamSettings& settings = {});
+    /// Sews vertices of the first cloth to vertices, or to points between two vertices, of the second, which may be the same:
+    /// springs whose rest length goes from the distance of now to 0 and stays 0. What is at one stitch is never in self-contact,
+    /// what is near one only as if it were closed.
+    SeamId add_seam(ClothId first, ClothId second, std::span<const Stitch> stitches, const SeamSettings& settings = {});
+    /// Vertices to vertices, pair by pair.
+    SeamId add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices,
+                    const SeamSettings& settings = {});
     void set_time_step(double time_step);  // s, > 0
     /// All vertices of a cloth; m and m/s. For starts that are not at rest.
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
@@ -98,6 +100,8 @@ public:
     StepEnergy energy() const;
     /// Of structural springs, (l - l0)/l0, in the current state; 0 without any.
     double largest_strain() const;
+    /// How far apart the sides of each stitch are, m, in the order in which they were given.
+    std::vector<double> seam_gaps(SeamId seam) const;
     /// Of a vertex, m/s.
     double largest_speed() const;
     /// Depends on every bit of positions and velocities.

@@ -20,7 +20,7 @@ struct Sewn {
         positions = to_vectors(model.rest);
         seam.from = 2.0;
         seam.over = 0.5;
-        append_seam(std::vector<std::array<int, 2>>{{0, 16}, {31, 15}, {0, 3}}, 40.0, positions, seam, model);
+        append_seam(std::vector<Stitch>{{0, 16, 16}, {31, 15, 15}, {0, 3, 3}}, 40.0, positions, seam, model);
         finish_model(model);
     }
 };
@@ -37,7 +37,7 @@ TEST_CASE("A seam's springs begin with the distances of now and end with none") 
     };
     for (const auto& [time, share] : {Moment{1.0, 1.0}, {2.0, 1.0}, {2.125, 0.75}, {2.25, 0.5}, {2.5, 0.0}, {9.0, 0.0}}) {
         set_seam_lengths(sewn.seam, time, lengths);
-        const double energy = seam_energy(sewn.seam, time, sewn.model.springs, sewn.positions);
+        const double energy = seam_energy(sewn.seam, time, sewn.model, sewn.positions);
         CAPTURE(time);
         CHECK(rest(0) == Approx(0.3 * share).margin(1e-15));
         CHECK(rest(1) == Approx(0.3 * share).margin(1e-15));
@@ -47,6 +47,38 @@ TEST_CASE("A seam's springs begin with the distances of now and end with none") 
     }
     CHECK(sewn.seam.closes_after(2.49));
     CHECK_FALSE(sewn.seam.closes_after(2.5));
+}
+
+TEST_CASE("A point between two vertices stores what is missing of its way, along it and across") {
+    Sewn sewn;
+    Seam seam{.length = {}, .from = 0.0, .over = 1.0};
+    append_seam(std::vector<Stitch>{{0, 16, 17, 0.25}, {5, 21, 21}}, 40.0, sewn.positions, seam, sewn.model);
+    finish_model(sewn.model);
+    REQUIRE(sewn.model.sewn_points.size() == 1);
+    const double along = 0.25 / 3.0, length = std::hypot(along, 0.3);
+    CHECK(seam.length[0] == Approx(length).epsilon(1e-14));
+    CHECK(stitch_gap(seam.stitches[0], sewn.positions).norm() == Approx(length).epsilon(1e-14));
+    for (const double share : {1.0, 0.5, 0.0}) {
+        const double missing = 1.0 - share;
+        CHECK(seam_energy(seam, 1.0 - share, sewn.model, sewn.positions) ==
+              Approx(0.5 * 40.0 * missing * missing * (length * length + 0.09)).margin(1e-15));
+    }
+    // Off the way by 0.1 m it stores that, too, however long it is to be.
+    sewn.positions.set(0, sewn.positions.at(0) + Vec3(0.0, 0.0, 0.1));
+    CHECK(seam_energy(seam, 0.0, sewn.model, sewn.positions) == Approx(0.5 * 40.0 * 0.01).epsilon(1e-12));
+}
+
+TEST_CASE("A point at the end of an edge, or between a vertex and itself, is that vertex") {
+    Sewn sewn;
+    Seam seam{.length = {}, .from = 0.0, .over = 1.0};
+    append_seam(std::vector<Stitch>{{0, 16, 17, 0.0}, {0, 16, 17, 1.0}, {0, 20, 20, 0.5}}, 40.0, sewn.positions, seam,
+                sewn.model);
+    CHECK(sewn.model.sewn_points.empty());
+    const SpringNetwork& network = sewn.model.springs;
+    for (int k = 0; k < 3; ++k) {
+        CHECK(network.second[seam.first_spring + k] == std::array{16, 17, 20}[k]);
+        CHECK(network.stiffness[seam.first_spring + k] == 40.0);
+    }
 }
 
 TEST_CASE("A new rest length reaches every place where the spring is read, in bands and in slices") {

@@ -16,7 +16,7 @@ World sewn_world() {
     const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
     World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.time_step = 0.1});
     Seam seam{.length = {}, .from = 0.0, .over = 0.4};
-    append_seam(std::vector<std::array<int, 2>>{{0, 8}}, 50.0, world.state.cloth.positions, seam, world.scene.model);
+    append_seam(std::vector<Stitch>{{0, 8, 8}}, 50.0, world.state.cloth.positions, seam, world.scene.model);
     finish_model(world.scene.model);
     world.scene.script.seams = {seam};
     return world;

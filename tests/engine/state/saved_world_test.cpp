@@ -101,6 +101,11 @@ std::vector<Resumable> fabric_runs() {
     return runs;
 }
 
+void sew_points(Simulation& simulation) {
+    const std::vector<Stitch> points = {{0, 0, 1, 0.3}, {2, 1, 2, 0.5}, {3, 3, 3}};
+    simulation.add_seam({0}, {1}, points, {.over = 0.4});
+}
+
 Simulation on_plane(const StepSettings& settings, double tilt) {
     Simulation simulation(settings, std::make_unique<PlaneDetector>());
     const Pose turned{.translation = Vec3::Zero(), .rotation = {std::cos(tilt / 2), 0, 0, std::sin(tilt / 2)}};
@@ -236,7 +241,7 @@ TEST_CASE("Damaged states are refused and change nothing") {
 TEST_CASE("No content of a well sealed state does harm") {
     Simulation simulation = on_plane({.measure = StepMeasures::ledger}, 0.0);
     for (int n = 0; n < 10; ++n) simulation.step();
-    const SealKind kind{.name = "PERCALES", .version = 4, .words = "saved state"};
+    const SealKind kind{.name = "PERCALES", .version = 5, .words = "saved state"};
     const Saved good = simulation.save();
     const std::span<const std::byte> view = unsealed(kind, good);
     Random random(7);
@@ -337,6 +342,31 @@ TEST_CASE("A simulation to which cloth was added between steps goes on from what
         for (int n = 0; n < 3; ++n) REQUIRE((first.step().ok() && second.step().ok()));
         CHECK(first.state_hash() == second.state_hash());
     }
+}
+
+TEST_CASE("a seam of points that was made in the midst of a run goes on closing in its own directions") {
+    const auto make = [] {
+        Simulation simulation({.measure = StepMeasures::ledger});
+        simulation.add_cloth(make_grid(0.4, 0.4, 5, 5), sheet_fabric(), {.translation = {0, 0.1, 0}}, "one");
+        simulation.add_cloth(make_grid(0.4, 0.4, 5, 5), sheet_fabric(), {}, "other");
+        simulation.pin({1}, 24);
+        return simulation;
+    };
+    Simulation simulation = make();
+    for (int n = 0; n < 8; ++n) simulation.step();
+    sew_points(simulation);
+    for (int n = 0; n < 4; ++n) simulation.step();
+    Simulation resumed = make();
+    sew_points(resumed);
+    resumed.restore(simulation.save());
+    for (int n = 0; n < 8; ++n) {
+        simulation.step();
+        resumed.step();
+        REQUIRE(resumed.state_hash() == simulation.state_hash());
+    }
+    Simulation sewn_otherwise = make();
+    sewn_otherwise.add_seam({0}, {1}, std::vector<Stitch>{{0, 0, 1, 0.4}, {2, 1, 2, 0.5}, {3, 3, 3}}, {.over = 0.4});
+    CHECK(scene_error([&] { sewn_otherwise.restore(simulation.save()); }).find("other cloth or seams") != std::string::npos);
 }
 
 }  // namespace percale::test

@@ -118,6 +118,8 @@ std::vector<std::string> wrong_kinds(const SceneKey& key) {
             return {"7", "\"edges\""};
         case KeyKind::pairs:
             return {"7", "[]"};
+        case KeyKind::stitches:
+            return {"7", "[]"};
         case KeyKind::direction:
             return {"7", "\"w\"", "[1]", "[1, 2, 3, 4]"};
         case KeyKind::limit:
@@ -135,6 +137,7 @@ std::string with_number(const SceneKey& key, const std::string& number, const st
     std::string rest;
     for (int i = 1; i < key.count; ++i) rest += ", " + good;
     if (key.kind == KeyKind::pairs) return "[[" + good + ", " + number + "]]";
+    if (key.kind == KeyKind::stitches) return "[[" + good + ", " + number + ", " + good + ", 0.5]]";
     if (key.kind == KeyKind::box) return "[[" + number + ", 0, 0], [1, 1, 1]]";
     return key.count > 0 ? "[" + number + rest + "]" : number;
 }
@@ -142,13 +145,13 @@ std::string with_number(const SceneKey& key, const std::string& number, const st
 bool holds_numbers(const SceneKey& key) {
     const std::set<KeyKind> kinds = {
         KeyKind::number,   KeyKind::integer, KeyKind::number_or_auto, KeyKind::integer_or_auto, KeyKind::numbers,
-        KeyKind::integers, KeyKind::box,     KeyKind::pairs,          KeyKind::number_or_rest};
+        KeyKind::integers, KeyKind::box,     KeyKind::pairs,          KeyKind::stitches,        KeyKind::number_or_rest};
     return kinds.contains(key.kind);
 }
 
 bool is_whole(const SceneKey& key) {
     return key.kind == KeyKind::integer || key.kind == KeyKind::integer_or_auto || key.kind == KeyKind::integers ||
-           key.kind == KeyKind::pairs;
+           key.kind == KeyKind::pairs || key.kind == KeyKind::stitches;
 }
 
 std::vector<std::string> out_of_range(const SceneKey& key) {

@@ -37,7 +37,7 @@ TEST_CASE("what can never be proven at rest is refused at its place") {
                   .starts_with("--set step.scheme: step.scheme: with " + scheme + ", an explicit scheme, rest is not detected"));
     for (const std::string scheme : {"backward_euler", "implicit_midpoint", "trapezoid", "bdf2", "tr_bdf2"})
         CHECK(refusal(falling_sheet(), {until_rest, {"step.scheme", scheme}}).empty());
-    CHECK(refusal(resting_sheet(), {{"obstacle.box.spin", "{ turns_per_s = 1.0 }"}}).starts_with("t:17:1: obstacle 'box': with"));
+    CHECK(refusal(resting_sheet(), {{"obstacle.box.spin", "{ turns_per_s = 1.0 }"}}).starts_with("t:15:1: obstacle 'box': with"));
     CHECK(refusal(resting_sheet(), {{"obstacle.box.spin", "{ turns_per_s = 0.0 }"}}).empty());
 }
 

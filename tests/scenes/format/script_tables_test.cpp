@@ -31,6 +31,21 @@ TEST_CASE("a seam is read with its pairs, and sews at once where that is said") 
     CHECK(seam.vertices == std::vector<std::array<int, 2>>{{1, 2}, {3, 4}});
     CHECK(seam.over == 0.0);
     CHECK(seam.stiffness == SeamSpec{}.stiffness);
+    CHECK_FALSE(seam.points);
+    CHECK(seam.file.empty());
+}
+
+TEST_CASE("a seam is read with points of edges and with a file, its cloths left open, and needs one of the three") {
+    const SeamSpec seam =
+        read_spec(parse_toml("points = [[1, 2, 3, 0.25]]\nfile = \"mesh\"\nname = \"hem\"\n", "t"), seam_table());
+    CHECK_FALSE(seam.cloths);
+    CHECK_FALSE(seam.vertices);
+    CHECK(seam.points == std::vector<Stitch>{{1, 2, 3, 0.25}});
+    CHECK(seam.file == "mesh");
+    CHECK(seam.name == "hem");
+    CHECK(error_of([] {
+              read_spec(parse_toml("over = 1\n", "t"), seam_table());
+          }).find("seam lacks 'vertices', 'points' or 'file'") != std::string::npos);
 }
 
 TEST_CASE("every kind of event is read") {

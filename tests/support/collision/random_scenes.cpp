@@ -175,6 +175,7 @@ scenes::BuiltScene build(const Draw& draw) {
                              .cloth_meshes = {draw.cloth.mesh},
                              .obstacles = {},
                              .obstacle_meshes = {draw.obstacle.mesh},
+                             .seams = {},
                              .warnings = {}};
     built.scene.step = draw.settings;
     built.scene.detector = draw.detector;

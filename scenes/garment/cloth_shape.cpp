@@ -1,4 +1,4 @@
-#include "run/cloth_shape.h"
+#include "garment/cloth_shape.h"
 
 #include <filesystem>
 

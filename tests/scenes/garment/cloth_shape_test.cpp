@@ -1,4 +1,4 @@
-#include "scenes/run/cloth_shape.h"
+#include "scenes/garment/cloth_shape.h"
 
 #include <cmath>
 

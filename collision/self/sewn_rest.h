@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "percale/mesh.h"
+#include "percale/stitch.h"
+#include "self/cloth_surface.h"
+
+namespace percale {
+
+/// How far features of cloth lie apart at rest on the path through a seam, as if it were closed. What stitches join is a knot:
+/// vertices that are one, and points of edges where a vertex of it lies. Each vertex knows its paths along edges to the knots
+/// near it.
+class SewnRest {
+public:
+    SewnRest() = default;
+    /// `rest`: m, of all vertices. Paths longer than `reach`, m, are left out.
+    SewnRest(const ClothSurface& surface, std::span<const Stitch> stitches, std::span<const Vec3> rest, double reach);
+
+    /// m, between two features given by their vertices; 0 where both are at one knot, infinity where no knot is near both.
+    double distance(std::span<const int> first, std::span<const int> second) const;
+
+private:
+    struct Knot {
+        std::vector<int> vertices;
+        std::vector<Stitch> points;
+    };
+    struct Path {
+        int knot = -1;
+        double length = 0.0;  // m
+    };
+
+    void make_knots(std::span<const Stitch> stitches);
+    void find_paths(int knot, const ClothSurface& surface, std::span<const Vec3> rest, double reach);
+    bool lies_at(std::span<const int> feature, int knot) const;
+
+    std::vector<Knot> knots_;
+    std::vector<int> knot_of_;              // of each vertex, or -1
+    std::vector<std::vector<Path>> paths_;  // of each vertex, ascending knots
+};
+
+}  // namespace percale

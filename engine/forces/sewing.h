@@ -1,0 +1,12 @@
+#pragma once
+
+#include "force_term.h"
+
+namespace percale {
+
+/// Vertices sewn to points (SewnPoint). What draws u to nothing is among the springs (SpringNetwork::bending); the term itself is
+/// what holds u at its length while the seam closes: the load k l w d on each vertex, w its weight in u. That has a direction of
+/// its own in space, so that a closing point may turn the cloth.
+const ForceTerm& sewing_term();
+
+}  // namespace percale

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+namespace percale {
+
+/// Joins a vertex of one cloth to a point of another, or of the same: x_vertex and (1 - share) x_from + share x_to. A vertex is
+/// joined to a vertex by from == to, whatever the share.
+struct Stitch {
+    int vertex = -1;
+    int from = -1, to = -1;
+    double share = 0.0;  // 0 ... 1
+
+    bool joins_vertices() const { return from == to || share == 0.0 || share == 1.0; }
+    /// The vertex that `vertex` is joined to, where it is one.
+    int other() const { return share == 1.0 ? to : from; }
+    bool operator==(const Stitch&) const = default;
+};
+
+struct SeamSettings {
+    double over = 1.0;          // s, how long closing takes, 0 ... 1e6
+    double stiffness = 1000.0;  // N/m of each stitch, 1e-3 ... 1e9
+    std::string name = "seam";  // for messages
+};
+
+}  // namespace percale

@@ -1,0 +1,105 @@
+#include "engine/forces/sewing.h"
+
+#include "engine/forces/springs.h"
+#include "engine/forces/total_force.h"
+#include "engine/model/seams.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+/// Two sheets, 0.2 m apart, sewn along one side vertex to point; a share of the way is left.
+struct Sewn {
+    ClothModel model;
+    Seam seam{.length = {}, .from = 0.0, .over = 1.0};
+    std::vector<double> rest_length;
+
+    explicit Sewn(double left) {
+        TriangleMesh upper = make_grid(1.0, 1.0, 4, 4);
+        for (Vec3& x : upper.vertices) x += Vec3(0.1, 0.2, 0.0);
+        append_cloth(model, make_grid(1.0, 1.0, 4, 4), sheet_fabric(), "lower");
+        append_cloth(model, upper, sheet_fabric(), "upper");
+        const std::vector<Stitch> stitches = {{16, 0, 1, 0.3}, {17, 1, 2, 0.8}, {18, 2, 3, 0.5}, {19, 3, 3}};
+        append_seam(stitches, 300.0, to_vectors(model.rest), seam, model);
+        finish_model(model);
+        rest_length = model.springs.rest_length;
+        set_seam_lengths(seam, 1.0 - left, rest_length);
+    }
+
+    /// All forces in which the seam has a part, and what they store.
+    double evaluate(const Vectors& positions, Vectors& forces) const {
+        StepSprings springs;
+        set_step_springs(compute, {model.adjacency, positions, DampingForm::velocity, 1.0, rest_length, &model.springs}, springs);
+        Vectors still;
+        still.resize(model.vertex_count());
+        Forces sum;
+        sum.total.resize(model.vertex_count());
+        const ForceInput input{
+            .compute = &compute, .model = &model, .springs = &springs, .positions = &positions, .velocities = &still, .dt = 1.0};
+        REQUIRE(sewing_term().acts(input));
+        const double potential = spring_term().add(input, sum) + sewing_term().add(input, sum);
+        forces = sum.total;
+        return potential;
+    }
+};
+
+Vectors shaken(const Sewn& sewn, Random& random) {
+    std::vector<Vec3> x = sewn.model.rest;
+    for (Vec3& point : x) point += random.point(0.03);
+    return to_vectors(x);
+}
+
+}  // namespace
+
+TEST_CASE("Forces of sewn points are minus the gradient of what the seam and the springs store, while it closes and after") {
+    Random random(5);
+    for (const double left : {1.0, 0.4, 0.0}) {
+        const Sewn sewn(left);
+        const Vectors x = shaken(sewn, random);
+        Vectors forces, none;
+        sewn.evaluate(x, forces);
+        for (int n = 0; n < 20; ++n) {
+            std::vector<Vec3> way(sewn.model.vertex_count());
+            for (Vec3& step : way) step = random.point(1.0);
+            const Vectors direction = to_vectors(way);
+            constexpr double reach = 1e-5;
+            Vectors ahead = x, behind = x;
+            add_scaled(ahead, reach, direction);
+            add_scaled(behind, -reach, direction);
+            const double slope = (sewn.evaluate(ahead, none) - sewn.evaluate(behind, none)) / (2.0 * reach);
+            CHECK(slope == Approx(-dot(compute, forces, direction)).epsilon(1e-5).margin(1e-5));
+        }
+    }
+}
+
+TEST_CASE("Sewn points exert no force together, and none where they are as far apart as they are to be") {
+    const Sewn whole(1.0);
+    Vectors forces;
+    whole.evaluate(to_vectors(whole.model.rest), forces);
+    for (int i = 0; i < whole.model.vertex_count(); ++i) CHECK(forces.at(i).norm() < 1e-11);
+    Random random(6);
+    const Sewn half(0.5);
+    half.evaluate(shaken(half, random), forces);
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < half.model.vertex_count(); ++i) sum += forces.at(i);
+    CHECK(sum.norm() < 1e-10);
+}
+
+TEST_CASE("What sewn points store is counted as elastic, and tells one cloth from another") {
+    const Sewn sewn(0.25);
+    const Vectors x = to_vectors(sewn.model.rest);
+    double stored = 0.0;
+    for (const SewnPoint& point : sewn.model.sewn_points) stored += sewn_energy(point, sewn.rest_length[point.spring], x);
+    CHECK(stored > 0.0);
+    CHECK(sewing_term().energy({sewn.model, x, sewn.rest_length}) == Approx(stored));
+    CHECK(sewing_term().entry() == &StepEnergy::elastic);
+    ListHash one, other;
+    sewing_term().identify(sewn.model, one);
+    Sewn moved(0.25);
+    moved.model.sewn_points[1].stitch.share = 0.7;
+    sewing_term().identify(moved.model, other);
+    CHECK(one.value() != other.value());
+}
+
+}  // namespace percale::test

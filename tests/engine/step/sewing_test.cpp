@@ -1,0 +1,44 @@
+#include "engine/step/sewing.h"
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+
+TEST_CASE("A stitch joins a vertex to itself at either end of its edge, or to it alone") {
+    CHECK(joins_itself({3, 3, 3}));
+    CHECK(joins_itself({3, 3, 4, 0.5}));
+    CHECK(joins_itself({3, 4, 3, 0.5}));
+    CHECK(joins_itself({3, 4, 3, 1.0}));
+    CHECK_FALSE(joins_itself({3, 4, 3, 0.0}));
+    CHECK_FALSE(joins_itself({3, 4, 5, 0.5}));
+}
+
+TEST_CASE("Rest lengths of new springs are added to a state that has its own, and to no other") {
+    SpringNetwork network;
+    for (int k = 0; k < 3; ++k) {
+        append_pair(k, k + 1, network);
+        network.rest_length.back() = k + 1.0;
+    }
+    std::vector<double> none, own = {7.0};
+    add_rest_lengths(network, none);
+    add_rest_lengths(network, own);
+    CHECK(none.empty());
+    CHECK(own == std::vector{7.0, 2.0, 3.0});
+}
+
+TEST_CASE("A seam that is sewn gets the next number, begins now and has the plan made anew") {
+    const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
+    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {});
+    world.state.time = 2.0;
+    world.plan_outdated = false;
+    const int springs = world.scene.model.springs.size();
+    CHECK(sew(world, std::vector<Stitch>{{0, 8, 8}}, {.over = 0.5}) == 0);
+    CHECK(sew(world, std::vector<Stitch>{{0, 4, 5, 0.5}}, {.over = 0.5}) == 1);
+    CHECK(world.scene.script.seams[1].from == 2.0);
+    CHECK(world.scene.model.springs.size() == springs + 4);
+    CHECK(world.scene.model.adjacency.place.size() == static_cast<std::size_t>(springs) + 4);
+    CHECK(world.plan_outdated);
+}
+
+}  // namespace percale::test
