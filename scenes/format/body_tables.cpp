@@ -72,6 +72,36 @@ Field<Spec> unit_field() {
                             &Spec::unit, unit_words, std::vector{0.001, 0.01, 1.0});
 }
 
+Field<ClothSpec> pattern_field() {
+    Field<ClothSpec> field = value_field<ClothSpec>(
+        {.path = "pattern",
+         .sentence =
+             "Sewing pattern (.toml or GarmentCode's .json), relative to the scene file; instead of grid. Its flat panels "
+             "are the rest shape, warp runs along their y; its seams close within 1 s, if no [[seam]] with file = "
+             "\"mesh\" says otherwise.",
+         .alternative = true},
+        &ClothSpec::pattern);
+    field.write = [](const ClothSpec& spec) {
+        return spec.pattern.empty() ? std::nullopt : std::optional(value_node(spec.pattern));
+    };
+    return field;
+}
+
+Field<ClothSpec> edge_length_field() {
+    Field<ClothSpec> field = value_field<ClothSpec>({.path = "edge_length",
+                                                     .sentence = "How long the edges of a pattern's mesh are.",
+                                                     .unit = "m",
+                                                     .lowest = 1e-4,
+                                                     .highest = 1.0,
+                                                     .needs = "pattern",
+                                                     .needs_why = "edge_length is that of a pattern's mesh"},
+                                                    &ClothSpec::edge_length);
+    field.write = [](const ClothSpec& spec) {
+        return spec.pattern.empty() ? std::nullopt : std::optional(value_node(spec.edge_length));
+    };
+    return field;
+}
+
 Field<ClothSpec> rest_field() {
     Field<ClothSpec> field =
         value_field<ClothSpec>({.path = "rest",
@@ -314,7 +344,7 @@ const FieldTable<ClothSpec>& cloth_table() {
                                            .alternative = true},
                                           &ClothSpec::grid, grid_table()),
                    mesh_field<ClothSpec>("Mesh file, relative to the scene file; instead of grid."), unit_field<ClothSpec>(),
-                   rest_field(), uv_scale_field(),
+                   pattern_field(), edge_length_field(), rest_field(), uv_scale_field(),
                    value_field<ClothSpec>({.path = "warp",
                                            .sentence = "Where warp runs, of any length: in uv, then v if not said, or in the "
                                                        "axes of the mesh without strain; weft is across.",

@@ -43,7 +43,7 @@ struct Warp {
 struct ClothSpec {
     std::string name;
     std::string fabric;
-    std::optional<GridSpec> grid;  // exactly one of grid and mesh
+    std::optional<GridSpec> grid;  // exactly one of grid, mesh and pattern
     std::string mesh;              // path relative to the scene file
     double unit = 1.0;             // m per unit of the mesh file
     std::string rest;              // path of a mesh without strain, or "uv": the mesh's vt; empty: as it starts
@@ -51,7 +51,9 @@ struct ClothSpec {
     std::optional<Warp> warp;
     Pose pose;
     VertexSelection pin = VertexIndices{};
-    SourcePlace pin_place;  // of `pin`; of the cloth where that is not said
+    std::string pattern;        // path of a sewing pattern
+    double edge_length = 0.02;  // m, of its mesh
+    SourcePlace pin_place;      // of `pin`; of the cloth where that is not said
     SourcePlace place;
 };
 

@@ -4,6 +4,7 @@
 
 #include "common/text.h"
 #include "meshes/mesh_import.h"
+#include "pattern/pattern_file.h"
 #include "percale/error.h"
 #include "tolerances.h"
 
@@ -18,6 +19,20 @@ RestShape uv_shape(const std::string& file, const ClothSpec& cloth, const Triang
         for (std::size_t k = 0; k < 3; ++k) own[k] = cloth.uv_scale * Vec3(corners[k].x(), corners[k].y(), 0.0);
     }
     if (shape.corners.size() != start.triangles.size()) throw SceneError(file, "its vt are not those of the cloth's mesh");
+    return shape;
+}
+
+PatternMesh pattern_mesh(const Scene& scene, const ClothSpec& cloth) {
+    return mesh_pattern(read_pattern(path_beside(scene, cloth.pattern)), cloth.edge_length);
+}
+
+/// The flat panels of a pattern; warp runs along their y.
+RestShape panel_shape(const PatternMesh& garment, double scale) {
+    RestShape shape{.corners = {}, .warp = Vec3::UnitY()};
+    for (const auto& corners : textured_mesh(garment).uv) {
+        auto& own = shape.corners.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) own[k] = scale * Vec3(corners[k].x(), corners[k].y(), 0.0);
+    }
     return shape;
 }
 
@@ -47,9 +62,14 @@ std::string path_beside(const Scene& scene, const std::string& path) {
 }
 
 TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth) {
-    TriangleMesh mesh =
-        cloth.grid ? make_grid(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->vertices[0], cloth.grid->vertices[1])
-                   : import_mesh(path_beside(scene, cloth.mesh), cloth.unit);
+    TriangleMesh mesh;
+    if (!cloth.pattern.empty()) {
+        mesh = pattern_mesh(scene, cloth).mesh;
+    } else if (cloth.grid) {
+        mesh = make_grid(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->vertices[0], cloth.grid->vertices[1]);
+    } else {
+        mesh = import_mesh(path_beside(scene, cloth.mesh), cloth.unit);
+    }
     mesh.vertices = transform(cloth.pose, mesh.vertices);
     return mesh;
 }
@@ -72,6 +92,24 @@ RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleM
         for (Vec3& corner : corners) corner *= cloth.pose.scale;
     }
     warn_of_scale(cloth, shape, start, warnings);
+    return shape;
+}
+
+ClothShape cloth_shape(const Scene& scene, const ClothSpec& cloth, std::vector<std::string>& warnings) {
+    ClothShape shape;
+    const std::string shown = "cloth '" + cloth.name + "'";
+    if (cloth.pattern.empty()) {
+        shape.start = start_mesh(scene, cloth);
+        check_mesh(shape.start, shown, true);
+        shape.rest = rest_shape(scene, cloth, shape.start, warnings);
+        return shape;
+    }
+    PatternMesh garment = pattern_mesh(scene, cloth);
+    shape.rest = panel_shape(garment, cloth.pose.scale);
+    shape.start = std::move(garment.mesh);
+    shape.start.vertices = transform(cloth.pose, shape.start.vertices);
+    check_mesh(shape.start, shown, true);
+    shape.seams = std::move(garment.seams);
     return shape;
 }
 

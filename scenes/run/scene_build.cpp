@@ -1,5 +1,7 @@
 #include "run/scene_build.h"
 
+#include <algorithm>
+
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "format/expectations.h"
@@ -85,14 +87,13 @@ Fabric fabric_on(BuiltScene& built, const ClothSpec& cloth, const TriangleMesh& 
 }
 
 void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
-    TriangleMesh mesh = start_mesh(built.scene, cloth);
-    check_mesh(mesh, told(cloth), true);
-    const RestShape rest = rest_shape(built.scene, cloth, mesh, built.warnings);
-    const Fabric fabric = fabric_on(built, cloth, mesh, rest);
-    check_shear(cloth, mesh, fabric.springs.shear);
-    const ClothId id = built.simulation.add_cloth(mesh, fabric, {}, cloth.name, rest);
+    ClothShape shape = cloth_shape(built.scene, cloth, built.warnings);
+    const Fabric fabric = fabric_on(built, cloth, shape.start, shape.rest);
+    check_shear(cloth, shape.start, fabric.springs.shear);
+    const ClothId id = built.simulation.add_cloth(shape.start, fabric, {}, cloth.name, shape.rest);
     built.cloths.push_back(id);
-    built.cloth_meshes.push_back(std::move(mesh));
+    built.cloth_meshes.push_back(std::move(shape.start));
+    built.pattern_seams.push_back(std::move(shape.seams));
 }
 
 void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
@@ -110,16 +111,42 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     built.obstacle_meshes.push_back(std::move(mesh));
 }
 
+void sew(BuiltScene& built, const SeamSpec& seam, BuiltSeam made) {
+    const auto [first, second] = made.sewn.cloths;
+    made.id = built.simulation.add_seam(built.cloths[first], built.cloths[second], made.sewn.stitches,
+                                        {.over = seam.over, .stiffness = seam.stiffness, .name = made.name});
+    built.seams.push_back(std::move(made));
+}
+
+/// All seams of a pattern, each with its name there.
+void sew_pattern(BuiltScene& built, int cloth, const SeamSpec& seam) {
+    for (const SewnSeam& own : built.pattern_seams[cloth]) {
+        if (!own.stitches.empty()) sew(built, seam, {.name = own.name, .sewn = {{cloth, cloth}, own.stitches}});
+    }
+}
+
 void add_seam(BuiltScene& built, const SeamSpec& seam) {
     at_place(seam.place, "", [&] {
+        const auto [first, second] = seam_cloths(built.scene, seam);
+        const bool of_pattern = seam.file == "mesh" && first == second && !built.scene.cloths[first].pattern.empty();
+        if (of_pattern) sew_pattern(built, first, seam);
+        SeamSpec rest = seam;
+        if (of_pattern) rest.file.clear();
         const std::string number = "seam " + std::to_string(built.seams.size());
         BuiltSeam made{.name = seam.name.empty() ? number : seam.name,
-                       .sewn = {seam_cloths(built.scene, seam), seam_stitches(built.scene, seam)}};
-        const auto [first, second] = made.sewn.cloths;
-        made.id = built.simulation.add_seam(built.cloths[first], built.cloths[second], made.sewn.stitches,
-                                            {.over = seam.over, .stiffness = seam.stiffness, .name = made.name});
-        built.seams.push_back(std::move(made));
+                       .sewn = {{first, second}, seam_stitches(built.scene, rest)}};
+        if (!of_pattern || !made.sewn.stitches.empty()) sew(built, seam, std::move(made));
     });
+}
+
+/// Patterns of which no [[seam]] says how they are sewn.
+void sew_other_patterns(BuiltScene& built) {
+    for (int cloth = 0; cloth < static_cast<int>(built.cloths.size()); ++cloth) {
+        const auto says = [&](const SeamSpec& seam) {
+            return seam.file == "mesh" && seam_cloths(built.scene, seam) == std::array{cloth, cloth};
+        };
+        if (std::ranges::none_of(built.scene.seams, says)) sew_pattern(built, cloth, {});
+    }
 }
 
 // Cloths have the same numbers in the scene and in the simulation; triangles are counted through all of them.
@@ -168,6 +195,7 @@ BuiltScene build_scene(const Scene& given) {
                      .cloth_meshes = {},
                      .obstacles = {},
                      .obstacle_meshes = {},
+                     .pattern_seams = {},
                      .seams = {},
                      .warnings = {}};
     for (const ClothSpec& cloth : scene.cloths) {
@@ -176,6 +204,7 @@ BuiltScene build_scene(const Scene& given) {
     }
     for (const ObstacleSpec& obstacle : scene.obstacles) at_place_of(obstacle, [&] { add_obstacle(built, obstacle); });
     for (const SeamSpec& seam : scene.seams) add_seam(built, seam);
+    sew_other_patterns(built);
     script_events(scene, built.cloth_meshes);
     check_start(built);
     if (scene.until_rest) check_can_rest(scene, built.simulation.plan());

@@ -5,6 +5,7 @@
 
 #include "format/scene.h"
 #include "garment/seam_stitches.h"
+#include "pattern/pattern_mesh.h"
 #include "percale/simulation.h"
 
 namespace percale::scenes {
@@ -19,12 +20,13 @@ struct BuiltSeam {
 struct BuiltScene {
     Scene scene;
     Simulation simulation;
-    std::vector<ClothId> cloths;                // in the order of scene.cloths
-    std::vector<TriangleMesh> cloth_meshes;     // as they start, in world coordinates
-    std::vector<ObstacleId> obstacles;          // in the order of scene.obstacles
-    std::vector<TriangleMesh> obstacle_meshes;  // in their own coordinates, unit applied, pose not
-    std::vector<BuiltSeam> seams;               // in the order of scene.seams
-    std::vector<std::string> warnings;          // what is not quite as the scene file says
+    std::vector<ClothId> cloths;                       // in the order of scene.cloths
+    std::vector<TriangleMesh> cloth_meshes;            // as they start, in world coordinates
+    std::vector<ObstacleId> obstacles;                 // in the order of scene.obstacles
+    std::vector<TriangleMesh> obstacle_meshes;         // in their own coordinates, unit applied, pose not
+    std::vector<std::vector<SewnSeam>> pattern_seams;  // of each cloth; of one without a pattern none
+    std::vector<BuiltSeam> seams;       // in the order of scene.seams, a pattern's each apart; then those of patterns
+    std::vector<std::string> warnings;  // what is not quite as the scene file says
 };
 
 /// The mesh of an obstacle with its unit applied, its pose not; not yet checked (check_mesh). Throws SceneError for a file that

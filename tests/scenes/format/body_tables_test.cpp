@@ -53,7 +53,8 @@ TEST_CASE("the unit of a mesh file is a factor to metres") {
 }
 
 TEST_CASE("a cloth is a grid or a mesh, not both, not neither") {
-    CHECK(error_of([] { cloth(""); }).find("cloth 'flag' must have exactly one of grid, mesh; it has none") != std::string::npos);
+    CHECK(error_of([] { cloth(""); }).find("cloth 'flag' must have exactly one of grid, mesh, pattern; it has none") !=
+          std::string::npos);
     CHECK(error_of([] { cloth(grid + "mesh = \"a.obj\"\n"); }).find("it has grid, mesh") != std::string::npos);
 }
 

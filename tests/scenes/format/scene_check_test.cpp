@@ -137,8 +137,8 @@ TEST_CASE("an unknown word is refused with the nearest choice") {
 }
 
 TEST_CASE("an unknown key is refused with those that its table has") {
-    CHECK(fault("[[cloth]]\nname = \"a\"\npattern = \"shirt.json\"\n")
-              .starts_with("t:3:1: unknown key 'pattern' in [cloth.a]; valid: name, "));
+    CHECK(fault("[[cloth]]\nname = \"a\"\nshape = \"shirt.json\"\n")
+              .starts_with("t:3:1: unknown key 'shape' in [cloth.a]; valid: name, "));
     CHECK(
         fault_after("[[event]]\ntime = 1\ndetach = 3\n").starts_with("t:10:1: unknown key 'detach' in [event.0]; valid: time, "));
 }

@@ -1,0 +1,78 @@
+#include "pattern/pattern_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace percale::scenes {
+namespace {
+
+/// a after b.
+Rotation product(const Rotation& a, const Rotation& b) {
+    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+            a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+
+Point2 mirror_point(const Point2& point) { return {-point.x(), point.y()}; }
+
+}  // namespace
+
+Rotation turned(const std::array<double, 3>& degrees) {
+    Rotation rotation{1.0, 0.0, 0.0, 0.0};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double half = 0.5 * degrees[axis] * std::numbers::pi / 180.0, s = std::sin(half);
+        rotation = product({std::cos(half), axis == 0 ? s : 0.0, axis == 1 ? s : 0.0, axis == 2 ? s : 0.0}, rotation);
+    }
+    return rotation;
+}
+
+Point2 arc_middle(const Point2& a, const Point2& b, double bulge) {
+    const Point2 along = b - a;
+    return 0.5 * (a + b) + bulge / along.norm() * Point2(along.y(), -along.x());
+}
+
+Vec3 placed_point(const Panel& panel, const Point2& point) {
+    Vec3 x(point.x(), point.y(), 0.0);
+    if (panel.wrap > 0.0) {
+        const double angle = point.x() / panel.wrap;
+        x = {panel.wrap * std::sin(angle), point.y(), panel.wrap * (std::cos(angle) - 1.0)};
+    }
+    return transform(panel.pose, x);
+}
+
+Panel mirrored(const Panel& panel, const std::string& name) {
+    Panel image = panel;
+    image.name = name;
+    image.flipped = !panel.flipped;
+    std::ranges::transform(panel.corners, image.corners.begin(), mirror_point);
+    for (PanelEdge& edge : image.edges) {
+        std::ranges::transform(edge.control, edge.control.begin(), mirror_point);
+    }
+    // In the mirror turns about x stay, those about y and z change their sense.
+    image.pose.translation.x() *= -1.0;
+    image.pose.rotation.y *= -1.0;
+    image.pose.rotation.z *= -1.0;
+    return image;
+}
+
+std::array<Vec3, 2> side_ends(const Pattern& pattern, const std::vector<EdgeUse>& side) {
+    const auto end = [&](const EdgeUse& use, bool last) {
+        const Panel& panel = pattern.panels[use.panel];
+        const PanelEdge& edge = panel.edges[use.edge];
+        return placed_point(panel, panel.corners[use.reversed == last ? edge.from : edge.to]);
+    };
+    return {end(side.front(), false), end(side.back(), true)};
+}
+
+void reverse_side(std::vector<EdgeUse>& side) {
+    std::reverse(side.begin(), side.end());
+    for (EdgeUse& use : side) use.reversed = !use.reversed;
+}
+
+void match_ends(const Pattern& pattern, PatternSeam& seam) {
+    const auto [a, b] = side_ends(pattern, seam.sides[0]);
+    const auto [c, d] = side_ends(pattern, seam.sides[1]);
+    if ((a - d).norm() + (b - c).norm() < (a - c).norm() + (b - d).norm()) reverse_side(seam.sides[1]);
+}
+
+}  // namespace percale::scenes
