@@ -9,6 +9,7 @@
 #include "common/nearest_name.h"
 #include "common/text.h"
 #include "common/whole_file.h"
+#include "meshes/mesh_import.h"
 #include "meshes/obj_file.h"
 #include "percale/certify.h"
 #include "percale/error.h"
@@ -35,8 +36,9 @@ struct DrapeOptions {
     Fabric fabric{.springs = {.structural = 1000.0, .bend = 5.0}, .spring_damping = 2.0};
     std::string preset;  // "" for the felt
     double friction = 0.4;
-    double seconds = 20.0;   // s, limit
-    bool until_rest = true;  // there is nothing else
+    double seconds = 20.0;      // s, limit
+    double edge_length = 0.02;  // m, of a pattern's mesh
+    bool until_rest = true;     // there is nothing else
     bool quiet = false;
 };
 
@@ -48,6 +50,17 @@ struct Drape {
     double speed = 0.0;  // m/s, of the fastest vertex
     bool met = false;    // whether the garment ever had contact with the body
 };
+
+/// How a pattern is sewn, and from when on it has weight.
+constexpr double sewing_time = 0.6;          // s
+constexpr double sewing_stiffness = 3000.0;  // N/m
+/// Of a preset, so that hems come to rest within seconds.
+constexpr double sewing_damping = 0.02;  // s
+
+bool is_pattern(const std::string& garment) {
+    const std::string extension = extension_of(garment);
+    return extension == ".toml" || extension == ".json";
+}
 
 double metres(const std::string& option, const std::string& unit) {
     if (unit == "m") return 1.0;
@@ -74,10 +87,22 @@ Scene drape_scene(const DrapeOptions& options) {
     ClothSpec cloth;
     cloth.name = "garment";
     cloth.fabric = "garment";
-    cloth.mesh = options.garment;
-    cloth.unit = metres("--garment-unit", options.garment_unit);
-    cloth.pose.translation = Vec3(options.move[0], options.move[1], options.move[2]);
     cloth.place = {.file = options.garment};
+    cloth.unit = metres("--garment-unit", options.garment_unit);
+    if (is_pattern(options.garment)) {
+        if (cloth.unit != 1.0) throw SceneError("--garment-unit: a pattern says its own unit");
+        cloth.pattern = options.garment;
+        cloth.edge_length = options.edge_length;
+        scene.step.gravity = Vec3::Zero();
+        SeamSpec& seam = scene.seams.emplace_back();
+        seam.file = "mesh";
+        seam.over = sewing_time;
+        seam.stiffness = sewing_stiffness;
+        seam.place = cloth.place;
+    } else {
+        cloth.mesh = options.garment;
+    }
+    cloth.pose.translation = Vec3(options.move[0], options.move[1], options.move[2]);
     scene.cloths.push_back(cloth);
     ObstacleSpec body;
     body.name = "body";
@@ -94,7 +119,13 @@ Drape settle(BuiltScene& built, const DrapeOptions& options) {
     ProgressBar bar(!options.quiet, options.seconds);
     Drape drape;
     RestWatch watch;
+    bool sewn = built.seams.empty();
     while (built.simulation.time() < options.seconds - 1e-9) {
+        if (!sewn && built.simulation.time() >= sewing_time - 1e-9) {
+            built.scene.step.gravity = StepSettings{}.gravity;
+            built.simulation.set_gravity(built.scene.step.gravity);
+            sewn = true;
+        }
         watch.begin(built.simulation, built.cloths);
         drape.last = built.simulation.step();
         if (!drape.last.ok()) {
@@ -143,6 +174,17 @@ int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& c
     return stopped ? stopped_by_signal : not_as_expected;
 }
 
+void print_seams(const BuiltScene& built) {
+    double widest = 0.0;
+    std::size_t stitches = 0;
+    for (const BuiltSeam& seam : built.seams) {
+        const std::vector<double> gaps = built.simulation.seam_gaps(seam.id);
+        widest = std::max(widest, *std::max_element(gaps.begin(), gaps.end()));
+        stitches += gaps.size();
+    }
+    if (stitches > 0) std::printf("%zu stitches, largest gap %.3g m\n", stitches, widest);
+}
+
 int drape_garment(const DrapeOptions& options) {
     const Scene scene = drape_scene(options);
     check_options(options);
@@ -162,6 +204,7 @@ int drape_garment(const DrapeOptions& options) {
         std::printf("%s: %s%.3g s simulated, fastest vertex %.3g m/s, %d intersecting pairs, %s\n", options.out.c_str(),
                     drape.end == DrapeEnd::settled ? "at rest, " : "", drape.last.time, drape.speed, check.intersections,
                     nearness_text(check.smallest_distance).c_str());
+    if (!options.quiet) print_seams(built);
     return verdict(options, drape, check);
 }
 
@@ -171,7 +214,13 @@ Fabric fabric_from_preset(const CLI::App& command, const DrapeOptions& options) 
     for (const FabricPreset& preset : fabric_presets()) names.emplace_back(preset.name);
     if (std::find(names.begin(), names.end(), options.preset) == names.end())
         throw SceneError("--fabric: no fabric preset '" + options.preset + "'" + suggestion(options.preset, names));
-    Fabric fabric = isotropic(fabric_preset(options.preset));
+    // A pattern says where warp is.
+    Fabric fabric = fabric_preset(options.preset);
+    if (is_pattern(options.garment)) {
+        fabric.damping_time = sewing_damping;
+    } else {
+        fabric = isotropic(fabric);
+    }
     const auto given = [&](const std::string& option) { return command.get_option(option)->count() > 0; };
     if (given("--thickness")) fabric.thickness = options.fabric.thickness;
     if (given("--area-density")) fabric.area_density = options.fabric.area_density;
@@ -182,7 +231,8 @@ Fabric fabric_from_preset(const CLI::App& command, const DrapeOptions& options) 
 }
 
 void add_options(CLI::App& command, DrapeOptions& options) {
-    command.add_option("GARMENT", options.garment, "Garment mesh, outside the body")->required();
+    command.add_option("GARMENT", options.garment, "Garment mesh outside the body, or a sewing pattern around it (.toml, .json)")
+        ->required();
     command.add_option("BODY", options.body, "Body mesh")->required();
     command.add_option("-o", options.out, "Draped mesh (.obj)")->type_name("OUT")->required();
     command.add_option("--garment-unit", options.garment_unit, "Unit of the garment's file: mm, cm, m (default m)")
@@ -207,6 +257,8 @@ void add_options(CLI::App& command, DrapeOptions& options) {
         ->excludes(preset);
     command.add_option("--damping", options.fabric.spring_damping, "Damping of each spring, N s/m (default 2)")->type_name("C");
     command.add_option("--friction", options.friction, "Coulomb coefficient (default 0.4)")->type_name("MU");
+    command.add_option("--edge-length", options.edge_length, "How long the edges of a pattern's mesh are, m (default 0.02)")
+        ->type_name("M");
     command.add_option("--seconds", options.seconds, "Simulated time at most, s (default 20)")->type_name("S");
     command.add_flag("--until-rest", options.until_rest,
                      "Go on until the garment is proven at rest; so it does without this, too");

@@ -55,6 +55,28 @@ TEST_CASE("a garment is draped until it is proven at rest, asked or not") {
     CHECK(draped("a.obj", {}) == draped("b.obj", {"--until-rest"}));
 }
 
+TEST_CASE("a pattern is sewn around the body first, and then hangs on it") {
+    const TestFolder folder;
+    const std::string data = PERCALE_DATA_DIR;
+    const auto drape = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"drape", data + "/patterns/t_shirt.toml", data + "/meshes/mannequin.obj", "-o",
+                                              "draped.obj"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_program(arguments, folder.path());
+    };
+    const ProgramRun run = drape({"--fabric", "cotton", "--edge-length", "0.05", "--seconds", "30"});
+    CAPTURE(run.out, run.error);
+    CHECK(run.exit_code == 0);
+    CHECK(run.out.find("draped.obj: at rest, ") != std::string::npos);
+    CHECK(run.out.find(" stitches, largest gap ") != std::string::npos);
+    const TriangleMesh shirt = read(folder, "draped.obj");
+    double lowest = 2.0;
+    for (const Vec3& x : shirt.vertices) lowest = std::min(lowest, x.y());
+    CHECK(lowest > 0.8);
+    CHECK(lowest < 1.0);
+    CHECK(refused(drape({"--garment-unit", "cm"}), "a pattern says its own unit"));
+}
+
 TEST_CASE("when the time is up the garment is written all the same, and the speed named") {
     const TestFolder folder;
     write_pair(folder, 1.0);

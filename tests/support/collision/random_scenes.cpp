@@ -175,6 +175,7 @@ scenes::BuiltScene build(const Draw& draw) {
                              .cloth_meshes = {draw.cloth.mesh},
                              .obstacles = {},
                              .obstacle_meshes = {draw.obstacle.mesh},
+                             .pattern_seams = {},
                              .seams = {},
                              .warnings = {}};
     built.scene.step = draw.settings;
