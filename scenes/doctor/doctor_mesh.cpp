@@ -155,7 +155,7 @@ void find_cloth_edges(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
     if (facts.shortest_edge > 0.0 && facts.longest_edge > most_edge_ratio * facts.shortest_edge)
         found.add(Severity::warning, "edge_lengths", "its edges are " + shortest + " to " + longest + " m long",
                   "remesh it with edges of about " + short_number(facts.median_edge) + " m, its median");
-    if (facts.parts > 1)
+    if (facts.parts > 1 && !cloth.sewn)
         found.add(Severity::note, "parts", "it consists of " + std::to_string(facts.parts) + " pieces that nothing joins",
                   "sew them with a [[seam]] if they belong together");
     const std::string thickness = "thickness " + short_number(fabric.thickness) + " m is ";

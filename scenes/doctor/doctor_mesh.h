@@ -12,6 +12,7 @@ struct ExaminedMesh {
     std::string name = {};   // "cloth 'shirt'"; "" for a bare mesh
     std::string place = {};  // in the scene file, or the mesh file
     bool from_file = true;   // else a grid or a shape, which is made without faults
+    bool sewn = false;       // a seam joins parts of it
     TriangleMesh mesh = {};
     MeshFacts facts = {};
 };

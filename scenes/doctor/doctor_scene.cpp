@@ -56,11 +56,20 @@ std::optional<ExaminedMesh> read_mesh(const Spec& spec, MeshRole role, std::vect
     return mesh;
 }
 
+/// By a seam, or as patterns are.
+bool is_sewn_to_itself(const Scene& scene, const ClothSpec& cloth) {
+    const auto joins = [&](const SeamSpec& seam) {
+        return !seam.cloths || ((*seam.cloths)[0] == cloth.name && (*seam.cloths)[1] == cloth.name);
+    };
+    return !cloth.pattern.empty() || std::ranges::any_of(scene.seams, joins);
+}
+
 Meshes read_meshes(const Scene& scene, std::vector<Finding>& found) {
     Meshes meshes;
     for (const ClothSpec& cloth : scene.cloths) {
         auto mesh = read_mesh(cloth, MeshRole::cloth, found, [&] { return start_mesh(scene, cloth); });
         if (!mesh) continue;
+        mesh->sewn = is_sewn_to_itself(scene, cloth);
         meshes.cloths.push_back(std::move(*mesh));
         meshes.cloth_specs.push_back(&cloth);
     }

@@ -117,6 +117,20 @@ mesh = "crowded.obj"
     CHECK(find(examined(quiet_scene()), "not_built") == nullptr);
 }
 
+TEST_CASE("pieces of a cloth are told of only where no seam joins them") {
+    const TestFolder folder;
+    folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 3 0 0\nv 4 0 0\nv 3 0 1\nf 1 2 3\nf 4 5 6\n");
+    const auto found_with = [&](const std::string& more) {
+        const std::string text =
+            "gravity = [0, 0, 0]\n[fabric.f]\nsprings = { structural = 10.0 }\n"
+            "[[cloth]]\nname = \"c\"\nfabric = \"f\"\nmesh = \"two.obj\"\n";
+        return examine_scene_file(folder.write("scene.toml", text + more), {});
+    };
+    CHECK(severity(found_with(""), "parts") == "note");
+    CHECK(severity(found_with("[[seam]]\nvertices = [[0, 3]]\n"), "parts") == "none");
+    CHECK(severity(found_with("[[seam]]\ncloths = [\"c\", \"c\"]\nvertices = [[0, 3]]\n"), "parts") == "none");
+}
+
 TEST_CASE("an explicit step beyond its stability limit is an error, and the step named instead is stable") {
     const Overrides pinned = {{"cloth.sheet.pin", "[0]"}};
     Overrides stiff = pinned;
