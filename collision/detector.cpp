@@ -10,30 +10,13 @@
 #include "lists/feature_minima.h"
 #include "lists/list_passes.h"
 #include "lists/pack_measure.h"
-#include "percale/certify.h"
 #include "self/self_contact_detection.h"
 #include "tolerances.h"
 #include "untangle/untangle.h"
+#include "untangle/untangle_cloth.h"
 
 namespace percale {
 namespace {
-
-bool stays_above(const PackHull& hull, const ContactPair& pair, const ClothMove& move, double height) {
-    return height_above(hull, pair.vertices(), move.from) > height && height_above(hull, pair.vertices(), move.to) > height;
-}
-
-StartFault start_fault(int obstacle, const Certificate& certificate) {
-    StartFault fault{.obstacle = obstacle,
-                     .intersecting_pairs = static_cast<int>(certificate.pairs.size()),
-                     .vertices_inside = certificate.vertices_inside,
-                     .inside_vertex = certificate.deepest_vertex,
-                     .inside_vertices = certificate.inside_vertices};
-    if (!certificate.pairs.empty()) {
-        fault.cloth_triangle = certificate.pairs[0].first;
-        fault.obstacle_triangle = certificate.pairs[0].second;
-    }
-    return fault;
-}
 
 class MeshDetector : public ContactDetector {
 public:
@@ -61,10 +44,7 @@ public:
     StartFault check_start(std::span<const Vec3> positions) override {
         const TriangleMesh cloth{.vertices = {positions.begin(), positions.end()}, .triangles = triangles_};
         for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-            // Only whether the distance is 0 matters here, so nothing is searched farther away.
-            const Certificate certificate = certify(cloth, obstacles_[i]->given_mesh(), 0.0);
-            if (certificate.clean() && certificate.smallest_distance > 0.0) continue;
-            return start_fault(static_cast<int>(i), certificate);
+            if (const auto fault = obstacles_[i]->start_fault(cloth, static_cast<int>(i))) return *fault;
         }
         return between_cloths_ ? between_cloths_->check_start(positions) : StartFault{};
     }
@@ -73,6 +53,11 @@ public:
         std::vector<SolidObstacle> solids;
         for (const auto& obstacle : obstacles_) solids.emplace_back(obstacle->given_mesh());
         return percale::untangle(make_tangled_cloth(triangles_, thickness_, free), solids, positions);
+    }
+
+    std::optional<std::vector<Vec3>> untangle_cloth(std::span<const Vec3> positions, std::span<const double> free) override {
+        if (!between_cloths_) return std::nullopt;
+        return percale::untangle_cloth({between_cloths_->triangles(), free, between_cloths_->stitches()}, positions);
     }
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {

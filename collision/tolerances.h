@@ -213,6 +213,28 @@ constexpr double farthest_push = 8.0;
 constexpr int most_patches = 256, most_route_rounds = 60, most_push_failures = 64;
 constexpr long most_conflict_searches = 4000;
 
+/// Cloth through cloth. Share of the mean edge that a round moves a vertex: larger overshoots thin layers, smaller takes more
+/// rounds. Length of a way back (2 is the longest where an edge stands upright) at which half of the move is made: 0 lets places
+/// that pull to no side jump about.
+constexpr double retreat_share = 0.05, least_retreat = 0.1;
+
+/// Strain that edges may have while cloth comes apart, and sweeps over all edges a round that keep it. Cost, and how much the
+/// engine has to relax afterwards.
+constexpr double bond_slack = 0.05;
+constexpr int bond_sweeps = 4;
+
+/// Rounds without fewer crossings after which what is near the last ones is smoothed, and how many rings of vertices around them
+/// are. Fewer rounds: folds are ironed that would have come apart. More rings: more cloth is moved.
+constexpr int idle_rounds_before_smoothing = 20, smoothed_rings = 2;
+
+/// Rounds after which all cloth is searched for crossings again, and rings of vertices around those found that are searched in
+/// each round. Cost alone.
+constexpr int rounds_between_searches = 10, searched_rings = 3;
+
+/// Rounds of untangling cloth from cloth, and those in a row without fewer crossings after which it is given up. Larger: hopeless
+/// starts take longer (16,000 triangles: 30 ms a round). Smaller: solvable ones are refused.
+constexpr int most_untangle_rounds = 600, most_idle_rounds = 100;
+
 /// Barycentric. A ray meets a triangle up to this far beyond its rim, so that it slips through no edge between two of them.
 constexpr double ray_rim = 1e-9;
 

@@ -341,11 +341,20 @@ void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities)
 
 void Simulation::prepare() {
     World& world = implementation_->world;
+    const bool sewn_now = world.cloth_waits && !sews_without_contact(world);
+    if (sewn_now) {
+        world.cloth_waits = false;
+        pass_cloth_to_detector(world);
+        world.changed = true;
+    }
     if (!world.changed) return;
     check_scheme(implementation_->world.scene);
     const bool obstacles = !world.scene.script.obstacles.empty() && !world.scene.model.cloths.empty();
-    if (world.scene.detector && (obstacles || meets_cloth(world.scene))) {
-        implementation_->start_moves = clear_start(world);
+    if (world.scene.detector && (obstacles || (meets_cloth(world.scene) && !world.cloth_waits))) {
+        std::vector<StartMove> moves = clear_start(world);
+        std::vector<StartMove>& known = implementation_->start_moves;
+        if (!sewn_now) known.clear();
+        known.insert(known.end(), moves.begin(), moves.end());
         implementation_->update_views();
     }
     world.state.contact.forget();
@@ -361,6 +370,7 @@ StepReport Simulation::step() {
     prepare();
     StepReport report = percale::step(world);
     if (!report.slept) implementation_->update_views();
+    if (report.ok() && world.cloth_waits && !sews_without_contact(world)) prepare();
     report.cpu_s = cpu_seconds() - start;
     return report;
 }

@@ -419,6 +419,10 @@ constexpr double wind_kink_reaches = 1e3, contact_kink_reaches = 10.0;
 /// Strain that a repaired start may have (where it had less before), and where relaxing it ends. Larger: torn starts are taken.
 constexpr double most_start_strain = 0.5, good_start_strain = 0.1;
 
+/// How often cloth leaves obstacles and cloth in turn. Fewer: what was moved out of one is left in the other. Cost, of hopeless
+/// starts.
+constexpr int most_repair_turns = 8;
+
 /// Steps of relaxing, and their length in s.
 constexpr int most_relaxations = 60;
 constexpr double relaxation_step = 1.0 / 60.0;

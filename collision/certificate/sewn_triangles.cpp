@@ -19,7 +19,12 @@ void check(const Stitch& stitch, std::size_t vertices) {
     }
 }
 
-/// Vertices that are one once the stitches are closed have the same number: that of the lowest.
+using Edge = std::array<int, 2>;
+
+Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+}  // namespace
+
 std::vector<int> closed_vertices(std::size_t count, std::span<const Stitch> stitches) {
     std::vector<int> number(count);
     std::iota(number.begin(), number.end(), 0);
@@ -35,12 +40,6 @@ std::vector<int> closed_vertices(std::size_t count, std::span<const Stitch> stit
     for (int vertex = 0; vertex < static_cast<int>(count); ++vertex) number[vertex] = root(vertex);
     return number;
 }
-
-using Edge = std::array<int, 2>;
-
-Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-}  // namespace
 
 SewnTriangles::SewnTriangles(const TriangleMesh& mesh, std::span<const Stitch> stitches) {
     if (stitches.empty()) return;

@@ -8,6 +8,9 @@
 
 namespace percale::certificate {
 
+/// Vertices that are one once the stitches are closed have the same number: that of the lowest.
+std::vector<int> closed_vertices(std::size_t count, std::span<const Stitch> stitches);
+
 /// Which triangles of a mesh have a point in common once its stitches are closed, apart from those that share a vertex.
 class SewnTriangles {
 public:

@@ -18,4 +18,9 @@ struct PackLimits {
 /// Bounds for the cloth feature of `pair` and all features of a pack that is placed where the obstacle is.
 PackAnswer measure(const ContactPair& pair, std::span<const Vec3> cloth, const PlacedPack& placed, const PackLimits& limits);
 
+/// Whether the cloth feature of `pair` is higher than that above a hull at both ends of a move, m.
+inline bool stays_above(const PackHull& hull, const ContactPair& pair, const ClothMove& move, double height) {
+    return height_above(hull, pair.vertices(), move.from) > height && height_above(hull, pair.vertices(), move.to) > height;
+}
+
 }  // namespace percale

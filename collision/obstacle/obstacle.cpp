@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "percale/certify.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -107,6 +108,22 @@ TriangleMesh Obstacle::given_mesh() const {
     TriangleMesh placed = mesh_;
     placed.vertices = transform(start_pose_, mesh_.vertices);
     return placed;
+}
+
+std::optional<StartFault> Obstacle::start_fault(const TriangleMesh& cloth, int number) const {
+    // Only whether the distance is 0 matters here, so nothing is searched farther away.
+    const Certificate certificate = certify(cloth, given_mesh(), 0.0);
+    if (certificate.clean() && certificate.smallest_distance > 0.0) return std::nullopt;
+    StartFault fault{.obstacle = number,
+                     .intersecting_pairs = static_cast<int>(certificate.pairs.size()),
+                     .vertices_inside = certificate.vertices_inside,
+                     .inside_vertex = certificate.deepest_vertex,
+                     .inside_vertices = certificate.inside_vertices};
+    if (!certificate.pairs.empty()) {
+        fault.cloth_triangle = certificate.pairs[0].first;
+        fault.obstacle_triangle = certificate.pairs[0].second;
+    }
+    return fault;
 }
 
 }  // namespace percale

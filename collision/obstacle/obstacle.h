@@ -3,10 +3,12 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "obstacle/obstacle_packs.h"
 #include "obstacle/obstacle_surface.h"
 #include "obstacle/obstacle_tree.h"
+#include "percale/contact.h"
 
 namespace percale {
 
@@ -48,6 +50,8 @@ public:
     void find(std::span<const Box> boxes, IdLists& found);
     /// The mesh at the start of the step, as it was given (not cleaned).
     TriangleMesh given_mesh() const;
+    /// What is wrong with cloth that starts there, told of the obstacle of this number; nothing if it is clear.
+    std::optional<StartFault> start_fault(const TriangleMesh& cloth, int number) const;
 
 private:
     Box to_tree(const Box& box) const;

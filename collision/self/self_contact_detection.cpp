@@ -28,9 +28,14 @@ SelfContactDetection::SelfContactDetection(std::span<const Triangle> triangles, 
     }
 }
 
+std::vector<Triangle> SelfContactDetection::triangles() const {
+    std::vector<Triangle> triangles;
+    for (const int t : met_triangles_) triangles.push_back(lists_.surface().triangles[t]);
+    return triangles;
+}
+
 StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) const {
-    TriangleMesh cloth{.vertices = {positions.begin(), positions.end()}, .triangles = {}};
-    for (const int t : met_triangles_) cloth.triangles.push_back(lists_.surface().triangles[t]);
+    const TriangleMesh cloth{.vertices = {positions.begin(), positions.end()}, .triangles = triangles()};
     const ClothCertificate certificate = certify_cloth(cloth, stitches_);
     const auto& pairs = certificate.crossing.empty() ? certificate.touching : certificate.crossing;
     if (pairs.empty()) return {};

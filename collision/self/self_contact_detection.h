@@ -15,6 +15,10 @@ public:
     SelfContactDetection(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, const SelfContact& cloth);
 
     /// The first pair of cloth triangles that cross, or touch without being neighbours; exact.
+    /// The triangles of cloth that meets cloth.
+    std::vector<Triangle> triangles() const;
+    std::span<const Stitch> stitches() const { return stitches_; }
+
     StartFault check_start(std::span<const Vec3> positions) const;
 
     /// As those of ContactDetector.

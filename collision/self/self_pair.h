@@ -3,8 +3,8 @@
 #include <array>
 #include <span>
 
+#include "geometry/cloth_surface.h"
 #include "geometry/time_of_impact.h"
-#include "self/cloth_surface.h"
 
 namespace percale {
 

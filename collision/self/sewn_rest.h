@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
+#include "geometry/cloth_surface.h"
 #include "percale/mesh.h"
 #include "percale/stitch.h"
-#include "self/cloth_surface.h"
 
 namespace percale {
 

@@ -18,6 +18,7 @@ struct Seam {
     std::vector<Stitch> stitches = {};  // in the numbers of the system
     double from = 0.0;                  // s
     double over = 0.0;                  // s, how long closing takes
+    bool contact = true;                // whether cloth meets cloth while it closes
 
     bool closes_after(double time) const { return time < from + over; }
 };

@@ -59,10 +59,10 @@ private:
                                    " and triangle " + std::to_string(other_triangle) + (same ? "" : " of " + other->name);
         const std::string met = same ? "itself" : other->name;
         if (fault.intersecting_pairs == 0) {
-            return cloth->name + " starts touching " + met + ": " + places + "; leave some distance";
+            return cloth->name + " starts touching " + met + ": " + places;
         }
         return cloth->name + " starts through " + met + ": " + std::to_string(fault.intersecting_pairs) +
-               " intersecting triangle pairs, one of them " + places + "; move them apart, or let self_contact be false";
+               " intersecting triangle pairs, one of them " + places;
     }
 
     /// The cloth that owns a vertex of the whole system; null if there is no such vertex.
@@ -109,19 +109,20 @@ std::vector<StartMove> clear_start(World& world) {
     const StartFault fault = world.scene.detector->check_start(world.state.cloth.points);
     if (!fault.any()) return {};
     const std::string what = names.start_text(fault);
-    if (fault.between_cloths()) refuse_start(names, what, fault);
-    if (const int pin = pin_inside(world, fault); pin >= 0) {
+    const std::string advice =
+        fault.between_cloths() ? "; move them apart, or let self_contact be false" : "; move the cloth or the obstacle apart";
+    if (const int pin = pin_inside(world, fault); pin >= 0 && !fault.between_cloths()) {
         refuse_start(names,
                      "pinned " + names.vertex_name(pin) + " starts inside " + world.scene.script.obstacles[fault.obstacle].name +
                          "; move the pin or the obstacle, or do not pin this vertex",
                      fault);
     }
     if (world.scene.settings.start == StartRule::refuse) {
-        refuse_start(names, what + "; move the cloth or the obstacle apart, or allow start = repair", fault);
+        refuse_start(names, what + advice + ", or allow start = repair", fault);
     }
-    StartRepair repair = repair_start(world);
+    StartRepair repair = repair_start(world, fault);
     if (!repair.obstruction.empty()) {
-        refuse_start(names, what + ", and " + repair.obstruction + "; move the cloth or the obstacle apart", fault);
+        refuse_start(names, what + ", and " + repair.obstruction + advice, fault);
     }
     return std::move(repair.moves);
 }

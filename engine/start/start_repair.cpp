@@ -10,6 +10,9 @@
 namespace percale {
 namespace {
 
+/// What has moved a vertex, if no obstacle.
+constexpr int unmoved = -1, moved_by_cloth = -2;
+
 /// What steps change besides positions; put back when relaxing is over.
 class Paused {
 public:
@@ -80,12 +83,12 @@ std::vector<StartMove> moves_of(const World& world, const ClothRange& cloth, std
                                 std::span<const int> cause) {
     std::vector<StartMove> moves;
     const auto own = cause.subspan(cloth.first, cloth.count);
-    const auto first = std::find_if(own.begin(), own.end(), [](int obstacle) { return obstacle >= 0; });
+    const auto first = std::find_if(own.begin(), own.end(), [](int obstacle) { return obstacle != unmoved; });
     if (first == own.end()) return moves;
     for (int v = cloth.first; v < cloth.first + cloth.count; ++v) {
         const double displacement = (world.state.cloth.points[v] - before[v]).norm();
         if (displacement <= told_move_share * world.scene.model.thickness[v]) continue;
-        StartMove& move = move_out_of(cause[v] >= 0 ? cause[v] : *first, moves);
+        StartMove& move = move_out_of(cause[v] != unmoved ? cause[v] : *first, moves);
         ++move.vertices_moved;
         move.largest_move = std::max(move.largest_move, displacement);
     }
@@ -98,7 +101,8 @@ std::vector<StartMove> tell_moves(const World& world, std::span<const Vec3> befo
         for (StartMove& move : moves_of(world, world.scene.model.cloths[c], before, cause)) {
             move.cloth = static_cast<int>(c);
             move.cloth_name = world.scene.model.cloths[c].name;
-            move.obstacle_name = world.scene.script.obstacles[move.obstacle].name;
+            move.obstacle = std::max(move.obstacle, -1);
+            move.obstacle_name = move.obstacle < 0 ? "cloth" : world.scene.script.obstacles[move.obstacle].name;
             all.push_back(std::move(move));
         }
     }
@@ -111,24 +115,61 @@ std::string strain_text(double strain) {
     return text.str();
 }
 
+/// Out of obstacles; false where the detector finds no way.
+bool leave_obstacles(World& world, std::vector<int>& cause) {
+    const auto& points = world.state.cloth.points;
+    const std::optional<Untangled> out = world.scene.detector->untangle(points, {world.scene.script.free.data(), points.size()});
+    if (!out) return false;
+    for (std::size_t v = 0; v < cause.size(); ++v) {
+        if (out->obstacle[v] >= 0) cause[v] = out->obstacle[v];
+    }
+    place(world, out->positions);
+    return true;
+}
+
+/// Cloth out of cloth; false where the detector finds no way.
+bool leave_cloth(World& world, std::vector<int>& cause) {
+    const auto& points = world.state.cloth.points;
+    const auto out = world.scene.detector->untangle_cloth(points, {world.scene.script.free.data(), points.size()});
+    if (!out) return false;
+    for (std::size_t v = 0; v < cause.size(); ++v) {
+        if (cause[v] == unmoved && (*out)[v] != points[v]) cause[v] = moved_by_cloth;
+    }
+    place(world, *out);
+    return true;
+}
+
+/// What each way out leads into is left in turn. Returns why it does not end clear, or nothing; obstacles that a detector thinks
+/// it has left are not left again.
+std::string leave_all(World& world, StartFault fault, std::vector<int>& cause) {
+    bool left_obstacles = false;
+    for (int turn = 0; turn < most_repair_turns && fault.any(); ++turn) {
+        if (left_obstacles && !fault.between_cloths()) return "";
+        left_obstacles = !fault.between_cloths();
+        const bool left = left_obstacles ? leave_obstacles(world, cause) : leave_cloth(world, cause);
+        if (!left) return "no way out was found";
+        fault = world.scene.detector->check_start(world.state.cloth.points);
+    }
+    return fault.any() ? "no clear way out was found" : "";
+}
+
 }  // namespace
 
-StartRepair repair_start(World& world) {
+StartRepair repair_start(World& world, StartFault fault) {
     const ClothState before = world.state.cloth;
     const double strain_before = strain(world);
-    const std::optional<Untangled> out =
-        world.scene.detector->untangle(before.points, {world.scene.script.free.data(), before.points.size()});
-    if (!out) return {.obstruction = "no way out was found"};
-    place(world, out->positions);
-    relax(world, std::max(good_start_strain, strain_before));
-    StartRepair repair;
-    const double strain_after = strain(world);
-    if (strain_after > std::max(most_start_strain, strain_before))
-        repair.obstruction = strain_text(strain_after);
-    else if (world.scene.detector->check_start(world.state.cloth.points).any())
-        repair.obstruction = "no clear way out was found";
+    std::vector<int> cause(before.points.size(), unmoved);
+    StartRepair repair{.moves = {}, .obstruction = leave_all(world, std::move(fault), cause)};
+    if (repair.obstruction.empty()) {
+        relax(world, std::max(good_start_strain, strain_before));
+        const double strain_after = strain(world);
+        if (strain_after > std::max(most_start_strain, strain_before))
+            repair.obstruction = strain_text(strain_after);
+        else if (world.scene.detector->check_start(world.state.cloth.points).any())
+            repair.obstruction = "no clear way out was found";
+    }
     if (repair.obstruction.empty())
-        repair.moves = tell_moves(world, before.points, out->obstacle);
+        repair.moves = tell_moves(world, before.points, cause);
     else
         world.state.cloth = before;
     return repair;

@@ -14,9 +14,10 @@ struct StartRepair {
     std::string obstruction = {};  // empty where the start is clear now
 };
 
-/// Moves cloth that starts in conflict with obstacles out of them: the detector finds a clear state, then the springs relax
-/// what that has stretched, in steps without gravity and motion. Time, velocities, pins and obstacles stay. Where the detector
-/// finds no way, or a structural spring stays stretched by more than half (and more than it was), the state is left as it was.
-StartRepair repair_start(World& world);
+/// Moves cloth that starts in conflict with obstacles, or through cloth, out of them: the detector finds a clear state, then the
+/// springs relax what that has stretched, in steps without gravity and motion. Time, velocities, pins and obstacles stay. Where
+/// the detector finds no way, or a structural spring stays stretched by more than half (and more than it was), the state is left
+/// as it was. `fault`: what was found.
+StartRepair repair_start(World& world, StartFault fault);
 
 }  // namespace percale

@@ -14,7 +14,7 @@
 
 namespace percale {
 
-constexpr SealKind state_seal{.name = "PERCALES", .version = 5, .words = "saved state"};
+constexpr SealKind state_seal{.name = "PERCALES", .version = 6, .words = "saved state"};
 
 /// What an obstacle's name is not needed for.
 struct SavedObstacle {
@@ -30,7 +30,7 @@ struct SavedContact {
 
 /// All of a world that is not its model and its settings, nor made anew in each step.
 struct SavedWorld {
-    bool changed = true, plan_outdated = true;
+    bool changed = true, plan_outdated = true, cloth_waits = false;
     StepSettings settings;  // time step, gravity and wind of them
     StepState state;        // but for contact, and without points
     SavedContact contact;
@@ -75,7 +75,7 @@ void exchange(Archive& archive, Value& obstacle) {
 
 template <class Archive, OfType<Seam> Value>
 void exchange(Archive& archive, Value& seam) {
-    archive(seam.first_spring, seam.length, seam.from, seam.over);
+    archive(seam.first_spring, seam.length, seam.from, seam.over, seam.contact);
 }
 
 /// What plan_again takes over.
@@ -131,7 +131,7 @@ void exchange(Archive& archive, Value& move) {
 
 template <class Archive, OfType<SavedWorld> Value>
 void exchange(Archive& archive, Value& saved) {
-    archive(saved.changed, saved.plan_outdated);
+    archive(saved.changed, saved.plan_outdated, saved.cloth_waits);
     archive(saved.settings.time_step, saved.settings.gravity, saved.settings.wind);
     archive(saved.state, saved.contact, saved.free, saved.pin_targets, saved.obstacles, saved.seams, saved.sewn_directions,
             saved.clamps);
@@ -180,6 +180,7 @@ SavedWorld state_of(const World& world) {
     SavedWorld saved;
     saved.changed = world.changed;
     saved.plan_outdated = world.plan_outdated;
+    saved.cloth_waits = world.cloth_waits;
     saved.settings = scene.settings;
     saved.state = world.state;
     const ContactMemory& contact = world.state.contact;
@@ -257,8 +258,9 @@ private:
             reader_.demand(known && std::isfinite(impact.speed), "an impact on nothing");
         }
         for (const StartMove& move : saved_.start_moves) {
-            reader_.demand(there(move.cloth, world_.scene.model.cloths.size()) && there(move.obstacle, obstacles),
-                           "a move of nothing");
+            reader_.demand(
+                there(move.cloth, world_.scene.model.cloths.size()) && (move.obstacle == -1 || there(move.obstacle, obstacles)),
+                "a move of nothing");
         }
     }
 
@@ -278,7 +280,8 @@ private:
         bool same = saved_.seams.size() == world_.scene.script.seams.size();
         for (std::size_t k = 0; same && k < saved_.seams.size(); ++k) {
             const Seam &seam = saved_.seams[k], &own = world_.scene.script.seams[k];
-            same = seam.first_spring == own.first_spring && seam.length.size() == own.length.size();
+            same =
+                seam.first_spring == own.first_spring && seam.length.size() == own.length.size() && seam.contact == own.contact;
         }
         const std::vector<double>& lengths = saved_.state.cloth.rest_length;
         const auto springs = static_cast<std::size_t>(world_.scene.model.springs.size());
@@ -370,6 +373,29 @@ void put_state(SavedWorld& saved, World& world) {
     world.rest = std::move(saved.rest);
 }
 
+/// The detector holds cloth against cloth only if that does not wait. Where it refuses the state it is as it was.
+void restore_detector(const SavedWorld& saved, World& world) {
+    ContactDetector& detector = *world.scene.detector;
+    StateReader reader(saved.detector);
+    if (saved.cloth_waits == world.cloth_waits) return detector.restore(reader);
+    StateWriter before;
+    detector.save(before);
+    const std::vector<std::byte> own = before.take();
+    const auto let_wait = [&](bool waits) {
+        world.cloth_waits = waits;
+        pass_cloth_to_detector(world);
+    };
+    let_wait(saved.cloth_waits);
+    try {
+        detector.restore(reader);
+    } catch (const SceneError&) {
+        let_wait(!saved.cloth_waits);
+        StateReader again(own);
+        detector.restore(again);
+        throw;
+    }
+}
+
 }  // namespace
 
 std::vector<std::byte> saved_world(const World& world, const std::vector<StartMove>& start_moves) {
@@ -393,10 +419,7 @@ std::vector<StartMove> restore_world(std::span<const std::byte> bytes, World& wo
     reader(saved);
     reader.demand(reader.at_end(), "there is more than belongs to it");
     StateCheck(saved, world, reader).run();
-    if (world.scene.detector) {
-        StateReader detector(saved.detector);
-        world.scene.detector->restore(detector);
-    }
+    if (world.scene.detector) restore_detector(saved, world);
     put_script(saved, world.scene.script);
     put_model(saved, world.scene.model);
     put_state(saved, world);

@@ -15,6 +15,11 @@ bool meets_cloth(const StepScene& scene) {
                        [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
 }
 
+bool sews_without_contact(const World& world) {
+    return std::ranges::any_of(world.scene.script.seams,
+                               [&](const Seam& seam) { return !seam.contact && seam.closes_after(world.state.time); });
+}
+
 void pass_cloth_to_detector(World& world) {
     const ClothModel& model = world.scene.model;
     if (!world.scene.detector) return;
@@ -22,7 +27,7 @@ void pass_cloth_to_detector(World& world) {
     const double factor = world.work.newton.law(world.scene.settings.contact_response).zone();
     for (double& thickness : zone) thickness *= factor;
     world.scene.detector->set_cloth(model.triangles, zone);
-    if (!meets_cloth(world.scene)) return;
+    if (!meets_cloth(world.scene) || world.cloth_waits) return;
     std::vector<int> owner;
     std::vector<double> friction;
     for (std::size_t c = 0; c < model.cloths.size(); ++c) {

@@ -27,12 +27,16 @@ struct World {
     UserViews views;
     bool plan_outdated = true;  // the scene has changed since the plan was made
     bool changed = true;        // cloth or obstacles were added since the last preparation
+    bool cloth_waits = false;   // for seams to close, until it meets cloth
 };
 
 /// Some cloth has self_contact.
 bool meets_cloth(const StepScene& scene);
 
-/// Tells the detector all cloth anew, and what of it meets cloth.
+/// Whether a seam that lets no cloth meet cloth closes.
+bool sews_without_contact(const World& world);
+
+/// Tells the detector all cloth anew, and what of it meets cloth, unless it waits.
 void pass_cloth_to_detector(World& world);
 
 /// Throws SceneError where the scheme takes no contact and the scene has some, or takes none by projection.

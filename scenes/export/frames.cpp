@@ -71,7 +71,7 @@ FrameRecord FrameWriter::write(const Frame& frame) {
     record.cloths = files.cloths;
     record.obstacles = files.obstacles;
     for (std::size_t i = 0; i < record.cloths.size(); ++i)
-        if (cloth_meets_[i]) record.meeting.push_back(record.cloths[i]);
+        if (cloth_meets_[i] && frame.cloth_meets) record.meeting.push_back(record.cloths[i]);
     return record;
 }
 

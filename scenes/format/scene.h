@@ -92,6 +92,7 @@ struct SeamSpec {
     std::string file;                                         // of more, relative to the scene file; "mesh": that of the cloth
     double over = 1.0;                                        // s
     double stiffness = 1000.0;                                // N/m
+    bool contact_while_closing = true;
     SourcePlace place;
 };
 

@@ -151,6 +151,11 @@ const FieldTable<SeamSpec>& seam_table() {
                                        .lowest = 1e-3,
                                        .highest = 1e9},
                                       &SeamSpec::stiffness),
+                value_field<SeamSpec>(
+                    {.path = "contact_while_closing",
+                     .sentence = "false: until this seam has closed no cloth meets cloth; what then crosses is untangled. For "
+                                 "panels that start over each other."},
+                    &SeamSpec::contact_while_closing),
             },
         .rules = {.shown = [](const TomlNode&) -> std::string { return "seam"; },
                   .at_least_one = {"vertices", "points", "file"},

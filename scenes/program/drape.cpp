@@ -39,6 +39,7 @@ struct DrapeOptions {
     double seconds = 20.0;      // s, limit
     double edge_length = 0.02;  // m, of a pattern's mesh
     bool until_rest = true;     // there is nothing else
+    bool no_self_contact = false;
     bool quiet = false;
 };
 
@@ -47,6 +48,7 @@ enum class DrapeEnd { settled, time_up, failed, stopped };
 struct Drape {
     DrapeEnd end = DrapeEnd::time_up;
     StepReport last;
+    std::string failure = {};
     double speed = 0.0;  // m/s, of the fastest vertex
     bool met = false;    // whether the garment ever had contact with the body
 };
@@ -84,6 +86,7 @@ Scene drape_scene(const DrapeOptions& options) {
     scene.until_rest = true;
     scene.longest = options.seconds;
     scene.fabrics["garment"] = options.fabric;
+    scene.fabrics["garment"].self_contact = !options.no_self_contact;
     ClothSpec cloth;
     cloth.name = "garment";
     cloth.fabric = "garment";
@@ -98,6 +101,7 @@ Scene drape_scene(const DrapeOptions& options) {
         seam.file = "mesh";
         seam.over = sewing_time;
         seam.stiffness = sewing_stiffness;
+        seam.contact_while_closing = false;
         seam.place = cloth.place;
     } else {
         cloth.mesh = options.garment;
@@ -127,9 +131,16 @@ Drape settle(BuiltScene& built, const DrapeOptions& options) {
             sewn = true;
         }
         watch.begin(built.simulation, built.cloths);
-        drape.last = built.simulation.step();
+        try {
+            drape.last = built.simulation.step();
+        } catch (const StartError& error) {
+            drape.end = DrapeEnd::failed;
+            drape.failure = std::string(error.what()) + " (--no-self-contact: as if it did not)";
+            return drape;
+        }
         if (!drape.last.ok()) {
             drape.end = DrapeEnd::failed;
+            drape.failure = drape.last.explanation();
             return drape;
         }
         watch.look(built.simulation, built.cloths, drape.last, built.scene.step.gravity, true);
@@ -152,14 +163,25 @@ FrameCheck write_and_certify(const BuiltScene& built, const DrapeOptions& option
     write_obj(options.out, cloth.vertices, cloth.triangles);
     FrameCheck check;
     add_certificate(check, certify(cloth, body, 4.0 * options.fabric.thickness));
+    std::vector<Stitch> stitches;
+    for (const BuiltSeam& seam : built.seams)
+        stitches.insert(stitches.end(), seam.sewn.stitches.begin(), seam.sewn.stitches.end());
+    FrameCheck own;
+    add_cloth_certificate(own, {&cloth, 1}, stitches);
+    if (!options.no_self_contact)
+        check.intersections += own.intersections;
+    else if (own.intersections > 0 && !options.quiet)
+        std::printf("without self-contact: the garment crosses itself in %d triangle pairs\n", own.intersections);
     return check;
 }
 
 int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& check) {
     const char* out = options.out.c_str();
     if (!check.clean()) {
-        std::fprintf(stderr, "percale: %s: not clean: %d intersecting pairs, %d vertices inside the body, deepest %.3g m\n", out,
-                     check.intersections, check.vertices_inside, check.deepest_penetration);
+        std::fprintf(stderr,
+                     "percale: %s: not clean: %d intersecting pairs (with the body or itself), %d vertices inside the body, "
+                     "deepest %.3g m\n",
+                     out, check.intersections, check.vertices_inside, check.deepest_penetration);
         return not_as_expected;
     }
     if (drape.end == DrapeEnd::settled) return all_well;
@@ -196,7 +218,7 @@ int drape_garment(const DrapeOptions& options) {
     std::fflush(stdout);
     const Drape drape = settle(built, options);
     if (drape.end == DrapeEnd::failed) {
-        std::fprintf(stderr, "percale: %s: nothing was written: %s\n", options.garment.c_str(), drape.last.explanation().c_str());
+        std::fprintf(stderr, "percale: %s: nothing was written: %s\n", options.garment.c_str(), drape.failure.c_str());
         return not_as_expected;
     }
     const FrameCheck check = write_and_certify(built, options);
@@ -262,6 +284,7 @@ void add_options(CLI::App& command, DrapeOptions& options) {
     command.add_option("--seconds", options.seconds, "Simulated time at most, s (default 20)")->type_name("S");
     command.add_flag("--until-rest", options.until_rest,
                      "Go on until the garment is proven at rest; so it does without this, too");
+    command.add_flag("--no-self-contact", options.no_self_contact, "Let the garment pass through itself, which costs less");
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 

@@ -70,7 +70,16 @@ Frame first_frame(const BuiltScene& built) {
     return frame;
 }
 
+/// Whether a seam that lets no cloth meet cloth closes.
+bool sews_without_contact(const BuiltScene& built) {
+    return std::ranges::any_of(built.scene.seams, [&](const SeamSpec& seam) {
+        return !seam.contact_while_closing && built.simulation.time() < seam.over;
+    });
+}
+
 void certify_meeting_cloth(const BuiltScene& built, Frame& frame) {
+    frame.cloth_meets = !sews_without_contact(built);
+    if (!frame.cloth_meets) return;
     std::vector<TriangleMesh> meeting;
     std::vector<int> first_vertex(frame.cloths.size(), -1);
     int vertices = 0;
@@ -216,7 +225,14 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, doub
     const bool look = changes_gravity(built.scene) && !is_measured_by_frames(built);
     const double before = look ? built.simulation.energy().total() : totals.energy.total();
     if (script.rest) script.rest->begin(built.simulation, built.cloths);
-    StepReport report = built.simulation.step();
+    StepReport report;
+    try {
+        report = built.simulation.step();
+    } catch (const StartError& error) {
+        result.status = RunStatus::failed;
+        result.reason = error.what();
+        return false;
+    }
     totals.cpu_s += report.cpu_s;
     if (is_measured_by_frames(built) && script.observer.frame_is_due()) measure_frame(built.simulation, report);
     add_cost(totals, report);

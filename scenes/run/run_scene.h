@@ -21,6 +21,7 @@ struct Frame {
     double time = 0.0;                    // s, of the state shown
     std::vector<TriangleMesh> cloths;     // in the order of the scene
     std::vector<TriangleMesh> obstacles;  // in the order of the scene
+    bool cloth_meets = true;              // not while seams close without contact; then it is not certified against cloth
     FrameCheck check;
 };
 

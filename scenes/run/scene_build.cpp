@@ -113,8 +113,9 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
 
 void sew(BuiltScene& built, const SeamSpec& seam, BuiltSeam made) {
     const auto [first, second] = made.sewn.cloths;
-    made.id = built.simulation.add_seam(built.cloths[first], built.cloths[second], made.sewn.stitches,
-                                        {.over = seam.over, .stiffness = seam.stiffness, .name = made.name});
+    made.id = built.simulation.add_seam(
+        built.cloths[first], built.cloths[second], made.sewn.stitches,
+        {.over = seam.over, .stiffness = seam.stiffness, .contact_while_closing = seam.contact_while_closing, .name = made.name});
     built.seams.push_back(std::move(made));
 }
 

@@ -50,6 +50,9 @@ TriangleMesh offending_triangles(std::span<const TriangleMesh> cloths, const Tri
 std::string start_move_text(const StartMove& move) {
     char farthest[32];
     std::snprintf(farthest, sizeof farthest, "%.3g", move.largest_move);
+    if (move.obstacle < 0)
+        return std::to_string(move.vertices_moved) + " vertices of " + move.cloth_name +
+               " moved back out of cloth that they crossed, the farthest by " + farthest + " m";
     return std::to_string(move.vertices_moved) + " vertices of " + move.cloth_name + " moved out of " + move.obstacle_name +
            " before the start, the farthest by " + farthest + " m";
 }

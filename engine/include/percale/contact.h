@@ -149,6 +149,14 @@ public:
         return std::nullopt;
     }
 
+    /// Positions in which no cloth that meets cloth crosses or touches such cloth, as near to the given ones as was found,
+    /// whatever the obstacles; vertices sewn to each other have one place. Nothing where none were found. Vertices with free = 0
+    /// stay.
+    virtual std::optional<std::vector<Vec3>> untangle_cloth(std::span<const Vec3> positions, std::span<const double> free) {
+        static_cast<void>(positions), static_cast<void>(free);
+        return std::nullopt;
+    }
+
     /// Once a step: makes the candidate lists good for moves between these positions. Outrunning them later is allowed:
     /// the lists then grow.
     virtual void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) = 0;

@@ -135,10 +135,10 @@ struct StepReport {
     void explain(std::FILE* out) const;
 };
 
-/// What was done to a cloth that started through, inside or touching an obstacle.
+/// What was done to a cloth that started through, inside or touching an obstacle, or through cloth.
 struct StartMove {
     int cloth = -1;
-    int obstacle = -1;
+    int obstacle = -1;  // -1: cloth
     std::string cloth_name = {}, obstacle_name = {};
     int vertices_moved = 0;     // by more than a tenth of the thickness
     double largest_move = 0.0;  // m

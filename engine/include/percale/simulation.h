@@ -76,13 +76,14 @@ public:
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
 
-    /// Checks the scene as a whole; the first step calls it. Cloth that starts through, inside or touching an obstacle is moved
-    /// out (StepSettings::start): its free vertices only, no structural spring longer than by half; velocities stay. Throws
-    /// StartError, and leaves everything as it was, where that is not possible or not wanted, where a pinned vertex is inside
-    /// an obstacle, or where cloth with self_contact starts through or touching such cloth; SceneError where the scheme takes
-    /// neither.
+    /// Checks the scene as a whole; the first step calls it, and that in which seams have closed without contact. Cloth that
+    /// starts through, inside or touching an obstacle, or cloth with self_contact that does so with such cloth, is moved out
+    /// (StepSettings::start): its free vertices only, no structural spring longer than by half; velocities stay. Throws
+    /// StartError, and leaves everything as it was, where that is not possible or not wanted, or where a pinned vertex is inside
+    /// an obstacle; SceneError where the scheme takes neither.
     void prepare();
-    /// What the last `prepare` that found something to check moved out of obstacles; empty where the start was clear.
+    /// What the last `prepare` that found something to check moved, and what was when seams had closed; empty where all was
+    /// clear.
     std::span<const StartMove> start_repair() const;
     StepReport step();
     /// What the coming steps are made of and what is left out; runs nothing. `to_come`: what will change later on.

@@ -20,6 +20,9 @@ struct Stitch {
 struct SeamSettings {
     double over = 1.0;          // s, how long closing takes, 0 ... 1e6
     double stiffness = 1000.0;  // N/m of each stitch, 1e-3 ... 1e9
+    /// Whether cloth meets cloth while it closes. If not, no cloth of the simulation does before; what crosses then is untangled
+    /// (Simulation::prepare). For panels that start over each other.
+    bool contact_while_closing = true;
     std::string name = "seam";  // for messages
 };
 

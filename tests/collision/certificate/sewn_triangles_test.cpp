@@ -54,3 +54,8 @@ TEST_CASE("crossings of triangles that a stitch joins are told apart from those 
     CHECK(elsewhere.crossing.size() == loose.crossing.size());
     CHECK_THROWS_AS(certify_cloth(mesh, std::vector<Stitch>{{9, 0, 40}}), SceneError);
 }
+
+TEST_CASE("vertices sewn to each other, in chains too, count as the lowest of them") {
+    const std::vector<Stitch> stitches = {{4, 2, 2, 0.0}, {5, 4, 1, 0.0}, {3, 0, 1, 0.5}};
+    CHECK(certificate::closed_vertices(6, stitches) == std::vector<int>{0, 1, 2, 3, 2, 2});
+}

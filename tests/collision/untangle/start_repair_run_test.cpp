@@ -196,3 +196,115 @@ TEST_CASE("a start is checked where the obstacle has come to, also after steps")
     scene.simulation.set_positions(scene.cloth, make_grid(0.3, 0.3, 7, 7).vertices);
     CHECK_NOTHROW(scene.simulation.prepare());
 }
+
+namespace {
+
+const Fabric meeting_fabric{.area_density = 0.2,
+                            .thickness = 4e-3,
+                            .self_contact = true,
+                            .springs = {.structural = 500.0, .bend = 2.0},
+                            .spring_damping = 0.5};
+
+TriangleMesh free_grid(int columns, int rows) {
+    TriangleMesh mesh = make_grid(0.4, 0.4, columns, rows);
+    mesh.grid_columns = mesh.grid_rows = 0;
+    return mesh;
+}
+
+/// Triangle pairs of cloth that cross, all cloths together, but for those of one stitch.
+std::size_t crossings(const Simulation& simulation, const std::vector<TriangleMesh>& meshes,
+                      const std::vector<Stitch>& stitches = {}) {
+    TriangleMesh all;
+    for (int c = 0; c < static_cast<int>(meshes.size()); ++c) {
+        TriangleMesh cloth = meshes[c];
+        const std::span<const Vec3> x = simulation.positions({c});
+        cloth.vertices.assign(x.begin(), x.end());
+        all = c == 0 ? cloth : joined(all, cloth);
+    }
+    return certify_cloth(all, stitches).crossing.size();
+}
+
+/// Two panels of one cloth, the second through the first, sewn edge to edge within 0.2 s.
+struct SewnPanels {
+    TriangleMesh mesh;
+    std::vector<Stitch> stitches;
+    Simulation simulation;
+
+    explicit SewnPanels(bool contact = false)
+        : simulation({.time_step = 1.0 / 60.0, .gravity = Vec3::Zero()}, make_brute_force_detector()) {
+        TriangleMesh second = moved(free_grid(11, 11), {0.2, 0, 0});
+        for (Vec3& x : second.vertices) x.y() = 0.5 * x.x() - 0.05;
+        mesh = joined(free_grid(11, 11), second);
+        mesh.grid_columns = mesh.grid_rows = 0;
+        for (int k = 0; k < 11; ++k) stitches.push_back({11 * k + 10, 121 + 11 * k, 121 + 11 * k, 0.0});
+        simulation.add_cloth(mesh, meeting_fabric);
+        simulation.add_seam({0}, {0}, stitches, {.over = 0.2, .stiffness = 500.0, .contact_while_closing = contact});
+    }
+    void run(int steps) {
+        for (int n = 0; n < steps; ++n) REQUIRE(simulation.step().ok());
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a sheet interleaved with another is moved out of it, told about, and then simulated") {
+    TriangleMesh wavy = make_grid(0.4, 0.4, 19, 19);
+    for (Vec3& x : wavy.vertices) x.y() = 0.0005 + 0.005 * std::sin(22.0 * x.x()) * std::cos(17.0 * x.z());
+    const std::vector<TriangleMesh> sheets = {make_grid(0.4, 0.4, 21, 21), wavy};
+    const StartRule rule = GENERATE(StartRule::repair, StartRule::refuse);
+    Simulation simulation({.time_step = 1.0 / 60.0, .start = rule, .gravity = Vec3::Zero()}, make_brute_force_detector());
+    for (const TriangleMesh& sheet : sheets) simulation.add_cloth(sheet, meeting_fabric);
+    REQUIRE(crossings(simulation, sheets) > 100);
+    const std::string error = error_of([&] { simulation.prepare(); });
+    if (rule == StartRule::refuse) {
+        CHECK(holds(error, {"intersecting triangle pairs", "move them apart", "start = repair"}));
+        CHECK(simulation.positions({1})[5] == wavy.vertices[5]);
+        return;
+    }
+    CHECK(error == "nothing was thrown");
+    CHECK(crossings(simulation, sheets) == 0);
+    REQUIRE(simulation.start_repair().size() == 2);
+    for (const StartMove& move : simulation.start_repair()) {
+        CHECK(move.obstacle == -1);
+        CHECK(move.obstacle_name == "cloth");
+        CHECK(move.largest_move < 0.03);
+    }
+    for (int n = 0; n < 30; ++n) {
+        REQUIRE(simulation.step().ok());
+        REQUIRE(crossings(simulation, sheets) == 0);
+    }
+    CHECK(simulation.largest_strain() < 0.1);
+}
+
+TEST_CASE("panels that are sewn without contact cross until their seam has closed, and then do not") {
+    SewnPanels panels;
+    panels.run(11);
+    CHECK(panels.simulation.start_repair().empty());
+    CHECK(crossings(panels.simulation, {panels.mesh}, panels.stitches) > 0);
+    while (panels.simulation.time() < 0.2) panels.run(1);
+    CHECK_FALSE(panels.simulation.start_repair().empty());
+    for (int n = 0; n < 30; ++n) {
+        REQUIRE(crossings(panels.simulation, {panels.mesh}, panels.stitches) == 0);
+        panels.run(1);
+    }
+    const std::vector<double> gaps = panels.simulation.seam_gaps({0});
+    CHECK(*std::max_element(gaps.begin(), gaps.end()) < 1e-3);
+    SewnPanels with_contact(true);
+    with_contact.simulation.prepare();
+    CHECK(crossings(with_contact.simulation, {panels.mesh}, panels.stitches) == 0);
+}
+
+TEST_CASE("sewing without contact goes on from a saved state with the same bits, before and after closing") {
+    const int saved_after = GENERATE(4, 20);
+    SewnPanels whole, resumed;
+    whole.run(saved_after);
+    const std::vector<std::byte> state = whole.simulation.save();
+    resumed.simulation.restore(state);
+    CHECK(resumed.simulation.start_repair().size() == whole.simulation.start_repair().size());
+    whole.run(25);
+    resumed.run(25);
+    CHECK(resumed.simulation.state_hash() == whole.simulation.state_hash());
+    // A state of the other kind is refused, and changes nothing.
+    SewnPanels other(true);
+    CHECK(holds(error_of([&] { other.simulation.restore(state); }), {"seams"}));
+}

@@ -174,7 +174,7 @@ TEST_CASE("cloth that starts inside an obstacle is told, by how far it is moved 
     CHECK(severity(examined(inside, {{"cloth.sheet.pin", "[0]"}}), "start") == "error");
 }
 
-TEST_CASE("cloths with self_contact that start through each other are an error at the cloth") {
+TEST_CASE("cloths with self_contact that start through each other are told of, or an error at the cloth where that is refused") {
     const std::string two = R"(
 [fabric.sheet]
 self_contact = true
@@ -191,9 +191,10 @@ grid = { size = [0.3, 0.3], vertices = [4, 4] }
 pose = { translation = [0.02, 0.0, 0.03], rotation = [0.94, 0.342, 0.0, 0.0] }
 pin = [0]
 )";
-    const auto found = examined(two);
+    const auto found = examined(two, {{"step.start", "refuse"}});
     INFO(kinds(found));
     CHECK(severity(found, "start") == "error");
+    CHECK(severity(examined(two), "start_moved") == "warning");
     CHECK(kinds(examined(two, {{"cloth.two.pose.translation", "[0.0, 1.0, 0.0]"}})).empty());
 }
 

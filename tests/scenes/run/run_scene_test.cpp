@@ -406,3 +406,45 @@ TEST_CASE("a sheet on a plate that turns fifty times a second is dragged the way
     // the sheet, at rest before, still has of it.
     CHECK(momentum == Approx(0.5 * lever * (0.1 * g + rise / mass)).epsilon(0.05));
 }
+
+TEST_CASE("panels that start through each other are sewn without contact, which later frames have") {
+    const test::TestFolder folder;
+    // Two squares, the second through the first, sewn along one edge of each.
+    TriangleMesh first = make_grid(0.4, 0.4, 7, 7);
+    std::string text;
+    for (int panel = 0; panel < 2; ++panel) {
+        for (const Vec3& x : first.vertices) {
+            const double u = x.x() + 0.2 * panel;
+            text +=
+                "v " + std::to_string(u) + ' ' + std::to_string(panel * (0.5 * u - 0.05)) + ' ' + std::to_string(x.z()) + '\n';
+        }
+    }
+    for (int panel = 0; panel < 2; ++panel) {
+        for (const auto& [a, b, c] : first.triangles) {
+            const int o = 1 + 49 * panel;
+            text += "f " + std::to_string(a + o) + ' ' + std::to_string(b + o) + ' ' + std::to_string(c + o) + '\n';
+        }
+    }
+    for (int k = 0; k < 7; ++k) {
+        const int other = 49 + 7 * k;
+        text += "stitch " + std::to_string(7 * k + 6) + ' ' + std::to_string(other) + ' ' + std::to_string(other) + " 0\n";
+    }
+    folder.write("panels.obj", text);
+    const std::string scene =
+        "duration = 0.6\ngravity = [0, 0, 0]\n[fabric.f]\narea_density = 0.2\nthickness = 0.004\nself_contact = true\n"
+        "spring_damping = 0.5\nsprings = { structural = 500.0, bend = 2.0 }\n[[cloth]]\nname = \"c\"\nfabric = \"f\"\n"
+        "mesh = \"panels.obj\"\n[[seam]]\nfile = \"mesh\"\nover = 0.3\nstiffness = 500.0\n"
+        "contact_while_closing = false\n[output]\nfps = 30\n";
+    const std::string file = folder.write("sewn.toml", scene);
+    const Recorded recorded = record(load_scene(file));
+    REQUIRE(recorded.result.status == RunStatus::finished);
+    CHECK(recorded.result.measures.intersections == 0);
+    for (const Frame& frame : recorded.frames) {
+        CAPTURE(frame.time);
+        CHECK(frame.cloth_meets == (frame.time >= 0.3));
+        CHECK(frame.check.intersections == 0);
+    }
+    const std::vector<IntersectingPair> before = self_intersections(recorded.frames[2].cloths[0]);
+    CHECK_FALSE(before.empty());
+    CHECK(self_intersections(recorded.frames.back().cloths[0]).empty());
+}

@@ -1,4 +1,4 @@
-#include "collision/self/cloth_surface.h"
+#include "collision/geometry/cloth_surface.h"
 
 #include <algorithm>
 #include <set>

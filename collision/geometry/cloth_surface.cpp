@@ -1,4 +1,4 @@
-#include "self/cloth_surface.h"
+#include "geometry/cloth_surface.h"
 
 #include <algorithm>
 

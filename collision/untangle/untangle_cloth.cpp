@@ -1,0 +1,204 @@
+#include "untangle/untangle_cloth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "certificate/sewn_triangles.h"
+#include "percale/certify.h"
+#include "tolerances.h"
+#include "untangle/edge_crossings.h"
+
+namespace percale {
+namespace {
+
+/// What keeps two vertices as far apart as they were.
+struct Bond {
+    std::array<int, 2> vertex;
+    double length;  // m
+};
+
+class Rounds {
+public:
+    Rounds(const CrossedCloth& cloth, std::span<const Vec3> positions)
+        : number_(certificate::closed_vertices(positions.size(), cloth.stitches)),
+          free_(cloth.free.begin(), cloth.free.end()),
+          mesh_{.vertices = {positions.begin(), positions.end()}, .triangles = {}} {
+        sew_together();
+        for (const Triangle& t : cloth.triangles) {
+            const Triangle sewn{number_[t[0]], number_[t[1]], number_[t[2]]};
+            if (sewn[0] != sewn[1] && sewn[1] != sewn[2] && sewn[2] != sewn[0]) mesh_.triangles.push_back(sewn);
+        }
+        for (const auto& [vertex, from, to, share] : cloth.stitches) {
+            const Stitch stitch{number_[vertex], number_[from], number_[to], share};
+            if (!stitch.joins_vertices()) stitches_.push_back(stitch);
+        }
+        surface_ = make_cloth_surface(mesh_.triangles, mesh_.vertices.size());
+        double sum = 0.0;
+        for (const ClothSurface::Edge& edge : surface_.edges) {
+            bonds_.push_back({edge.vertex, (mesh_.vertices[edge.vertex[0]] - mesh_.vertices[edge.vertex[1]]).norm()});
+            sum += bonds_.back().length;
+        }
+        reach_ = tolerances::retreat_share * sum / static_cast<double>(bonds_.size());
+    }
+
+    std::optional<std::vector<Vec3>> run() {
+        std::size_t fewest = std::numeric_limits<std::size_t>::max();
+        int since_fewest = 0;
+        for (int round = 0; round < tolerances::most_untangle_rounds; ++round) {
+            const std::vector<IntersectingPair> pairs = find_pairs(round);
+            if (pairs.empty()) return places();
+            ++since_fewest;
+            if (pairs.size() < fewest) {
+                fewest = pairs.size();
+                since_fewest = 0;
+            }
+            if (since_fewest > tolerances::most_idle_rounds) return std::nullopt;
+            move_back(edge_crossings(surface_, pairs, mesh_.vertices));
+            if (since_fewest > tolerances::idle_rounds_before_smoothing) smooth(pairs);
+            for (int sweep = 0; sweep < tolerances::bond_sweeps; ++sweep) keep_lengths();
+        }
+        return std::nullopt;
+    }
+
+private:
+    /// Vertices sewn to each other get the place in their middle, or of one that stays.
+    void sew_together() {
+        std::vector<Vec3> sum(number_.size(), Vec3::Zero());
+        std::vector<int> count(number_.size(), 0);
+        for (std::size_t v = 0; v < number_.size(); ++v) {
+            const bool stays = free_[v] == 0.0;
+            if (free_[number_[v]] == 0.0 && !stays) continue;
+            if (stays && free_[number_[v]] > 0.0) {
+                free_[number_[v]] = 0.0;
+                sum[number_[v]] = Vec3::Zero();
+                count[number_[v]] = 0;
+            }
+            sum[number_[v]] += mesh_.vertices[v];
+            ++count[number_[v]];
+        }
+        for (std::size_t v = 0; v < number_.size(); ++v) {
+            if (count[v] > 0) mesh_.vertices[v] = sum[v] / static_cast<double>(count[v]);
+        }
+    }
+
+    /// What crosses or touches: of all cloth now and then and where nothing seems to be left, else of what is near the crossings
+    /// found then.
+    std::vector<IntersectingPair> find_pairs(int round) {
+        if (round % tolerances::rounds_between_searches != 0) {
+            const std::vector<IntersectingPair> pairs = pairs_among(near_);
+            if (!pairs.empty()) return pairs;
+        }
+        std::vector<int> all(mesh_.triangles.size());
+        std::iota(all.begin(), all.end(), 0);
+        const std::vector<IntersectingPair> pairs = pairs_among(all);
+        const std::vector<bool> near = near_vertices(pairs, tolerances::searched_rings);
+        std::erase_if(all, [&](int t) { return std::ranges::none_of(mesh_.triangles[t], [&](int v) { return near[v]; }); });
+        near_ = std::move(all);
+        return pairs;
+    }
+
+    std::vector<IntersectingPair> pairs_among(const std::vector<int>& triangles) const {
+        TriangleMesh part{.vertices = mesh_.vertices, .triangles = {}};
+        for (const int t : triangles) part.triangles.push_back(mesh_.triangles[t]);
+        ClothCertificate certificate = certify_cloth(part, stitches_);
+        std::vector<IntersectingPair>& pairs = certificate.crossing;
+        pairs.insert(pairs.end(), certificate.touching.begin(), certificate.touching.end());
+        for (auto& [first, second] : pairs) {
+            first = triangles[first];
+            second = triangles[second];
+        }
+        return std::move(pairs);
+    }
+
+    /// Whether a vertex is one of the pairs', or at most so many edges from one.
+    std::vector<bool> near_vertices(const std::vector<IntersectingPair>& pairs, int rings) const {
+        std::vector<bool> near(mesh_.vertices.size(), false);
+        for (const auto& [first, second] : pairs) {
+            for (const int triangle : {first, second}) {
+                for (const int v : mesh_.triangles[triangle]) near[v] = true;
+            }
+        }
+        for (int ring = 0; ring < rings; ++ring) {
+            const std::vector<bool> inner = near;
+            for (const ClothSurface::Edge& edge : surface_.edges) {
+                for (int k = 0; k < 2; ++k) near[edge.vertex[k]] = near[edge.vertex[k]] || inner[edge.vertex[1 - k]];
+            }
+        }
+        return near;
+    }
+
+    std::vector<Vec3> places() const {
+        std::vector<Vec3> result;
+        for (const int number : number_) result.push_back(mesh_.vertices[number]);
+        return result;
+    }
+
+    /// Each vertex goes along the mean of what its crossings ask for.
+    void move_back(const std::vector<EdgeCrossing>& crossings) {
+        std::vector<Vec3> moves(mesh_.vertices.size(), Vec3::Zero());
+        std::vector<double> weights(moves.size(), 0.0);
+        for (const EdgeCrossing& crossing : crossings) {
+            const double length = crossing.retreat.norm();
+            if (!(length > 0.0)) continue;
+            // Long where the edge lies flat: as a direction, and little where the curve would hardly get shorter.
+            const Vec3 share = crossing.retreat / std::hypot(length, tolerances::least_retreat);
+            const auto add = [&](int vertex, double weight, double sign) {
+                moves[vertex] += sign * weight * share;
+                weights[vertex] += weight;
+            };
+            add(crossing.edge[0], 1.0 - crossing.share, 1.0);
+            add(crossing.edge[1], crossing.share, 1.0);
+            for (int k = 0; k < 3; ++k) add(crossing.triangle[k], crossing.weight[k], -1.0);
+        }
+        for (std::size_t v = 0; v < moves.size(); ++v) {
+            if (weights[v] > 0.0 && free_[v] > 0.0) mesh_.vertices[v] += reach_ / std::max(weights[v], 1.0) * moves[v];
+        }
+    }
+
+    /// Draws what crosses, and what is near it, half way to the middle of its neighbours: folds that hang on one vertex, or
+    /// between two seams, have no shorter curve to go back to.
+    void smooth(const std::vector<IntersectingPair>& pairs) {
+        const std::vector<bool> near = near_vertices(pairs, tolerances::smoothed_rings);
+        const std::vector<Vec3> before = mesh_.vertices;
+        for (std::size_t v = 0; v < near.size(); ++v) {
+            if (!near[v] || free_[v] == 0.0) continue;
+            Vec3 sum = Vec3::Zero();
+            const auto neighbours = surface_.neighbours(static_cast<int>(v));
+            for (const int other : neighbours) sum += before[other];
+            mesh_.vertices[v] = 0.5 * (before[v] + sum / static_cast<double>(neighbours.size()));
+        }
+    }
+
+    void keep_lengths() {
+        for (const auto& [vertex, length] : bonds_) {
+            Vec3 &a = mesh_.vertices[vertex[0]], &b = mesh_.vertices[vertex[1]];
+            const double now = (b - a).norm(), most = length * (1.0 + tolerances::bond_slack),
+                         least = length * (1.0 - tolerances::bond_slack);
+            if ((now >= least && now <= most) || !(now > 0.0)) continue;
+            const double one = free_[vertex[0]], other = free_[vertex[1]];
+            if (one + other == 0.0) continue;
+            const Vec3 change = (now - std::clamp(now, least, most)) / (now * (one + other)) * (b - a);
+            a += one * change;
+            b -= other * change;
+        }
+    }
+
+    std::vector<int> number_;  // of each vertex, that of the lowest it is sewn to
+    std::vector<double> free_;
+    TriangleMesh mesh_;             // sewn together: of what one stitch joins the lowest vertex alone is used
+    std::vector<Stitch> stitches_;  // to points between vertices
+    ClothSurface surface_;
+    std::vector<Bond> bonds_;
+    std::vector<int> near_;  // triangles near the crossings of the last search of all cloth
+    double reach_ = 0.0;     // m, farthest that a round moves a vertex
+};
+
+}  // namespace
+
+std::optional<std::vector<Vec3>> untangle_cloth(const CrossedCloth& cloth, std::span<const Vec3> positions) {
+    return Rounds(cloth, positions).run();
+}
+
+}  // namespace percale
