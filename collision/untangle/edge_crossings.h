@@ -22,10 +22,10 @@ struct EdgeCrossing {
 
 /// All of them between the triangles of the pairs. An edge does not pierce a triangle that it shares a vertex with.
 ///
-/// With E along the edge, N the triangle's normal, R_k in the triangle's plane along the curve into each face at the edge, and S the
-/// sum of all R_k, the way back is S - 2 (E . S)/(E . N) N (Volino and Magnenat-Thalmann, Resolving surface collisions through
-/// intersection contour minimization, 2006). A move u of one of two surfaces against the other changes the length of the curve in
-/// which they cross by -1/2 u . (the sum of all ways back of its edges, less that of those that pierce it).
+/// With E along the edge, N the triangle's normal, R_k in the triangle's plane along the curve into each face at the edge, and S
+/// the sum of all R_k, the way back is S - 2 (E . S)/(E . N) N (Volino and Magnenat-Thalmann, Resolving surface collisions
+/// through intersection contour minimization, 2006). A move u of one of two surfaces against the other changes the length of the
+/// curve in which they cross by -1/2 u . (the sum of all ways back of its edges, less that of those that pierce it).
 std::vector<EdgeCrossing> edge_crossings(const ClothSurface& surface, std::span<const IntersectingPair> pairs,
                                          std::span<const Vec3> positions);
 
