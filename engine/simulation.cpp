@@ -354,6 +354,7 @@ void Simulation::prepare() {
         std::vector<StartMove> moves = clear_start(world);
         std::vector<StartMove>& known = implementation_->start_moves;
         if (!sewn_now) known.clear();
+        if (sewn_now && !moves.empty()) world.state.past.forget();
         known.insert(known.end(), moves.begin(), moves.end());
         implementation_->update_views();
     }

@@ -161,3 +161,33 @@ TEST_CASE("a garment that is moved first falls as one that was there from the st
     };
     CHECK(draped({"--move", "0.25", "0.5", "0.125", "sheet.obj"}, "a.obj") == draped({"moved.obj"}, "b.obj"));
 }
+
+TEST_CASE("a garment that crosses itself is untangled first; without self-contact it is told how often it does") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    // A second layer, tilted: at one side it is 3 mm below the first.
+    TriangleMesh layers = read(folder, "sheet.obj");
+    const std::size_t lower = layers.vertices.size(), triangles = layers.triangles.size();
+    for (std::size_t v = 0; v < lower; ++v) {
+        const Vec3 x = layers.vertices[v];
+        layers.vertices.push_back(x + Vec3(0.003, 0.1 * (x.x() + 0.07), 0.004));
+    }
+    for (std::size_t t = 0; t < triangles; ++t) {
+        Triangle upper = layers.triangles[t];
+        for (int& v : upper) v += static_cast<int>(lower);
+        layers.triangles.push_back(upper);
+    }
+    scenes::write_obj(folder.path("layers.obj"), layers.vertices, layers.triangles);
+    const std::vector<std::string> arguments = {"drape", "layers.obj", "block.obj", "--seconds", "0.05", "-o", "out.obj"};
+    const ProgramRun with = run_program(arguments, folder.path());
+    CAPTURE(with.out, with.error);
+    CHECK(with.out.find("vertices of garment moved back out of cloth that they crossed") != std::string::npos);
+    CHECK(with.out.find(" 0 intersecting pairs") != std::string::npos);
+    CHECK(self_intersections(read(folder, "out.obj")).empty());
+    std::vector<std::string> off = arguments;
+    off.emplace_back("--no-self-contact");
+    const ProgramRun without = run_program(off, folder.path());
+    CAPTURE(without.out, without.error);
+    CHECK(without.out.find("without self-contact: the garment crosses itself in ") != std::string::npos);
+    CHECK(without.out.find(" 0 intersecting pairs") != std::string::npos);
+}
