@@ -81,6 +81,7 @@ MACHINE_PATH = re.compile(r'(?<![\w.}])/(?:work|root|home)/|(?<![\w.}])/tmp/[A-Z
 EIGEN_IN_PUBLIC = re.compile(
     r'\b(?:(?:Row)?Vector[24X][dfi]?|Matrix(?:[24X][dfi]?|[23]X[dfi]?|X[23][dfi]?)|Array(?:XX?|[24])[dfi]?|Quaternion[df]?'
     r'|(?:Isometry|Affine|Transform|Projective)[23]?[df]?|SparseMatrix|Dynamic)\b')
+TEST_NAME = re.compile(r'TEST_CASE\("((?:[^"\\\n]|\\.)*)"')
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">\n]+)[">]', re.M)
 COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/', re.S)
 
@@ -385,6 +386,14 @@ def check_texts(tree):
                 tree.complain(path, line_of(text, found.start()), f'{what} ({found.group()})')
 
 
+def check_test_names(tree):
+    """CTest takes the names of cases as a list, which a semicolon cuts in two."""
+    for path in tree.code('tests'):
+        for found in TEST_NAME.finditer(tree.text.get(path, '')):
+            if ';' in found.group(1):
+                tree.complain(path, line_of(tree.text[path], found.start()), 'semicolon in the name of a test, at which ctest cuts it in two')
+
+
 def check_test_size(tree):
     library = sum(code_lines(tree.text[path]) for path in tree.code(*LIBRARY))
     tests = sum(code_lines(tree.text[path]) for path in tree.code('tests'))
@@ -394,7 +403,8 @@ def check_test_size(tree):
 
 
 RULES = (check_top_level, check_directions, check_rooms, check_collision_folders, check_cycles, check_modules,
-         check_folder_sizes, check_mirror, check_public_headers, check_names, check_texts, check_readmes, check_glossary)
+         check_folder_sizes, check_mirror, check_public_headers, check_names, check_texts, check_test_names,
+         check_readmes, check_glossary)
 
 
 def check(root):

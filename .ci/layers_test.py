@@ -60,6 +60,10 @@ class Rules(unittest.TestCase):
     def include_caught(self, path, include, expected):
         self.caught(path, CLEAN.get(path, '') + f'#include {include}\n', expected)
 
+    def test_semicolons_in_test_names(self):
+        self.caught('tests/engine/model/shapes_test.cpp', CLEAN['tests/engine/model/shapes_test.cpp'] + 'TEST_CASE("one; two") { CHECK(shape() == 3); }\n',
+                    'semicolon in the name of a test')
+
     def test_a_clean_tree_passes(self):
         self.assertEqual(violations(), [])
 

@@ -162,7 +162,7 @@ TEST_CASE("a garment that is moved first falls as one that was there from the st
     CHECK(draped({"--move", "0.25", "0.5", "0.125", "sheet.obj"}, "a.obj") == draped({"moved.obj"}, "b.obj"));
 }
 
-TEST_CASE("a garment that crosses itself is untangled first; without self-contact it is told how often it does") {
+TEST_CASE("a garment that crosses itself is untangled first, and without self-contact it is told how often it does") {
     const TestFolder folder;
     write_pair(folder, 1.0);
     // A second layer, tilted: at one side it is 3 mm below the first.
