@@ -1,0 +1,113 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "percale/error.h"
+#include "percale/simulation.h"
+#include "step/step.h"
+#include "tolerances.h"
+
+// What the sources of Simulation share: simulation_scene.cpp (made of what, steps, saved states), simulation_script.cpp (what the
+// caller prescribes) and simulation_views.cpp (what it looks at).
+namespace percale {
+
+inline std::string number_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+inline void check_pose(const Pose& pose, const std::string& name) {
+    const Rotation& q = pose.rotation;
+    const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (!pose.translation.allFinite()) throw SceneError(name, "the translation of its pose is not finite");
+    if (!(std::abs(norm - 1.0) <= unit_length_error)) {
+        throw SceneError(
+            name, "the rotation of its pose has length " + number_text(norm) + ", a rotation is a unit quaternion (w, x, y, z)");
+    }
+    if (!(pose.scale > 0.0) || !std::isfinite(pose.scale)) {
+        throw SceneError(name, "the scale of its pose is " + number_text(pose.scale) + ", it must be above 0");
+    }
+}
+
+/// Exactly unit length, so that rotated lengths keep to rounding.
+inline Pose normalised(Pose pose) {
+    Rotation& q = pose.rotation;
+    const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (norm != 1.0) q = {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
+    return pose;
+}
+
+inline void check_range(const std::string& owner, const std::string& what, const std::string& unit, double value, double lowest,
+                        double highest) {
+    if (value >= lowest && value <= highest) return;
+    throw SceneError(owner, what + " = " + number_text(value) + " " + unit + " is outside the allowed range " +
+                                number_text(lowest) + " ... " + number_text(highest));
+}
+
+inline void check_finite(const Vec3& value, const std::string& what) {
+    if (!value.allFinite()) throw SceneError(what + " is not finite");
+}
+
+struct Simulation::Implementation {
+    World world;
+    std::vector<StartMove> start_moves;
+
+    const ClothRange& cloth(ClothId id) const {
+        if (id.index >= 0 && id.index < static_cast<int>(world.scene.model.cloths.size()))
+            return world.scene.model.cloths[id.index];
+        throw SceneError("there is no cloth " + std::to_string(id.index) + ", cloths are 0 ... " +
+                         std::to_string(static_cast<int>(world.scene.model.cloths.size()) - 1));
+    }
+
+    ObstacleState& obstacle(ObstacleId id) {
+        if (id.index >= 0 && id.index < static_cast<int>(world.scene.script.obstacles.size()))
+            return world.scene.script.obstacles[id.index];
+        throw SceneError("there is no obstacle " + std::to_string(id.index) + ", obstacles are 0 ... " +
+                         std::to_string(static_cast<int>(world.scene.script.obstacles.size()) - 1));
+    }
+
+    int vertex(ClothId id, int index) const {
+        const ClothRange& range = cloth(id);
+        if (index >= 0 && index < range.count) return range.index_of(index);
+        throw SceneError(range.name, "there is no vertex " + std::to_string(index) + ", vertices are 0 ... " +
+                                         std::to_string(range.count - 1));
+    }
+
+    int pinned_vertex(ClothId id, int index, const char* call) const {
+        const int at = vertex(id, index);
+        if (world.scene.script.free[at] == 0.0) return at;
+        throw SceneError(cloth(id).name, std::string(call) + " of vertex " + std::to_string(index) + ", which is not pinned");
+    }
+
+    void change(const StepSettings& settings) {
+        const bool same_air = settings.wind == world.scene.settings.wind,
+                   same_gravity = settings.gravity == world.scene.settings.gravity;
+        if (!same_air || !same_gravity || settings.time_step != world.scene.settings.time_step) scene_changed(world);
+        world.scene.settings = settings;
+    }
+
+    /// Brings the view of positions up to date.
+    void update_views() {
+        for (const ClothRange& range : world.scene.model.cloths) {
+            if (range.order.kept()) continue;
+            world.views.positions.resize(world.state.cloth.points.size());
+            for (int i = 0; i < range.count; ++i) {
+                world.views.positions[range.first + i] = world.state.cloth.points[range.index_of(i)];
+            }
+        }
+    }
+
+    /// The view of masses, after a cloth was added.
+    void add_masses(const ClothRange& range) {
+        if (range.order.kept()) return;
+        world.views.masses.resize(world.scene.model.mass.size());
+        for (int i = 0; i < range.count; ++i) world.views.masses[range.first + i] = world.scene.model.mass[range.index_of(i)];
+    }
+};
+
+}  // namespace percale

@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <utility>
+
+#include "percale/options.h"
+#include "plan/planning.h"
+#include "simulation_implementation.h"
+#include "start/start_check.h"
+#include "state/saved_world.h"
+#include "step/sewing.h"
+#include "support/stage_timer.h"
+
+namespace percale {
+
+Simulation::Simulation(const StepSettings& settings, std::unique_ptr<ContactDetector> detector, std::shared_ptr<Workers> workers)
+    : implementation_(std::make_unique<Implementation>()) {
+    check_options(settings, "settings");
+    World& world = implementation_->world;
+    world.scene.settings = settings;
+    world.scene.detector = std::move(detector);
+    world.own_workers = workers == nullptr;
+    world.workers = std::move(workers);
+    set_workers(world);
+}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose, const std::string& name,
+                              const RestShape& rest) {
+    World& world = implementation_->world;
+    check_pose(pose, name);
+    if (fabric.self_contact && !world.scene.detector) {
+        throw SceneError(name, "self_contact needs a contact detector, give one to the simulation");
+    }
+    TriangleMesh placed = mesh;
+    placed.vertices = transform(normalised(pose), mesh.vertices);
+    RestShape shape = rest;
+    for (std::array<Vec3, 3>& corners : shape.corners) {
+        for (Vec3& corner : corners) corner *= pose.scale;
+    }
+    if (shape.corners.empty()) shape.warp = transform({.rotation = normalised(pose).rotation}, rest.warp);
+    ClothModel model = world.scene.model;
+    append_cloth(model, placed, fabric, name, shape);
+    order_last_cloth(model);
+    if (fabric.bend_stiffness.value_or(0.0) > 0.0) append_hinges_of_last_cloth(model, *fabric.bend_stiffness, shape);
+    finish_model(model);
+    world.scene.model = std::move(model);
+    world.work.newton.solver.forget_model();
+    set_workers(world);
+    // The vertices of earlier cloths keep state and pins.
+    ClothState state;
+    for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(world.scene.model.vertex_count());
+    state.points = world.state.cloth.points;
+    state.points.insert(state.points.end(), world.scene.model.rest.end() - static_cast<long>(placed.vertices.size()),
+                        world.scene.model.rest.end());
+    state.grips = world.state.cloth.grips;
+    state.rest_length = world.state.cloth.rest_length;
+    add_rest_lengths(world.scene.model.springs, state.rest_length);
+    copy_in(state.points, state.positions);
+    for (std::size_t i = 0; i < world.state.cloth.points.size(); ++i) {
+        state.velocities.set(static_cast<int>(i), world.state.cloth.velocities.at(static_cast<int>(i)));
+    }
+    AlignedVector<double> free(state.positions.padded_size(), 0.0);
+    Vectors targets = state.positions;
+    for (int i = 0; i < world.scene.model.vertex_count(); ++i) {
+        const bool old = i < static_cast<int>(world.state.cloth.points.size());
+        free[i] = old ? world.scene.script.free[i] : 1.0;
+        if (old) targets.set(i, world.scene.script.pin_targets.at(i));
+    }
+    world.state.cloth = std::move(state);
+    world.scene.script.free = std::move(free);
+    world.scene.script.pin_targets = std::move(targets);
+    implementation_->update_views();
+    implementation_->add_masses(world.scene.model.cloths.back());
+    pass_cloth_to_detector(world);
+    world.changed = true;
+    scene_changed(world);
+    return {static_cast<int>(world.scene.model.cloths.size()) - 1};
+}
+
+ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, const ObstacleSettings& settings) {
+    World& world = implementation_->world;
+    if (!world.scene.detector)
+        throw SceneError(settings.name, "an obstacle needs a contact detector, give one to the simulation");
+    if (!(settings.friction >= 0.0 && settings.friction <= 10.0)) {
+        throw SceneError(settings.name,
+                         "friction = " + number_text(settings.friction) + " is outside the allowed range 0 ... 10");
+    }
+    check_range(settings.name, "restitution", "", settings.restitution, 0.0, 1.0);
+    check_pose(pose, settings.name);
+    check_mesh(mesh, settings.name, false);
+    const Pose placed = normalised(pose);
+    world.scene.detector->add_obstacle(mesh, placed, settings.friction);
+    world.scene.script.obstacles.push_back(
+        {settings.name, placed, placed, static_cast<int>(mesh.triangles.size()), settings.restitution});
+    world.changed = true;
+    scene_changed(world);
+    return {static_cast<int>(world.scene.script.obstacles.size()) - 1};
+}
+
+void Simulation::prepare() {
+    World& world = implementation_->world;
+    const bool sewn_now = world.cloth_waits && !sews_without_contact(world);
+    if (sewn_now) {
+        world.cloth_waits = false;
+        pass_cloth_to_detector(world);
+        world.changed = true;
+    }
+    if (!world.changed) return;
+    check_scheme(implementation_->world.scene);
+    const bool obstacles = !world.scene.script.obstacles.empty() && !world.scene.model.cloths.empty();
+    if (world.scene.detector && (obstacles || (meets_cloth(world.scene) && !world.cloth_waits))) {
+        std::vector<StartMove> moves = clear_start(world);
+        std::vector<StartMove>& known = implementation_->start_moves;
+        if (!sewn_now) known.clear();
+        if (sewn_now && !moves.empty()) world.state.past.forget();
+        known.insert(known.end(), moves.begin(), moves.end());
+        implementation_->update_views();
+    }
+    world.state.contact.forget();
+    world.changed = false;
+}
+
+std::span<const StartMove> Simulation::start_repair() const { return implementation_->start_moves; }
+
+StepReport Simulation::step() {
+    World& world = implementation_->world;
+    const auto cpu_seconds = [&] { return thread_cpu_seconds() + (world.workers ? world.workers->other_cpu_seconds() : 0.0); };
+    const double start = cpu_seconds();
+    prepare();
+    StepReport report = percale::step(world);
+    if (!report.slept) implementation_->update_views();
+    if (report.ok() && world.cloth_waits && !sews_without_contact(world)) prepare();
+    report.cpu_s = cpu_seconds() - start;
+    return report;
+}
+
+ScenePlan Simulation::plan(const ScriptedChanges& to_come) const {
+    return scene_plan(implementation_->world.scene, implementation_->world.state.cloth, to_come);
+}
+
+std::vector<std::byte> Simulation::save() const { return saved_world(implementation_->world, implementation_->start_moves); }
+
+void Simulation::restore(std::span<const std::byte> saved) {
+    check_scheme(implementation_->world.scene);
+    implementation_->start_moves = restore_world(saved, implementation_->world);
+    implementation_->update_views();
+}
+
+}  // namespace percale

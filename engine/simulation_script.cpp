@@ -1,0 +1,144 @@
+#include <algorithm>
+
+#include "percale/options.h"
+#include "simulation_implementation.h"
+#include "step/sewing.h"
+
+namespace percale {
+
+void Simulation::pin(ClothId cloth, int vertex) {
+    World& world = implementation_->world;
+    const int at = implementation_->vertex(cloth, vertex);
+    world.scene.script.free[at] = 0.0;
+    world.scene.script.pin_targets.set(at, world.state.cloth.positions.at(at));
+    world.state.cloth.velocities.set(at, Vec3::Zero());
+    scene_changed(world);
+}
+
+void Simulation::unpin(ClothId cloth, int vertex) {
+    World& world = implementation_->world;
+    world.scene.script.free[implementation_->pinned_vertex(cloth, vertex, "unpin")] = 1.0;
+    scene_changed(world);
+}
+
+void Simulation::move_pin(ClothId cloth, int vertex, const Vec3& target) {
+    const int at = implementation_->pinned_vertex(cloth, vertex, "move_pin");
+    check_finite(target, implementation_->cloth(cloth).name + ": the target of pinned vertex " + std::to_string(vertex));
+    World& world = implementation_->world;
+    if (target != world.state.cloth.positions.at(at)) wake(world.rest);
+    world.scene.script.pin_targets.set(at, target);
+}
+
+void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
+    ObstacleState& state = implementation_->obstacle(obstacle);
+    check_pose(end, state.name);
+    if (end.scale != state.start.scale) {
+        throw SceneError(state.name, "the scale of an obstacle cannot change, it is " + number_text(state.start.scale));
+    }
+    state.end = normalised(end);
+    if (state.end != state.start) wake(implementation_->world.rest);
+}
+
+void Simulation::set_gravity(const Vec3& gravity) {
+    StepSettings settings = implementation_->world.scene.settings;
+    settings.gravity = gravity;
+    check_options(settings, "set_gravity");
+    implementation_->change(settings);
+}
+
+void Simulation::set_wind(const Vec3& velocity) {
+    StepSettings settings = implementation_->world.scene.settings;
+    settings.wind = velocity;
+    check_options(settings, "set_wind");
+    implementation_->change(settings);
+}
+
+SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const Stitch> stitches, const SeamSettings& settings) {
+    World& world = implementation_->world;
+    check_range(settings.name, "over", "s", settings.over, 0.0, 1e6);
+    check_range(settings.name, "stiffness", "N/m", settings.stiffness, 1e-3, 1e9);
+    std::vector<Stitch> sewn;
+    for (const Stitch& stitch : stitches) {
+        check_range(settings.name, "the share of a stitch", "", stitch.share, 0.0, 1.0);
+        sewn.push_back({implementation_->vertex(first, stitch.vertex), implementation_->vertex(second, stitch.from),
+                        implementation_->vertex(second, stitch.to), stitch.share});
+        if (!joins_itself(sewn.back())) continue;
+        throw SceneError(settings.name, "vertex " + std::to_string(stitch.vertex) + " of " + implementation_->cloth(first).name +
+                                            " is sewn to itself");
+    }
+    if (sewn.empty()) throw SceneError(settings.name, "no vertices, a seam joins at least one pair");
+    return {sew(world, sewn, settings)};
+}
+
+SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices,
+                            const SeamSettings& settings) {
+    std::vector<Stitch> stitches;
+    for (const auto& [one, other] : vertices) stitches.push_back({one, other, other, 0.0});
+    return add_seam(first, second, stitches, settings);
+}
+
+std::vector<double> Simulation::seam_gaps(SeamId seam) const {
+    const std::vector<Seam>& seams = implementation_->world.scene.script.seams;
+    if (seam.index < 0 || seam.index >= static_cast<int>(seams.size())) {
+        throw SceneError("there is no seam " + std::to_string(seam.index) + ", seams are 0 ... " +
+                         std::to_string(static_cast<int>(seams.size()) - 1));
+    }
+    std::vector<double> gaps;
+    for (const Stitch& stitch : seams[seam.index].stitches) {
+        gaps.push_back(stitch_gap(stitch, implementation_->world.state.cloth.positions).norm());
+    }
+    return gaps;
+}
+
+void Simulation::set_time_step(double time_step) {
+    StepSettings settings = implementation_->world.scene.settings;
+    settings.time_step = time_step;
+    check_options(settings, "set_time_step");
+    implementation_->change(settings);
+}
+
+void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
+    World& world = implementation_->world;
+    const ClothRange& range = implementation_->cloth(cloth);
+    if (static_cast<int>(positions.size()) != range.count) {
+        throw SceneError(range.name, "set_positions got " + std::to_string(positions.size()) + " positions for " +
+                                         std::to_string(range.count) + " vertices");
+    }
+    for (int i = 0; i < range.count; ++i) check_finite(positions[i], range.name + ": position " + std::to_string(i));
+    for (int i = 0; i < range.count; ++i) {
+        world.state.cloth.positions.set(range.index_of(i), positions[i]);
+        world.scene.script.pin_targets.set(range.index_of(i), positions[i]);
+    }
+    const auto is_of_cloth = [&](const auto& held) {
+        return held.vertex >= range.first && held.vertex < range.first + range.count;
+    };
+    std::erase_if(world.state.cloth.grips, is_of_cloth);
+    std::erase_if(world.state.cloth.impacts, is_of_cloth);
+    update_points(world.state.cloth);
+    implementation_->update_views();
+    world.state.contact_energy = 0.0;  // known again after the next step
+    world.state.past.forget();
+    world.changed = true;
+    wake(world.rest);
+}
+
+void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities) {
+    World& world = implementation_->world;
+    const ClothRange& range = implementation_->cloth(cloth);
+    if (static_cast<int>(velocities.size()) != range.count) {
+        throw SceneError(range.name, "set_velocities got " + std::to_string(velocities.size()) + " velocities for " +
+                                         std::to_string(range.count) + " vertices");
+    }
+    for (int i = 0; i < range.count; ++i) check_finite(velocities[i], range.name + ": velocity " + std::to_string(i));
+    for (int i = 0; i < range.count; ++i) {
+        const bool free = world.scene.script.free[range.index_of(i)] > 0.0;
+        world.state.cloth.velocities.set(range.index_of(i), free ? velocities[i] : Vec3(Vec3::Zero()));
+    }
+    std::erase_if(world.state.cloth.impacts, [&](const Impact& impact) {
+        return impact.vertex >= range.first && impact.vertex < range.first + range.count;
+    });
+    world.state.past.forget();
+    wake(world.rest);
+}
+
+}  // namespace percale

@@ -1,0 +1,64 @@
+#include "simulation_implementation.h"
+#include "step/measure.h"
+#include "support/hash.h"
+
+namespace percale {
+
+double Simulation::time() const { return implementation_->world.state.time; }
+
+int Simulation::cloth_count() const { return static_cast<int>(implementation_->world.scene.model.cloths.size()); }
+
+std::span<const Vec3> Simulation::positions(ClothId cloth) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    const World& world = implementation_->world;
+    const std::vector<Vec3>& all = range.order.kept() ? world.state.cloth.points : world.views.positions;
+    return std::span(all).subspan(range.first, range.count);
+}
+
+std::span<const Vec3> Simulation::velocities(ClothId cloth) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    World& world = implementation_->world;
+    std::vector<Vec3>& all = world.views.velocities;
+    all.resize(world.state.cloth.points.size());
+    for (int i = 0; i < range.count; ++i) all[range.first + i] = world.state.cloth.velocities.at(range.index_of(i));
+    return std::span<const Vec3>(all).subspan(range.first, range.count);
+}
+
+std::span<const double> Simulation::masses(ClothId cloth) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    const World& world = implementation_->world;
+    const std::vector<double>& all = range.order.kept() ? world.scene.model.mass : world.views.masses;
+    return std::span(all).subspan(range.first, range.count);
+}
+
+Pose Simulation::obstacle_pose(ObstacleId obstacle) const { return implementation_->obstacle(obstacle).start; }
+
+StepEnergy Simulation::energy() const { return energy_of(implementation_->world.scene, implementation_->world.state); }
+
+double Simulation::largest_strain() const {
+    return percale::largest_strain(implementation_->world.scene.model.springs, implementation_->world.state.cloth.positions);
+}
+
+double Simulation::largest_speed() const {
+    return percale::largest_speed(implementation_->world.state.cloth.velocities,
+                                  implementation_->world.scene.model.vertex_count());
+}
+
+std::uint64_t Simulation::state_hash() const {
+    Hash hash;
+    const ClothState& state = implementation_->world.state.cloth;
+    for (int i = 0; i < implementation_->world.scene.model.vertex_count(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            hash.add(state.positions.at(i)[axis]);
+            hash.add(state.velocities.at(i)[axis]);
+        }
+    }
+    for (const Grip& grip : state.grips) {
+        hash.add(grip.vertex);
+        hash.add(grip.obstacle);
+        for (int axis = 0; axis < 3; ++axis) hash.add(grip.stretch[axis]);
+    }
+    return hash.value();
+}
+
+}  // namespace percale
