@@ -116,6 +116,7 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     std::erase_if(world.state.cloth.impacts, is_of_cloth);
     update_points(world.state.cloth);
     implementation_->update_views();
+    world.load_source = LoadSource::nowhere;
     world.state.contact_energy = 0.0;  // known again after the next step
     world.state.past.forget();
     world.changed = true;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "simulation_implementation.h"
 #include "step/measure.h"
 #include "support/hash.h"
@@ -42,6 +44,27 @@ double Simulation::largest_strain() const {
 double Simulation::largest_speed() const {
     return percale::largest_speed(implementation_->world.state.cloth.velocities,
                                   implementation_->world.scene.model.vertex_count());
+}
+
+std::vector<ContactLoad> Simulation::contact_loads(ClothId cloth) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    std::vector<ContactLoad> loads;
+    for (ContactLoad load : percale::contact_loads(implementation_->world)) {
+        if (load.vertex < range.first || load.vertex >= range.first + range.count) continue;
+        load.vertex = range.user_vertex(load.vertex);
+        loads.push_back(load);
+    }
+    std::ranges::stable_sort(loads, {}, &ContactLoad::vertex);
+    return loads;
+}
+
+Vec3 Simulation::force_on(ObstacleId obstacle) const {
+    static_cast<void>(implementation_->obstacle(obstacle));
+    Vec3 sum = Vec3::Zero();
+    for (const ContactLoad& load : percale::contact_loads(implementation_->world)) {
+        if (load.obstacle == obstacle.index) sum -= load.force();
+    }
+    return sum;
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -184,6 +184,22 @@ Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, dou
     return result;
 }
 
+std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const Vec3> points) {
+    check(mesh, "surface_distances: mesh");
+    const Surface surface(mesh);
+    const bool watertight = is_watertight(mesh);
+    const Box bounds = surface.tree.bounds();
+    std::vector<double> distances;
+    distances.reserve(points.size());
+    for (const Vec3& x : points) {
+        if (!x.allFinite()) throw SceneError("surface_distances: a point is not finite");
+        const bool inside = watertight && bounds.contains(x) && side_of(x, surface.triangles, surface.tree) == Side::inside;
+        const double distance = distance_to_surface(x, surface);
+        distances.push_back(inside ? -distance : distance);
+    }
+    return distances;
+}
+
 ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches) {
     check(cloth, "certify_cloth: cloth");
     const Surface surface(cloth);

@@ -10,7 +10,7 @@ namespace percale {
 namespace {
 
 /// A triangle beside an edge: the ends of the edge, and the opposite vertex.
-struct Side {
+struct EdgeSide {
     Vec3 low = Vec3::Zero(), high = Vec3::Zero(), opposite = Vec3::Zero();
 
     double length() const { return (high - low).norm(); }
@@ -18,11 +18,11 @@ struct Side {
 
 /// Places of an edge's ends in its one or two triangles.
 struct EdgeSides {
-    std::array<Side, 2> side;
+    std::array<EdgeSide, 2> side;
     int count = 0;
 };
 
-bool lies_flat_on(const Side& one, const Side& other) {
+bool lies_flat_on(const EdgeSide& one, const EdgeSide& other) {
     const Vec3 along = one.high - one.low, first = along.cross(one.opposite - one.low),
                second = along.cross(other.opposite - one.low);
     // Normals that point the same way: both opposite vertices are on one side.
@@ -31,7 +31,7 @@ bool lies_flat_on(const Side& one, const Side& other) {
 
 /// The opposite vertex of `other`, unfolded into the plane of `one` on the side across the edge: as high over the edge, its foot
 /// at the same fraction.
-Vec3 unfolded(const Side& one, const Side& other) {
+Vec3 unfolded(const EdgeSide& one, const EdgeSide& other) {
     const Vec3 edge = other.high - other.low, to_opposite = other.opposite - other.low;
     const double fraction = edge.dot(to_opposite) / edge.squaredNorm(), height = edge.cross(to_opposite).norm() / edge.norm();
     const Vec3 along = one.high - one.low, across = along.cross(one.opposite - one.low).cross(along);
@@ -48,12 +48,34 @@ RestEdge rest_edge(const EdgeSides& sides) {
     return edge;
 }
 
+Vec3 warp_direction(const ShapedMesh& rest, std::size_t t, const std::array<Vec3, 3>& x) {
+    const TriangleMesh& mesh = rest.mesh;
+    const Triangle& triangle = mesh.triangles[t];
+    if (const Vec3& warp = rest.shape.warp; warp != Vec3::Zero()) {
+        const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]).normalized();
+        return (warp - warp.dot(normal) * normal).normalized();
+    }
+    for (int e = 0; mesh.is_grid() && e < 3; ++e) {
+        const auto [a, b] = std::minmax(triangle[e], triangle[(e + 1) % 3]);
+        if (b - a == 1) return (mesh.vertices[b] - mesh.vertices[a]).normalized();
+    }
+    return (x[1] - x[0]).normalized();
+}
+
 }  // namespace
 
 std::array<Vec3, 3> rest_corners(const TriangleMesh& mesh, const RestShape& shape, std::size_t triangle) {
     if (!shape.corners.empty()) return shape.corners[triangle];
     const auto& [a, b, c] = mesh.triangles[triangle];
     return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+}
+
+std::array<Eigen::Vector2d, 3> corners_in_plane(const ShapedMesh& rest, std::size_t triangle) {
+    const std::array<Vec3, 3> corners = rest_corners(rest.mesh, rest.shape, triangle);
+    const Vec3 x = warp_direction(rest, triangle, corners);
+    const Vec3 first = corners[1] - corners[0], second = corners[2] - corners[0];
+    const Vec3 y = first.cross(second).normalized().cross(x);
+    return {Eigen::Vector2d::Zero(), Eigen::Vector2d(first.dot(x), first.dot(y)), Eigen::Vector2d(second.dot(x), second.dot(y))};
 }
 
 std::vector<RestEdge> rest_edges(std::span<const Triangle> triangles, std::span<const MeshEdge> edges,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <span>
 #include <vector>
@@ -17,6 +18,10 @@ struct ShapedMesh {
 
 /// The corners of a triangle of the mesh where it has no strain, m.
 std::array<Vec3, 3> rest_corners(const TriangleMesh& mesh, const RestShape& shape, std::size_t triangle);
+
+/// The same in their plane, m: the first at the origin, x along warp. Warp is what the shape says, in the triangle's plane; along
+/// the row of a grid that it has an edge of; any edge of a free mesh that does not say it.
+std::array<Eigen::Vector2d, 3> corners_in_plane(const ShapedMesh& rest, std::size_t triangle);
 
 /// An edge and its triangles without strain: both ends, then the opposite vertices (zero where there is no triangle), m.
 struct RestEdge {

@@ -25,34 +25,10 @@ double area(const Corners& x) { return 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).no
 
 Corners corners_of(const ShapedMesh& rest, std::size_t t) { return rest_corners(rest.mesh, rest.shape, t); }
 
-/// The direction of warp in a triangle: what the shape says, in its plane; along the row of a grid that it has an edge of; any
-/// edge of a free mesh.
-Vec3 warp_direction(const ShapedMesh& rest, std::size_t t) {
-    const TriangleMesh& mesh = rest.mesh;
-    const Triangle& triangle = mesh.triangles[t];
-    const Corners x = corners_of(rest, t);
-    if (const Vec3& warp = rest.shape.warp; warp != Vec3::Zero()) {
-        const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]).normalized();
-        return (warp - warp.dot(normal) * normal).normalized();
-    }
-    for (int e = 0; mesh.is_grid() && e < 3; ++e) {
-        const auto [a, b] = std::minmax(triangle[e], triangle[(e + 1) % 3]);
-        if (b - a == 1) return (mesh.vertices[b] - mesh.vertices[a]).normalized();
-    }
-    return (x[1] - x[0]).normalized();
-}
-
-std::array<Eigen::Vector2d, 3> corners_in_plane(const Corners& corners, const Vec3& x) {
-    const Vec3 first = corners[1] - corners[0], second = corners[2] - corners[0];
-    const Vec3 y = first.cross(second).normalized().cross(x);
-    return {Eigen::Vector2d::Zero(), Eigen::Vector2d(first.dot(x), first.dot(y)), Eigen::Vector2d(second.dot(x), second.dot(y))};
-}
-
 MembraneTriangle membrane_triangle(const ShapedMesh& rest, std::size_t t, const Eigen::Matrix3d& law) {
     const Corners x = corners_of(rest, t);
-    MembraneTriangle triangle{.vertex = rest.mesh.triangles[t],
-                              .stiffness = triangle_stiffness(corners_in_plane(x, warp_direction(rest, t)), law),
-                              .rest_square = {}};
+    MembraneTriangle triangle{
+        .vertex = rest.mesh.triangles[t], .stiffness = triangle_stiffness(corners_in_plane(rest, t), law), .rest_square = {}};
     for (int e = 0; e < 3; ++e) triangle.rest_square[e] = (x[(e + 1) % 3] - x[(e + 2) % 3]).squaredNorm();
     return triangle;
 }

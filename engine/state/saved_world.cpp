@@ -9,6 +9,7 @@
 #include "percale/saved_report.h"
 #include "plan/planning.h"
 #include "plan/scheme_choice.h"
+#include "saved_loads.h"
 #include "support/hash.h"
 #include "tolerances.h"
 
@@ -45,6 +46,7 @@ struct SavedWorld {
     bool solver_is_set = false;
     StepSolver::Choice solver;
     std::vector<StartMove> start_moves;
+    SavedLoads loads;
     std::vector<std::byte> detector;
 };
 
@@ -138,7 +140,7 @@ void exchange(Archive& archive, Value& saved) {
     archive(saved.plan, saved.rest, saved.solver_is_set);
     archive.choice(saved.solver.first, 4);
     archive.choice(saved.solver.in_use, 4);
-    archive(saved.start_moves, saved.detector);
+    archive(saved.start_moves, saved.loads, saved.detector);
 }
 
 namespace {
@@ -191,6 +193,7 @@ SavedWorld state_of(const World& world) {
     saved.seams = scene.script.seams;
     for (const SewnPoint& point : scene.model.sewn_points) saved.sewn_directions.push_back(point.direction);
     for (const Hinge& hinge : scene.model.hinges.all) saved.clamps.push_back(hinge.clamp);
+    saved.loads = {world.load_source != LoadSource::nowhere, contact_loads(world)};
     saved.plan = scene.plan;
     saved.rest = world.rest;
     saved.solver_is_set = world.work.newton.solver.is_for(scene.model);
@@ -211,6 +214,9 @@ public:
     void run() const {
         check_settings();
         check_vectors();
+        const int vertices = world_.scene.model.vertex_count(),
+                  obstacles = static_cast<int>(world_.scene.script.obstacles.size());
+        reader_.demand(are_loads_of(saved_.loads, vertices, obstacles), "a contact force on nothing");
         check_script();
         check_plan();
         check_rest();
@@ -371,6 +377,8 @@ void put_state(SavedWorld& saved, World& world) {
     world.state.contact.lasting.set(saved.contact.lasting);
     world.state.contact.least_distance = saved.contact.least_distance;
     world.rest = std::move(saved.rest);
+    world.load_source = saved.loads.known ? LoadSource::saved_state : LoadSource::nowhere;
+    world.saved_loads = std::move(saved.loads.all);
 }
 
 /// The detector holds cloth against cloth only if that does not wait. Where it refuses the state it is as it was.

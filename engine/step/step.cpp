@@ -74,6 +74,7 @@ StepReport step(World& world) {
     StepState* end = solve_step(scene, state, work, report);
     if (end) check_end(scene, state, *end, work, report);
 
+    if (scene.plan.contacts) world.load_source = report.ok() ? LoadSource::last_solve : LoadSource::nowhere;
     if (report.ok()) {
         std::swap(state, *end);  // `state` is the end of the step from here, the workspace keeps its start
         finish_motion(scene);

@@ -4,6 +4,7 @@
 #include <string>
 #include <thread>
 
+#include "contact/contact_loads.h"
 #include "percale/error.h"
 #include "schemes/schemes.h"
 #include "tolerances.h"
@@ -53,6 +54,13 @@ void check_scheme(const StepScene& scene) {
     if (scene.settings.contact_response == ContactResponse::projection && scheme.scheme != Scheme::backward_euler) {
         throw SceneError("contact_response projection needs scheme backward_euler, not " + std::string(scheme.word));
     }
+}
+
+std::vector<ContactLoad> contact_loads(const World& world) {
+    if (world.load_source == LoadSource::nowhere) return {};
+    if (world.load_source == LoadSource::saved_state) return world.saved_loads;
+    const StagePoint& last = world.work.newton.current;
+    return contact_loads(last.rows, last.contact, last.row_forces);
 }
 
 void set_workers(World& world) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "percale/contact_load.h"
 #include "rest_detection.h"
 #include "span/span.h"
 #include "support/thread_pool.h"
@@ -16,6 +17,9 @@ struct UserViews {
     std::vector<double> masses;    // kg
 };
 
+/// Where the contact forces of the present state are known from.
+enum class LoadSource { nowhere, last_solve, saved_state };
+
 /// Everything one simulation holds. Only what owns it knows it as a whole: the simulation, the step at its top, and saving.
 struct World {
     std::shared_ptr<Workers> workers;  // null: the caller's thread alone
@@ -27,7 +31,9 @@ struct World {
     UserViews views;
     bool plan_outdated = true;  // the scene has changed since the plan was made
     bool changed = true;        // cloth or obstacles were added since the last preparation
-    bool cloth_waits = false;   // for seams to close, until it meets cloth
+    LoadSource load_source = LoadSource::nowhere;
+    std::vector<ContactLoad> saved_loads;  // of a state that was restored
+    bool cloth_waits = false;              // for seams to close, until it meets cloth
 };
 
 /// Some cloth has self_contact.
@@ -41,6 +47,10 @@ void pass_cloth_to_detector(World& world);
 
 /// Throws SceneError where the scheme takes no contact and the scene has some, or takes none by projection.
 void check_scheme(const StepScene& scene);
+
+/// Forces of obstacles on vertices at the end of the last step that was solved, sorted by vertex and obstacle; none where they
+/// are not known.
+std::vector<ContactLoad> contact_loads(const World& world);
 
 /// As many threads as the settings say, or as pay for the cloth that there is; the workers that were given, if any.
 void set_workers(World& world);

@@ -35,6 +35,10 @@ struct Certificate {
 Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle,
                     double distance_limit = std::numeric_limits<double>::infinity());
 
+/// Distance of each point to the nearest one of a mesh's surface, m; with a minus inside a watertight mesh. Exact apart from
+/// rounding. All in world coordinates, finite. Thread-safe.
+std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const Vec3> points);
+
 /// Where cloth meets itself, all its pieces taken as one mesh.
 struct ClothCertificate {
     std::vector<IntersectingPair> crossing;  // first < second, ordered; neighbours that share vertices included

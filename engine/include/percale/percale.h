@@ -2,6 +2,7 @@
 
 // Everything a program needs to simulate cloth. Detectors for obstacles: percale/detectors.h.
 #include "percale/contact.h"
+#include "percale/contact_load.h"
 #include "percale/error.h"
 #include "percale/fabric.h"
 #include "percale/fabric_presets.h"
@@ -12,4 +13,5 @@
 #include "percale/rest_shape.h"
 #include "percale/settings.h"
 #include "percale/simulation.h"
+#include "percale/strain.h"
 #include "percale/workers.h"

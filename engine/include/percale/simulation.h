@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "percale/contact.h"
+#include "percale/contact_load.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
 #include "percale/plan.h"
@@ -101,6 +102,13 @@ public:
     StepEnergy energy() const;
     /// Of structural springs, (l - l0)/l0, in the current state; 0 without any.
     double largest_strain() const;
+    /// What obstacles do to the vertices of a cloth at the end of the last step that was solved, friction included: sorted by
+    /// vertex and obstacle, vertices that nothing presses left out. Of a step made in spans it is what the last span ended with.
+    /// Empty before the first step, after a failed one and after set_positions. Costs nothing unless it is asked for.
+    std::vector<ContactLoad> contact_loads(ClothId cloth) const;
+    /// What all cloth does to an obstacle, N: the sum of those forces with the other sign. Cloth at rest that nothing else holds
+    /// presses with its weight.
+    Vec3 force_on(ObstacleId obstacle) const;
     /// How far apart the sides of each stitch are, m, in the order in which they were given.
     std::vector<double> seam_gaps(SeamId seam) const;
     /// Of a vertex, m/s.

@@ -316,6 +316,32 @@ TEST_CASE(
     CHECK(certify_cloth(fold).crossing.size() == 1);
 }
 
+TEST_CASE("Distances of points to a surface are the smallest to its triangles, below 0 inside a closed one") {
+    TriangleMesh ball = make_sphere(0.3, 2);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-0.6, 0.6);
+    std::vector<Vec3> points;
+    for (int n = 0; n < 200; ++n) points.emplace_back(place(random), place(random), place(random));
+    const auto nearest = [&](const TriangleMesh& mesh, const Vec3& x) {
+        double distance = infinity;
+        for (int i = 0; i < int(mesh.triangles.size()); ++i)
+            distance = std::min(distance, certificate::point_triangle_distance(x, corners(mesh, i)));
+        return distance;
+    };
+    const std::vector<double> closed = surface_distances(ball, points);
+    int inside = 0;
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        CHECK(std::abs(closed[n]) == nearest(ball, points[n]));
+        if (std::abs(points[n].norm() - 0.3) < 0.02) continue;
+        CHECK((closed[n] < 0.0) == (points[n].norm() < 0.3));
+        inside += closed[n] < 0.0;
+    }
+    CHECK(inside > 5);
+    ball.triangles.pop_back();
+    for (const double distance : surface_distances(ball, points)) CHECK(distance >= 0.0);
+    CHECK_THROWS_AS(surface_distances(ball, std::vector<Vec3>{Vec3(0, infinity, 0)}), SceneError);
+}
+
 TEST_CASE("cloth that only touches itself away from its neighbours is told apart from cloth that crosses itself") {
     TriangleMesh mesh = make_grid(1, 1, 3, 3);
     const TriangleMesh upper = moved(make_grid(1, 1, 3, 3), {0.01, 0.1, 0.02});

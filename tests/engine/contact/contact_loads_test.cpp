@@ -1,0 +1,69 @@
+#include "engine/contact/contact_loads.h"
+
+#include "tests/support/catch.h"
+
+namespace percale::test {
+namespace {
+
+struct Rows {
+    ContactRows rows;
+    ContactTerms terms;
+    std::vector<RowForce> forces;
+
+    void add(const std::array<int, 4>& vertex, const std::array<double, 4>& weight, int obstacle, const RowForce& force) {
+        rows.vertex.push_back(vertex);
+        rows.weight.push_back(weight);
+        rows.direction.push_back(Vec3::UnitY());
+        rows.obstacle_point.push_back(Vec3::Zero());
+        rows.obstacle_displacement.push_back(Vec3::Zero());
+        rows.distance.push_back(0.004);
+        rows.thickness.push_back(0.005);
+        rows.friction.push_back(0.3);
+        rows.share.push_back(1.0);
+        rows.obstacle.push_back(obstacle);
+        rows.feature.push_back(0);
+        forces.push_back(force);
+    }
+    std::vector<ContactLoad> loads() const { return contact_loads(rows, terms, forces); }
+};
+
+}  // namespace
+
+TEST_CASE("Rows give their vertices their force by weight, summed by vertex and obstacle") {
+    Rows r;
+    r.add({4, 2, -1, -1}, {0.25, 0.75, 0, 0}, 1, {.normal = 8.0, .friction = Vec3(4, 0, 0)});
+    r.add({2, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 1.0});
+    r.add({2, -1, -1, -1}, {1, 0, 0, 0}, 1, {.normal = 2.0});
+    const std::vector<ContactLoad> loads = r.loads();
+    REQUIRE(loads.size() == 3);
+    CHECK((loads[0].vertex == 2 && loads[0].obstacle == 0));
+    CHECK(loads[0].force() == Vec3(0, 1, 0));
+    CHECK((loads[1].vertex == 2 && loads[1].obstacle == 1));
+    CHECK(loads[1].normal == Vec3(0, 8, 0));
+    CHECK(loads[1].friction == Vec3(3, 0, 0));
+    CHECK((loads[2].vertex == 4 && loads[2].obstacle == 1));
+    CHECK(loads[2].force() == Vec3(1, 2, 0));
+}
+
+TEST_CASE("Rows between cloths, and rows that do not push, load nothing") {
+    Rows r;
+    r.add({0, 1, 2, 3}, {1, -0.5, -0.25, -0.25}, -1, {.normal = 8.0});
+    r.add({0, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 0.0});
+    CHECK(r.loads().empty());
+}
+
+TEST_CASE("Friction that acts on vertices is that of their touches") {
+    Rows r;
+    r.add({3, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 10.0});
+    r.terms.touches.clear(8);
+    Touch& touch = r.terms.touches.get(3, 0);
+    touch.press = Vec3(0, 3, 0);
+    touch.reach = 1e-4;
+    touch.slip = Vec3(2e-4, 0, 0);
+    const std::vector<ContactLoad> loads = r.loads();
+    REQUIRE(loads.size() == 1);
+    CHECK(loads[0].normal == Vec3(0, 10, 0));
+    CHECK((loads[0].friction - Vec3(-3, 0, 0)).norm() < 1e-14);
+}
+
+}  // namespace percale::test
