@@ -223,12 +223,16 @@ constexpr double retreat_share = 0.05, least_retreat = 0.1;
 constexpr double bond_slack = 0.05;
 constexpr int bond_sweeps = 4;
 
+/// Of the mean edge: what a stitch holds as near as that is one vertex while cloth comes apart. Larger: open seams are drawn
+/// together at once. Smaller: cloth is taken for torn where a seam gapes a little, and crosses itself there without an end.
+constexpr double closed_stitch = 0.25;
+
 /// Rounds without fewer crossings after which what is near the last ones is smoothed, and how many rings of vertices around them
 /// are. Fewer rounds: folds are ironed that would have come apart. More rings: more cloth is moved.
 constexpr int idle_rounds_before_smoothing = 20, smoothed_rings = 2;
 
-/// Rounds after which all cloth is searched for crossings again, and rings of vertices around those found that are searched in
-/// each round. Cost alone.
+/// All cloth is searched for crossings every so many rounds, and when none are known; in the other rounds so many rings of
+/// vertices around those found last. Cost alone.
 constexpr int rounds_between_searches = 10, searched_rings = 3;
 
 /// Rounds of untangling cloth from cloth, and those in a row without fewer crossings after which it is given up. Larger: hopeless

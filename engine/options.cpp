@@ -222,8 +222,9 @@ constexpr Option<StepSettings> step_list[] = {
      .set_choice = [](StepSettings& s, int i) { s.measure = static_cast<StepMeasures>(i); }},
     {.key = "start",
      .unit = "",
-     .sentence = "Cloth that starts through, inside or touching an obstacle: repair = it is moved out first, and the report says "
-                 "what moved how far; refuse = it is an error.",
+     .sentence =
+         "Cloth that starts through, inside or touching an obstacle, or with self_contact through such cloth: repair = it is "
+         "moved out first, and the report says what moved how far; refuse = it is an error.",
      .choices = start_words,
      .changes_steps = false,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.start); },

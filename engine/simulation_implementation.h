@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "forces/springs.h"
 #include "percale/error.h"
 #include "percale/simulation.h"
+#include "step/measure.h"
 #include "step/step.h"
 #include "tolerances.h"
 
@@ -89,6 +91,17 @@ struct Simulation::Implementation {
                    same_gravity = settings.gravity == world.scene.settings.gravity;
         if (!same_air || !same_gravity || settings.time_step != world.scene.settings.time_step) scene_changed(world);
         world.scene.settings = settings;
+    }
+
+    /// A step whose seams closed, and whose cloth was then moved: what it measured, of the state as it is now. The energy that
+    /// moving gave is work. `before`: the energy until then, J.
+    void tell_of_moves(double before, StepReport& report) const {
+        if (!world.scene.plan.measures) return;
+        const StepEnergy now = energy_of(world.scene, world.state);
+        report.energy.work += now.total() - before;
+        set_stored_energy(now, report.energy);
+        report.largest_strain = percale::largest_strain(world.scene.model.springs, world.state.cloth.positions);
+        report.largest_speed = percale::largest_speed(world.state.cloth.velocities, world.scene.model.vertex_count());
     }
 
     /// Brings the view of positions up to date.

@@ -101,7 +101,7 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
 
 void Simulation::prepare() {
     World& world = implementation_->world;
-    const bool sewn_now = world.cloth_waits && !sews_without_contact(world);
+    const bool sewn_now = world.cloth_waits && !closes_without_contact(world, world.state.time);
     if (sewn_now) {
         world.cloth_waits = false;
         pass_cloth_to_detector(world);
@@ -111,7 +111,7 @@ void Simulation::prepare() {
     check_scheme(implementation_->world.scene);
     const bool obstacles = !world.scene.script.obstacles.empty() && !world.scene.model.cloths.empty();
     if (world.scene.detector && (obstacles || (meets_cloth(world.scene) && !world.cloth_waits))) {
-        std::vector<StartMove> moves = clear_start(world);
+        std::vector<StartMove> moves = clear_start(world, sewn_now ? " is sewn " : " starts ");
         std::vector<StartMove>& known = implementation_->start_moves;
         if (!sewn_now) known.clear();
         if (sewn_now && !moves.empty()) world.state.past.forget();
@@ -129,9 +129,23 @@ StepReport Simulation::step() {
     const auto cpu_seconds = [&] { return thread_cpu_seconds() + (world.workers ? world.workers->other_cpu_seconds() : 0.0); };
     const double start = cpu_seconds();
     prepare();
+    // Should cloth not come apart when seams have closed, the whole step is taken back.
+    const bool may_close =
+        world.cloth_waits && !closes_without_contact(world, world.state.time + 1.5 * world.scene.settings.time_step);
+    const std::vector<std::byte> before = may_close ? save() : std::vector<std::byte>();
     StepReport report = percale::step(world);
     if (!report.slept) implementation_->update_views();
-    if (report.ok() && world.cloth_waits && !sews_without_contact(world)) prepare();
+    if (report.ok() && world.cloth_waits && !closes_without_contact(world, world.state.time)) {
+        const std::size_t moves = implementation_->start_moves.size();
+        const double energy = this->energy().total();
+        try {
+            prepare();
+        } catch (const StartError&) {
+            restore(before);
+            throw;
+        }
+        if (implementation_->start_moves.size() > moves) implementation_->tell_of_moves(energy, report);
+    }
     report.cpu_s = cpu_seconds() - start;
     return report;
 }

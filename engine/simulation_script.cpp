@@ -77,6 +77,10 @@ SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const std::
     return add_seam(first, second, stitches, settings);
 }
 
+bool Simulation::sews_without_contact() const {
+    return closes_without_contact(implementation_->world, implementation_->world.state.time);
+}
+
 std::vector<double> Simulation::seam_gaps(SeamId seam) const {
     const std::vector<Seam>& seams = implementation_->world.scene.script.seams;
     if (seam.index < 0 || seam.index >= static_cast<int>(seams.size())) {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "certificate/sewn_triangles.h"
 #include "percale/certify.h"
 #include "tolerances.h"
 #include "untangle/edge_crossings.h"
@@ -19,28 +18,27 @@ struct Bond {
     double length;  // m
 };
 
+/// A stitch that is not closed: its sides do not part further.
+struct Tie {
+    Stitch stitch;
+    double length;  // m
+};
+
+Vec3 across(const Stitch& stitch, std::span<const Vec3> x) {
+    const double share = stitch.joins_vertices() ? 0.0 : stitch.share;
+    return x[stitch.vertex] - ((1.0 - share) * x[stitch.joins_vertices() ? stitch.other() : stitch.from] + share * x[stitch.to]);
+}
+
 class Rounds {
 public:
     Rounds(const CrossedCloth& cloth, std::span<const Vec3> positions)
-        : number_(certificate::closed_vertices(positions.size(), cloth.stitches)),
-          free_(cloth.free.begin(), cloth.free.end()),
-          mesh_{.vertices = {positions.begin(), positions.end()}, .triangles = {}} {
-        sew_together();
-        for (const Triangle& t : cloth.triangles) {
-            const Triangle sewn{number_[t[0]], number_[t[1]], number_[t[2]]};
-            if (sewn[0] != sewn[1] && sewn[1] != sewn[2] && sewn[2] != sewn[0]) mesh_.triangles.push_back(sewn);
-        }
-        for (const auto& [vertex, from, to, share] : cloth.stitches) {
-            const Stitch stitch{number_[vertex], number_[from], number_[to], share};
-            if (!stitch.joins_vertices()) stitches_.push_back(stitch);
-        }
+        : cloth_(cloth), given_(positions), merged_(merge_sewn(cloth, positions)) {
         surface_ = make_cloth_surface(mesh_.triangles, mesh_.vertices.size());
-        double sum = 0.0;
         for (const ClothSurface::Edge& edge : surface_.edges) {
             bonds_.push_back({edge.vertex, (mesh_.vertices[edge.vertex[0]] - mesh_.vertices[edge.vertex[1]]).norm()});
-            sum += bonds_.back().length;
         }
-        reach_ = tolerances::retreat_share * sum / static_cast<double>(bonds_.size());
+        for (const Stitch& stitch : merged_.stitches) ties_.push_back({stitch, across(stitch, mesh_.vertices).norm()});
+        reach_ = tolerances::retreat_share * merged_.mean_edge();
     }
 
     std::optional<std::vector<Vec3>> run() {
@@ -48,39 +46,35 @@ public:
         int since_fewest = 0;
         for (int round = 0; round < tolerances::most_untangle_rounds; ++round) {
             const std::vector<IntersectingPair> pairs = find_pairs(round);
-            if (pairs.empty()) return places();
+            if (pairs.empty()) return clear_places();
             ++since_fewest;
             if (pairs.size() < fewest) {
                 fewest = pairs.size();
                 since_fewest = 0;
             }
-            if (since_fewest > tolerances::most_idle_rounds) return std::nullopt;
+            // What is left may be at seams alone, where it does not count.
+            if (since_fewest == tolerances::idle_rounds_before_smoothing && is_clear(places(false))) return places(false);
+            if (since_fewest > tolerances::most_idle_rounds) break;
             move_back(edge_crossings(surface_, pairs, mesh_.vertices));
             if (since_fewest > tolerances::idle_rounds_before_smoothing) smooth(pairs);
             for (int sweep = 0; sweep < tolerances::bond_sweeps; ++sweep) keep_lengths();
         }
-        return std::nullopt;
+        return is_clear(places(false)) ? std::optional(places(false)) : std::nullopt;
     }
 
 private:
-    /// Vertices sewn to each other get the place in their middle, or of one that stays.
-    void sew_together() {
-        std::vector<Vec3> sum(number_.size(), Vec3::Zero());
-        std::vector<int> count(number_.size(), 0);
-        for (std::size_t v = 0; v < number_.size(); ++v) {
-            const bool stays = free_[v] == 0.0;
-            if (free_[number_[v]] == 0.0 && !stays) continue;
-            if (stays && free_[number_[v]] > 0.0) {
-                free_[number_[v]] = 0.0;
-                sum[number_[v]] = Vec3::Zero();
-                count[number_[v]] = 0;
-            }
-            sum[number_[v]] += mesh_.vertices[v];
-            ++count[number_[v]];
-        }
-        for (std::size_t v = 0; v < number_.size(); ++v) {
-            if (count[v] > 0) mesh_.vertices[v] = sum[v] / static_cast<double>(count[v]);
-        }
+    std::vector<Vec3> places(bool gaps) const { return merged_.places(given_, gaps); }
+
+    /// As the start is checked: triangles at one stitch may cross.
+    bool is_clear(const std::vector<Vec3>& places) const {
+        const ClothCertificate found =
+            certify_cloth({.vertices = places, .triangles = {cloth_.triangles.begin(), cloth_.triangles.end()}}, cloth_.stitches);
+        return found.crossing.empty() && found.touching.empty();
+    }
+
+    std::vector<Vec3> clear_places() const {
+        std::vector<Vec3> with_gaps = places(true);
+        return is_clear(with_gaps) ? with_gaps : places(false);
     }
 
     /// What crosses or touches: of all cloth now and then and where nothing seems to be left, else of what is near the crossings
@@ -102,7 +96,7 @@ private:
     std::vector<IntersectingPair> pairs_among(const std::vector<int>& triangles) const {
         TriangleMesh part{.vertices = mesh_.vertices, .triangles = {}};
         for (const int t : triangles) part.triangles.push_back(mesh_.triangles[t]);
-        ClothCertificate certificate = certify_cloth(part, stitches_);
+        ClothCertificate certificate = certify_cloth(part, merged_.stitches);
         std::vector<IntersectingPair>& pairs = certificate.crossing;
         pairs.insert(pairs.end(), certificate.touching.begin(), certificate.touching.end());
         for (auto& [first, second] : pairs) {
@@ -127,12 +121,6 @@ private:
             }
         }
         return near;
-    }
-
-    std::vector<Vec3> places() const {
-        std::vector<Vec3> result;
-        for (const int number : number_) result.push_back(mesh_.vertices[number]);
-        return result;
     }
 
     /// Each vertex goes along the mean of what its crossings ask for.
@@ -183,14 +171,30 @@ private:
             a += one * change;
             b -= other * change;
         }
+        for (const auto& [stitch, length] : ties_) draw_together(stitch, length);
     }
 
-    std::vector<int> number_;  // of each vertex, that of the lowest it is sewn to
-    std::vector<double> free_;
-    TriangleMesh mesh_;             // sewn together: of what one stitch joins the lowest vertex alone is used
-    std::vector<Stitch> stitches_;  // to points between vertices
-    ClothSurface surface_;
+    void draw_together(const Stitch& stitch, double length) {
+        const Vec3 gap = across(stitch, mesh_.vertices);
+        const double now = gap.norm(), share = stitch.joins_vertices() ? 0.0 : stitch.share;
+        const std::array<int, 3> vertex{stitch.vertex, stitch.joins_vertices() ? stitch.other() : stitch.from, stitch.to};
+        const std::array<double, 3> weight{1.0, share - 1.0, -share};
+        double sum = 0.0;
+        for (int k = 0; k < 3; ++k) sum += weight[k] * weight[k] * free_[vertex[k]];
+        if (now <= length || sum == 0.0) return;
+        for (int k = 0; k < 3; ++k) {
+            mesh_.vertices[vertex[k]] -= weight[k] * free_[vertex[k]] * (now - length) / (now * sum) * gap;
+        }
+    }
+
+    CrossedCloth cloth_;
+    std::span<const Vec3> given_;
+    MergedCloth merged_;
+    TriangleMesh& mesh_ = merged_.mesh;
+    const std::vector<double>& free_ = merged_.free;
+    ClothSurface surface_;  // of an edge with more than two triangles it knows two, which are enough for a direction
     std::vector<Bond> bonds_;
+    std::vector<Tie> ties_;
     std::vector<int> near_;  // triangles near the crossings of the last search of all cloth
     double reach_ = 0.0;     // m, farthest that a round moves a vertex
 };

@@ -11,7 +11,7 @@ namespace {
 /// What messages about a start say of places in it.
 class Names {
 public:
-    explicit Names(const World& world) : world_(world) {}
+    Names(const World& world, std::string_view verb) : world_(world), verb_(verb) {}
 
     std::string vertex_name(int index) const {
         const ClothRange* range = owner(index);
@@ -30,15 +30,15 @@ public:
         const std::string& obstacle_name = world_.scene.script.obstacles[fault.obstacle].name;
         if (fault.intersecting_pairs > 0) {
             const int corner = world_.scene.model.triangles[fault.cloth_triangle][0];
-            return "the cloth starts through " + obstacle_name + ": " + std::to_string(fault.intersecting_pairs) +
+            return "the cloth" + verb_ + "through " + obstacle_name + ": " + std::to_string(fault.intersecting_pairs) +
                    " intersecting triangle pairs, one of them at " + vertex_name(corner) + " and triangle " +
                    std::to_string(fault.obstacle_triangle);
         }
         if (fault.vertices_inside > 0) {
-            return "the cloth starts inside " + obstacle_name + ": " + std::to_string(fault.vertices_inside) +
+            return "the cloth" + verb_ + "inside " + obstacle_name + ": " + std::to_string(fault.vertices_inside) +
                    " vertices, one of them " + vertex_name(fault.inside_vertex);
         }
-        return "the cloth starts touching " + obstacle_name;
+        return "the cloth" + verb_ + "touching " + obstacle_name;
     }
 
 private:
@@ -59,9 +59,9 @@ private:
                                    " and triangle " + std::to_string(other_triangle) + (same ? "" : " of " + other->name);
         const std::string met = same ? "itself" : other->name;
         if (fault.intersecting_pairs == 0) {
-            return cloth->name + " starts touching " + met + ": " + places;
+            return cloth->name + verb_ + "touching " + met + ": " + places;
         }
-        return cloth->name + " starts through " + met + ": " + std::to_string(fault.intersecting_pairs) +
+        return cloth->name + verb_ + "through " + met + ": " + std::to_string(fault.intersecting_pairs) +
                " intersecting triangle pairs, one of them " + places;
     }
 
@@ -74,6 +74,7 @@ private:
     }
 
     const World& world_;
+    std::string verb_;
 };
 
 /// The first pinned vertex inside the obstacle, -1 where there is none.
@@ -103,8 +104,8 @@ void place_obstacles(World& world) {
 
 }  // namespace
 
-std::vector<StartMove> clear_start(World& world) {
-    const Names names(world);
+std::vector<StartMove> clear_start(World& world, std::string_view verb) {
+    const Names names(world, verb);
     place_obstacles(world);
     const StartFault fault = world.scene.detector->check_start(world.state.cloth.points);
     if (!fault.any()) return {};

@@ -44,6 +44,7 @@ public:
         world_.state.contact_energy = 0.0;
         scene_changed(world_);
     }
+    double time() const { return time_; }
     Paused(const Paused&) = delete;
     Paused& operator=(const Paused&) = delete;
 
@@ -57,11 +58,24 @@ private:
 
 double strain(const World& world) { return largest_strain(world.scene.model.springs, world.state.cloth.positions); }
 
-void relax(World& world, double enough) {
+/// Until no spring is stretched further and, if `apart`, contact has drawn cloth apart to a share of its thickness.
+void relax(World& world, double enough, bool apart) {
     const Paused paused(world);
-    for (int i = 0; i < most_relaxations && strain(world) > enough; ++i) {
+    const double gap = apart ? repaired_gap * *std::ranges::min_element(world.scene.model.thickness) : 0.0;
+    bool near = apart;
+    for (int i = 0; i < most_relaxations && ((near && i < most_partings) || strain(world) > enough); ++i) {
         for (int v = 0; v < world.scene.model.vertex_count(); ++v) world.state.cloth.velocities.set(v, Vec3::Zero());
-        if (!step(world).ok()) return;
+        world.state.time = paused.time() - relaxation_step;  // seams close no further
+        const StepReport report = step(world);
+        if (!report.ok()) return;
+        near = report.smallest_distance < gap;
+    }
+}
+
+/// Friction holds on to what did not move.
+void keep_grips(const ClothState& before, ClothState& now) {
+    for (const Grip& grip : before.grips) {
+        if (now.points[grip.vertex] == before.points[grip.vertex]) now.grips.push_back(grip);
     }
 }
 
@@ -161,17 +175,19 @@ StartRepair repair_start(World& world, StartFault fault) {
     std::vector<int> cause(before.points.size(), unmoved);
     StartRepair repair{.moves = {}, .obstruction = leave_all(world, std::move(fault), cause)};
     if (repair.obstruction.empty()) {
-        relax(world, std::max(good_start_strain, strain_before));
+        relax(world, std::max(good_start_strain, strain_before), std::ranges::find(cause, moved_by_cloth) != cause.end());
         const double strain_after = strain(world);
         if (strain_after > std::max(most_start_strain, strain_before))
             repair.obstruction = strain_text(strain_after);
         else if (world.scene.detector->check_start(world.state.cloth.points).any())
             repair.obstruction = "no clear way out was found";
     }
-    if (repair.obstruction.empty())
+    if (repair.obstruction.empty()) {
         repair.moves = tell_moves(world, before.points, cause);
-    else
+        keep_grips(before, world.state.cloth);
+    } else {
         world.state.cloth = before;
+    }
     return repair;
 }
 

@@ -23,7 +23,7 @@ int sew(World& world, std::span<const Stitch> stitches, const SeamSettings& sett
     world.scene.script.seams.push_back(std::move(seam));
     world.work.newton.solver.forget_model();
     scene_changed(world);
-    world.cloth_waits = world.cloth_waits || sews_without_contact(world);
+    world.cloth_waits = world.cloth_waits || closes_without_contact(world, world.state.time);
     if (meets_cloth(world.scene)) {
         pass_cloth_to_detector(world);
         world.changed = true;

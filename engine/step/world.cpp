@@ -16,9 +16,9 @@ bool meets_cloth(const StepScene& scene) {
                        [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
 }
 
-bool sews_without_contact(const World& world) {
+bool closes_without_contact(const World& world, double time) {
     return std::ranges::any_of(world.scene.script.seams,
-                               [&](const Seam& seam) { return !seam.contact && seam.closes_after(world.state.time); });
+                               [&](const Seam& seam) { return !seam.contact && seam.closes_after(time); });
 }
 
 void pass_cloth_to_detector(World& world) {

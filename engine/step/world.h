@@ -39,8 +39,8 @@ struct World {
 /// Some cloth has self_contact.
 bool meets_cloth(const StepScene& scene);
 
-/// Whether a seam that lets no cloth meet cloth closes.
-bool sews_without_contact(const World& world);
+/// Whether a seam that lets no cloth meet cloth closes after the time, s.
+bool closes_without_contact(const World& world, double time);
 
 /// Tells the detector all cloth anew, and what of it meets cloth, unless it waits.
 void pass_cloth_to_detector(World& world);

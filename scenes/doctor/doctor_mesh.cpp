@@ -225,9 +225,11 @@ std::vector<Finding> examine_cloth(const ExaminedMesh& cloth, const Fabric& fabr
     if (!cloth.from_file || is_beyond_tests(cloth, found)) return found.take();
     find_refused_cloth(cloth.facts, found);
     find_cloth_shape(cloth, fabric, found);
-    find_self_crossing(as_given(cloth.mesh), fabric.self_contact ? Severity::error : Severity::warning,
-                       fabric.self_contact ? "move the layers apart in the mesh; self_contact cannot start crossed"
-                                           : "move the layers apart in the mesh; self_contact = true would be refused",
+    find_self_crossing(as_given(cloth.mesh), Severity::warning,
+                       fabric.self_contact
+                           ? "nothing has to be done if the layers come apart, which percale plan shows; else move "
+                             "them apart in the mesh"
+                           : "move the layers apart in the mesh, or let self_contact = true take them apart",
                        found);
     return found.take();
 }

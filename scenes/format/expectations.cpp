@@ -12,8 +12,8 @@ namespace {
 
 const MeasureDescription measure_list[] = {
     {"intersections", "",
-     "Intersecting (not merely touching) triangle pairs of cloth and obstacles, and of cloth with self_contact, summed over all "
-     "output frames."},
+     "Intersecting (not merely touching) triangle pairs of cloth and obstacles, and of cloth with self_contact (but not at "
+     "one stitch, nor while seams close without contact), summed over all output frames."},
     {"deepest_penetration", "m",
      "Largest depth of a cloth vertex inside a watertight obstacle over all output frames; 0 if none."},
     {"smallest_distance", "m",

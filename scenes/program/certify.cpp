@@ -212,7 +212,7 @@ void add_certify_command(CLI::App& program, Action& action) {
         ->add_option("--distance-limit", options->distance_limit, "How far to search for the smallest distance, m (default 0.1)")
         ->type_name("M");
     command->add_flag("--self", options->self,
-                      "Check all cloth against itself, too; in a folder cloth with self_contact always is");
+                      "Check all cloth against itself, too; in a folder cloth with self_contact always is, once it meets cloth");
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options, &action] { action = [options] { return certify_files(*options); }; });
 }

@@ -168,6 +168,7 @@ FrameCheck write_and_certify(const BuiltScene& built, const DrapeOptions& option
         stitches.insert(stitches.end(), seam.sewn.stitches.begin(), seam.sewn.stitches.end());
     FrameCheck own;
     add_cloth_certificate(own, {&cloth, 1}, stitches);
+    check.at_seams = own.at_seams;
     if (!options.no_self_contact)
         check.intersections += own.intersections;
     else if (own.intersections > 0 && !options.quiet)
@@ -196,7 +197,7 @@ int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& c
     return stopped ? stopped_by_signal : not_as_expected;
 }
 
-void print_seams(const BuiltScene& built) {
+void print_seams(const BuiltScene& built, const FrameCheck& check) {
     double widest = 0.0;
     std::size_t stitches = 0;
     for (const BuiltSeam& seam : built.seams) {
@@ -204,19 +205,24 @@ void print_seams(const BuiltScene& built) {
         widest = std::max(widest, *std::max_element(gaps.begin(), gaps.end()));
         stitches += gaps.size();
     }
-    if (stitches > 0) std::printf("%zu stitches, largest gap %.3g m\n", stitches, widest);
+    if (stitches == 0) return;
+    std::printf("%zu stitches, largest gap %.3g m", stitches, widest);
+    if (check.at_seams > 0) std::printf("; %d pairs of triangles at one stitch cross within it", check.at_seams);
+    std::printf("\n");
 }
 
 int drape_garment(const DrapeOptions& options) {
     const Scene scene = drape_scene(options);
     check_options(options);
     BuiltScene built = build_scene(scene);
+    std::size_t start_moves = 0;
     if (!options.quiet) {
         std::printf("%s onto %s\n", options.garment.c_str(), options.body.c_str());
-        print_start_moves(built.simulation);
+        start_moves = print_start_moves(built.simulation);
     }
     std::fflush(stdout);
     const Drape drape = settle(built, options);
+    if (!options.quiet) print_moves_after(start_moves, built.simulation);
     if (drape.end == DrapeEnd::failed) {
         std::fprintf(stderr, "percale: %s: nothing was written: %s\n", options.garment.c_str(), drape.failure.c_str());
         return not_as_expected;
@@ -226,7 +232,7 @@ int drape_garment(const DrapeOptions& options) {
         std::printf("%s: %s%.3g s simulated, fastest vertex %.3g m/s, %d intersecting pairs, %s\n", options.out.c_str(),
                     drape.end == DrapeEnd::settled ? "at rest, " : "", drape.last.time, drape.speed, check.intersections,
                     nearness_text(check.smallest_distance).c_str());
-    if (!options.quiet) print_seams(built);
+    if (!options.quiet) print_seams(built, check);
     return verdict(options, drape, check);
 }
 

@@ -49,13 +49,15 @@ std::string folder_of(const std::string& file) {
     return folder.empty() ? "." : folder;
 }
 
-void print_start(const RunOptions& options, const BuiltScene& built) {
+/// Returns how many moves at the start it told of.
+std::size_t print_start(const RunOptions& options, const BuiltScene& built) {
     std::printf("%s: %s into %s", options.scene.c_str(), steps_text(built.scene).c_str(), options.folder.c_str());
     if (!options.resume.empty()) std::printf(", resumed at %.6g s", built.simulation.time());
     std::printf("\n");
     for (const std::string& warning : plan_of(built).warnings) std::printf("warning: %s\n", warning.c_str());
-    print_start_moves(built.simulation);
+    const std::size_t moves = print_start_moves(built.simulation);
     std::fflush(stdout);
+    return moves;
 }
 
 /// Leaves what is wrong with a start beside the output folder; the name of the file, or nothing where it cannot be written.
@@ -136,10 +138,11 @@ int run(RunOptions options) {
     RunFolder folder(options.folder, built.scene, options.common.replay_hash);
     const StopSignals signals;
     ProgressBar bar(!options.common.quiet && !options.verbose, built.scene.latest_end());
+    std::size_t start_moves = 0;
     RunHooks hooks;
     hooks.begin = [&] {
         from ? folder.begin_from(from->folder, folder_of(options.resume)) : folder.begin();
-        if (!options.common.quiet) print_start(options, built);
+        if (!options.common.quiet) start_moves = print_start(options, built);
     };
     hooks.frame = [&](const Frame& frame) { folder.add(frame); };
     hooks.step = [&](const StepReport& report, const Simulation& simulation) {
@@ -155,6 +158,7 @@ int run(RunOptions options) {
                                         .from = from ? &from->run : nullptr,
                                         .from_file = options.resume});
     bar.clear();
+    if (!options.common.quiet) print_moves_after(start_moves, built.simulation);
     const std::vector<ExpectationResult> expectations =
         judge(expected_of(built.scene, options.common), measure_values(result.measures));
     folder.finish(built, result, expectations);

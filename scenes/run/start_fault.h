@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/scene_file_error.h"
@@ -25,9 +26,11 @@ private:
 TriangleMesh offending_triangles(std::span<const TriangleMesh> cloths, const TriangleMesh& obstacle);
 
 /// "12 vertices of sheet moved out of ball before the start, the farthest by 0.021 m"
-std::string start_move_text(const StartMove& move);
+std::string start_move_text(const StartMove& move, std::string_view when = "before the start");
 
-/// Prints what a scene's start needed, a line each.
-void print_start_moves(const Simulation& simulation);
+/// Prints what a scene's start needed, a line each; returns how many.
+std::size_t print_start_moves(const Simulation& simulation);
+/// Prints what was moved since those when seams had closed.
+void print_moves_after(std::size_t start_moves, const Simulation& simulation);
 
 }  // namespace percale::scenes

@@ -47,8 +47,8 @@ struct StepSettings {
     /// (StepEnergy). none, automatic: neither (NaN); Simulation::energy, largest_strain and largest_speed tell on demand, and a
     /// scene file's run asks for what its outputs need.
     StepMeasures measure = StepMeasures::automatic;
-    /// repair: cloth that starts through, inside or touching an obstacle is moved out before the first step, as
-    /// Simulation::start_repair tells; refuse: such a start is an error.
+    /// repair: cloth that starts through, inside or touching an obstacle, or with self_contact through such cloth, is moved out
+    /// before the first step, as Simulation::start_repair tells; refuse: such a start is an error.
     StartRule start = StartRule::repair;
     bool skip = true;                      // leave out what the scene does not need (Simulation::plan); false runs everything
     bool check_derivatives = false;        // after each step, of every force at its end state; slow, for those who change forces

@@ -86,6 +86,8 @@ public:
     /// What the last `prepare` that found something to check moved, and what was when seams had closed; empty where all was
     /// clear.
     std::span<const StartMove> start_repair() const;
+    /// Advances by the time step. Throws what `prepare` does, before anything moves; where seams close in this step without
+    /// contact and their cloth does not come apart, StartError after all has been put back as it was before the step.
     StepReport step();
     /// What the coming steps are made of and what is left out; runs nothing. `to_come`: what will change later on.
     ScenePlan plan(const ScriptedChanges& to_come = {}) const;
@@ -109,6 +111,8 @@ public:
     /// What all cloth does to an obstacle, N: the sum of those forces with the other sign. Cloth at rest that nothing else holds
     /// presses with its weight.
     Vec3 force_on(ObstacleId obstacle) const;
+    /// Whether no cloth meets cloth yet because a seam closes (SeamSettings::contact_while_closing).
+    bool sews_without_contact() const;
     /// How far apart the sides of each stitch are, m, in the order in which they were given.
     std::vector<double> seam_gaps(SeamId seam) const;
     /// Of a vertex, m/s.

@@ -231,7 +231,8 @@ struct SewnPanels {
     Simulation simulation;
 
     explicit SewnPanels(bool contact = false)
-        : simulation({.time_step = 1.0 / 60.0, .gravity = Vec3::Zero()}, make_brute_force_detector()) {
+        : simulation({.time_step = 1.0 / 60.0, .measure = StepMeasures::all, .gravity = Vec3::Zero()},
+                     make_brute_force_detector()) {
         TriangleMesh second = moved(free_grid(11, 11), {0.2, 0, 0});
         for (Vec3& x : second.vertices) x.y() = 0.5 * x.x() - 0.05;
         mesh = joined(free_grid(11, 11), second);
@@ -289,9 +290,62 @@ TEST_CASE("panels that are sewn without contact cross until their seam has close
     }
     const std::vector<double> gaps = panels.simulation.seam_gaps({0});
     CHECK(*std::max_element(gaps.begin(), gaps.end()) < 1e-3);
-    SewnPanels with_contact(true);
-    with_contact.simulation.prepare();
-    CHECK(crossings(with_contact.simulation, {panels.mesh}, panels.stitches) == 0);
+}
+
+TEST_CASE("a seam that is open when panels are taken apart is not closed by that") {
+    SewnPanels panels(true);
+    std::vector<Stitch> far;  // from the left rim to the right one, 0.6 m away
+    for (int k = 0; k < 11; ++k) far.push_back({11 * k, 131 + 11 * k, 131 + 11 * k, 0.0});
+    const SeamId seam = panels.simulation.add_seam({0}, {0}, far, {.over = 0.2, .stiffness = 500.0});
+    const std::vector<double> before = panels.simulation.seam_gaps(seam);
+    panels.simulation.prepare();
+    CHECK(crossings(panels.simulation, {panels.mesh}, panels.stitches) == 0);
+    const std::vector<double> after = panels.simulation.seam_gaps(seam);
+    for (std::size_t k = 0; k < before.size(); ++k) CHECK(after[k] > 0.9 * before[k]);
+}
+
+TEST_CASE("cloth that was taken out of cloth keeps a gap") {
+    SewnPanels panels(true);
+    panels.simulation.prepare();
+    REQUIRE(panels.simulation.step().ok());
+    CHECK(panels.simulation.step().smallest_distance > 0.2 * meeting_fabric.thickness);
+}
+
+TEST_CASE("a step whose seams close over cloth that cannot come apart is taken back") {
+    SewnPanels panels;
+    panels.run(11);
+    for (int v = 0; v < 242; ++v) panels.simulation.pin({0}, v);
+    const std::uint64_t before = panels.simulation.state_hash();
+    const double time = panels.simulation.time();
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        const std::string error = error_of([&] { panels.simulation.step(); });
+        CHECK(holds(error, {"is sewn through itself", "no way out"}));
+        CHECK(panels.simulation.time() == time);
+        CHECK(panels.simulation.state_hash() == before);
+        CHECK(panels.simulation.sews_without_contact());
+    }
+    for (int v = 0; v < 242; ++v) panels.simulation.unpin({0}, v);
+    const StepReport report = panels.simulation.step();
+    REQUIRE(report.ok());
+    CHECK_FALSE(panels.simulation.sews_without_contact());
+    CHECK(crossings(panels.simulation, {panels.mesh}, panels.stitches) == 0);
+    // What the step measured is of the cloth as it lies now.
+    CHECK(report.largest_strain == panels.simulation.largest_strain());
+    CHECK(report.energy.total() == Approx(panels.simulation.energy().total()));
+}
+
+TEST_CASE("panels that are sewn over a ball leave the ball and each other") {
+    SewnPanels panels;
+    panels.simulation.add_obstacle(make_sphere(0.05, 3), {.translation = Vec3(-0.1, -0.04, 0)}, {.name = "ball"});
+    panels.run(40);
+    CHECK(crossings(panels.simulation, {panels.mesh}, panels.stitches) == 0);
+    bool off_ball = false, off_cloth = false;
+    for (const StartMove& move : panels.simulation.start_repair()) (move.obstacle < 0 ? off_cloth : off_ball) = true;
+    CHECK((off_ball && off_cloth));
+    TriangleMesh cloth = panels.mesh;
+    const std::span<const Vec3> x = panels.simulation.positions({0});
+    cloth.vertices.assign(x.begin(), x.end());
+    CHECK(certify(cloth, moved(make_sphere(0.05, 3), {-0.1, -0.04, 0}), 0.1).clean());
 }
 
 TEST_CASE("sewing without contact goes on from a saved state with the same bits, before and after closing") {

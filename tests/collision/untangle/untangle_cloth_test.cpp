@@ -77,17 +77,62 @@ TEST_CASE("the smaller side goes back: a corner that pokes through a sheet, not 
     for (std::size_t v = 23 * 23; v < cloth.out->size(); ++v) CHECK((*cloth.out)[v].y() > -0.02);
 }
 
-TEST_CASE("cloth that crosses nothing stays, and what is sewn to each other gets one place") {
+TEST_CASE("cloth that crosses nothing stays, sewn or not") {
     Crossed cloth{.mesh = joined(make_grid(1, 1, 5, 5), moved(make_grid(1, 1, 5, 5), {0, 0.01, 0}))};
+    if (GENERATE(false, true)) cloth.stitches = {{0, 25, 25, 0.0}, {7, 31, 32, 0.3}};
     cloth.solve();
     REQUIRE(cloth.out);
     CHECK(*cloth.out == cloth.mesh.vertices);
-    cloth.stitches = {{0, 25, 25, 0.0}};
-    cloth.fixed = {25};
+}
+
+TEST_CASE("a seam that is still open elsewhere is not drawn together") {
+    Crossed cloth{.mesh = joined(interleaved(), moved(make_grid(1, 1, 11, 11), {1.3, 0, 0}))};
+    const int apart = 41 * 41 + 37 * 37;
+    for (int k = 0; k < 11; ++k) cloth.stitches.push_back({41 * 4 * k + 40, apart + 11 * k, apart + 11 * k, 0.0});
+    cloth.stitches.push_back({apart + 5, 20, 21, 0.4});
     cloth.solve();
     REQUIRE(cloth.out);
-    CHECK((*cloth.out)[0] == cloth.mesh.vertices[25]);
-    CHECK((*cloth.out)[25] == cloth.mesh.vertices[25]);
+    CHECK(cloth.crossing(*cloth.out) == 0);
+    for (std::size_t v = apart; v < cloth.out->size(); ++v) CHECK(((*cloth.out)[v] - cloth.mesh.vertices[v]).norm() < 0.003);
+}
+
+TEST_CASE("a point of an edge that a vertex is sewn to goes where the vertex goes") {
+    // A flap hangs with its upper rim on a sheet, and its lower rim goes back up through it.
+    TriangleMesh flap = make_grid(0.4, 0.1, 9, 5);
+    for (Vec3& x : flap.vertices) {
+        const double along = x.z() + 0.05;  // from the seam
+        x = Vec3(x.x() + 0.011, along < 0.05 ? -along : along - 0.08, along < 0.05 ? 0.013 : 0.02);
+    }
+    Crossed cloth{.mesh = joined(make_grid(1, 1, 21, 21), flap)};
+    for (int k = 0; k < 9; ++k) {
+        const double place = (cloth.mesh.vertices[441 + k].x() + 0.5) / 0.05;
+        const int from = 21 * 10 + static_cast<int>(place);
+        cloth.stitches.push_back({441 + k, from, from + 1, place - std::floor(place)});
+    }
+    REQUIRE(cloth.crossing(cloth.mesh.vertices) > 0);
+    cloth.solve();
+    REQUIRE(cloth.out);
+    CHECK(cloth.crossing(*cloth.out) == 0);
+    for (const auto& [vertex, from, to, share] : cloth.stitches) {
+        const Vec3 gap = (*cloth.out)[vertex] - (1.0 - share) * (*cloth.out)[from] - share * (*cloth.out)[to];
+        CHECK(gap.norm() < 0.016);  // 0.013 as it starts
+    }
+}
+
+TEST_CASE("corners that are sewn on all sides do not keep cloth from coming apart") {
+    // A bag of two sheets sewn all around; elsewhere a third sheet pokes through the lower one.
+    Crossed cloth{.mesh = joined(make_grid(1, 1, 11, 11), moved(make_grid(1, 1, 11, 11), {0, 0.02, 0}))};
+    for (int k = 0; k < 121; ++k) {
+        const int row = k / 11, column = k % 11;
+        if (row == 0 || row == 10 || column == 0 || column == 10) cloth.stitches.push_back({k, 121 + k, 121 + k, 0.0});
+    }
+    TriangleMesh patch = make_grid(0.5, 0.5, 17, 17);
+    for (Vec3& x : patch.vertices) x.y() = -0.004 + 0.006 * std::cos(9.0 * x.x()) * std::cos(7.0 * x.z());
+    cloth.mesh = joined(cloth.mesh, patch);
+    REQUIRE(cloth.crossing(cloth.mesh.vertices) > 0);
+    cloth.solve();
+    REQUIRE(cloth.out);
+    CHECK(cloth.crossing(*cloth.out) == 0);
 }
 
 TEST_CASE("cloth that nothing may move is given up") {

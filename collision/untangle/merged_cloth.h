@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "percale/mesh.h"
+#include "percale/stitch.h"
+
+namespace percale {
+
+/// Cloth that meets cloth, as it starts.
+struct CrossedCloth {
+    std::span<const Triangle> triangles;
+    std::span<const double> free;      // 0: stays
+    std::span<const Stitch> stitches;  // also of vertices that no triangle has, and those that are still open
+};
+
+/// Crossed cloth in which closed stitches are gone: what they join is one vertex.
+struct MergedCloth {
+    std::vector<int> number;            // of each vertex, that of the lowest it is one with
+    std::vector<double> free;           // 0: stays; counts for the lowest
+    TriangleMesh mesh;                  // of what is one the lowest vertex alone is used
+    std::vector<Stitch> stitches = {};  // those that are left: open ones, and to points between vertices; in numbers of the mesh
+    std::vector<Vec3> joined = {};      // m, where each vertex was when joining was over
+
+    /// Length of edges, m; 0 without any.
+    double mean_edge() const;
+
+    /// Where all vertices are, m: what did not move as it was given, if `gaps`; else what is joined in one place.
+    std::vector<Vec3> places(std::span<const Vec3> given, bool gaps) const;
+};
+
+/// Joins what stitches between two vertices of the triangles hold within a quarter of an edge: in the middle, or at the first
+/// that stays. Of triangles that then have the same corners one is left, of those without area none.
+MergedCloth merge_sewn(const CrossedCloth& cloth, std::span<const Vec3> positions);
+
+}  // namespace percale
