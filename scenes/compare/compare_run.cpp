@@ -7,8 +7,8 @@
 
 #include "common/text.h"
 #include "frames/frame_formats.h"
+#include "garment/vertex_selection.h"
 #include "percale/error.h"
-#include "run/vertex_selection.h"
 #include "tolerances.h"
 
 namespace percale::scenes {

@@ -15,6 +15,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string words_with_fields(std::span<const FrameFormat> formats) {
+    std::vector<std::string> words = {no_frames};
+    for (const FrameFormat& format : formats) {
+        if (format.holds_fields) words.push_back(format.word);
+    }
+    return joined(words);
+}
+
 void check_name(const std::string& what, const std::string& name) {
     if (!name.empty() && name.front() != '.' && name.find_first_of(std::string("/\\\0\n\r", 5)) == std::string::npos) return;
     throw SceneError(what + " '" + name +
@@ -61,12 +69,17 @@ FrameWriter::FrameWriter(const std::string& folder, const Scene& scene, std::spa
       files_(folder),
       encoder_(encoder_of(scene.output.frames, cast_, formats)) {
     for (const ClothSpec& cloth : scene.cloths) cloth_meets_.push_back(scene.meets_cloth(cloth));
+    const std::string& word = scene.output.frames;
+    const bool holds = std::ranges::any_of(formats_, [&](const FrameFormat& f) { return f.word == word && f.holds_fields; });
+    if (scene.output.fields.empty() || word == no_frames || holds) return;
+    throw SceneError("output.fields: output.frames = \"" + word + "\" holds no fields; with them it must be one of " +
+                     words_with_fields(formats_));
 }
 
 FrameRecord FrameWriter::write(const Frame& frame) {
     FrameRecord record{frame.index, frame.time, {}, {}, frame.check, {}};
     if (!encoder_) return record;
-    const FrameFiles files = encoder_->write({frame.index, frame.time, frame.cloths, frame.obstacles}, files_);
+    const FrameFiles files = encoder_->write({frame.index, frame.time, frame.cloths, frame.obstacles, frame.fields}, files_);
     files_.check();
     record.cloths = files.cloths;
     record.obstacles = files.obstacles;

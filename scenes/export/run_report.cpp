@@ -10,6 +10,7 @@
 #include "export/run_settings.h"
 #include "percale/cleaning.h"
 #include "percale/error.h"
+#include "run/frame_fields.h"
 
 namespace percale::scenes {
 
@@ -147,13 +148,30 @@ ordered_json obstacle_list(const BuiltScene& built) {
     ordered_json list = ordered_json::array();
     for (std::size_t i = 0; i < built.obstacle_meshes.size(); ++i) {
         const CleaningReport cleaning = cleaning_report(built.obstacle_meshes[i]);
+        const Vec3 force = built.simulation.force_on(built.obstacles[i]);
         list.push_back({{"name", built.scene.obstacles[i].name},
+                        {"contact_force", {force.x(), force.y(), force.z()}},
                         {"triangles", cleaning.triangles},
                         {"merged_vertices", cleaning.merged_vertices},
                         {"degenerate_triangles", cleaning.degenerate_triangles},
                         {"duplicate_triangles", cleaning.duplicate_triangles},
                         {"unreferenced_vertices", cleaning.unreferenced_vertices},
                         {"internal_triangles", cleaning.internal_triangles}});
+    }
+    return list;
+}
+
+/// How each cloth sits at the end, by its name.
+ordered_json fit_list(const BuiltScene& built) {
+    ordered_json list = ordered_json::object();
+    const auto fits = fit_now(built);
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+        ordered_json& cloth = list[built.scene.cloths[i].name];
+        for (const auto& [name, spread] : fits[i])
+            cloth[name] = {{"smallest", spread.smallest},
+                           {"median", spread.median},
+                           {"of_95_percent", spread.of_95_percent},
+                           {"largest", spread.largest}};
     }
     return list;
 }
@@ -210,6 +228,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     put_costs(json, result.totals);
     json["obstacles"] = obstacle_list(built);
     json["seams"] = seam_list(built);
+    if (!built.scene.output.fields.empty()) json["fit"] = fit_list(built);
     json["start_repair"] = start_move_list(built.simulation);
     json["scheme"] = result.plan.scheme_word;
     if (!result.plan.scheme_reason.empty()) json["scheme_reason"] = result.plan.scheme_reason;

@@ -125,7 +125,7 @@ Field<Spec> with_default(Field<Spec> row) {
 template <class Spec, class Access>
 Field<Spec> value_field(SceneKey key, Access access) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Access, Spec&>>;
-    key.kind = key.choices.empty() ? value_kind<Value>.kind : KeyKind::word;
+    key.kind = key.choices.empty() || value_kind<Value>.kind == KeyKind::words ? value_kind<Value>.kind : KeyKind::word;
     key.count = value_kind<Value>.count;
     return with_default<Spec>(
         {.key = std::move(key),

@@ -34,6 +34,8 @@ std::string kind_text(const SceneKey& key) {
             return "a list of vertex indices, { box = [[x, y, z], [x, y, z]] } or \"boundary\"";
         case KeyKind::names:
             return "a list of " + std::to_string(key.count) + " names";
+        case KeyKind::words:
+            return "a list of some of " + joined(key.choices);
         case KeyKind::pairs:
             return "a list of pairs [i, j] of vertex indices";
         case KeyKind::stitches:

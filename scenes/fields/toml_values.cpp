@@ -44,6 +44,11 @@ void read_value(const TomlNode& node, std::array<int, 2>& value) {
 
 void read_value(const TomlNode& node, std::array<std::string, 2>& value) { value = {node.items[0].text, node.items[1].text}; }
 
+void read_value(const TomlNode& node, std::vector<std::string>& value) {
+    value.clear();
+    for (const TomlNode& item : node.items) value.push_back(item.text);
+}
+
 void read_value(const TomlNode& node, std::vector<std::array<int, 2>>& value) {
     value.resize(node.items.size());
     for (std::size_t i = 0; i < value.size(); ++i) read_value(node.items[i], value[i]);
@@ -103,6 +108,7 @@ TomlNode value_node(const Rotation& value) { return list_of(std::array{value.w, 
 TomlNode value_node(const std::array<double, 2>& value) { return list_of(value); }
 TomlNode value_node(const std::array<int, 2>& value) { return list_of(value); }
 TomlNode value_node(const std::array<std::string, 2>& value) { return list_of(value); }
+TomlNode value_node(const std::vector<std::string>& value) { return list_of(value); }
 TomlNode value_node(const std::vector<std::array<int, 2>>& value) { return list_of(value); }
 
 TomlNode value_node(const std::vector<Stitch>& value) {

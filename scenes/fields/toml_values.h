@@ -25,6 +25,7 @@ void read_value(const TomlNode& node, Vec3& value);
 void read_value(const TomlNode& node, std::array<double, 2>& value);
 void read_value(const TomlNode& node, std::array<int, 2>& value);
 void read_value(const TomlNode& node, std::array<std::string, 2>& value);
+void read_value(const TomlNode& node, std::vector<std::string>& value);
 void read_value(const TomlNode& node, std::vector<std::array<int, 2>>& value);
 void read_value(const TomlNode& node, std::vector<Stitch>& value);
 template <class Value>
@@ -45,6 +46,7 @@ TomlNode value_node(const Rotation& value);
 TomlNode value_node(const std::array<double, 2>& value);
 TomlNode value_node(const std::array<int, 2>& value);
 TomlNode value_node(const std::array<std::string, 2>& value);
+TomlNode value_node(const std::vector<std::string>& value);
 TomlNode value_node(const std::vector<std::array<int, 2>>& value);
 TomlNode value_node(const std::vector<Stitch>& value);
 template <class Value>
@@ -75,6 +77,8 @@ template <>
 inline constexpr ValueKind value_kind<std::array<int, 2>> = {KeyKind::integers, 2};
 template <>
 inline constexpr ValueKind value_kind<std::array<std::string, 2>> = {KeyKind::names, 2};
+template <>
+inline constexpr ValueKind value_kind<std::vector<std::string>> = {KeyKind::words};
 template <>
 inline constexpr ValueKind value_kind<std::vector<std::array<int, 2>>> = {KeyKind::pairs};
 template <>

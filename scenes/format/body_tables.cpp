@@ -27,6 +27,9 @@ struct SelectionNode {
         corners.key = "box";
         corners.items = {value_node(s.lowest), value_node(s.highest)};
         node.entries.push_back(std::move(corners));
+        if (s.to.empty()) return node;
+        node.entries.push_back(value_node(s.to));
+        node.entries.back().key = "to";
         return node;
     }
     TomlNode operator()(const VertexBoundary&) const { return value_node(std::string("boundary")); }
@@ -327,12 +330,23 @@ void read_value(const TomlNode& node, VertexSelection& value) {
         VertexBox& corners = value.emplace<VertexBox>();
         read_value(box->items[0], corners.lowest);
         read_value(box->items[1], corners.highest);
+        if (const TomlNode* to = node.find("to")) read_value(*to, corners.to);
     } else {
         value = indices_of(node);
     }
 }
 
 TomlNode value_node(const VertexSelection& value) { return std::visit(SelectionNode{}, value); }
+
+Field<ClothSpec> pin_field() {
+    Field<ClothSpec> field =
+        selection_field<ClothSpec>({.path = "pin", .sentence = "Vertices held where they start."}, &ClothSpec::pin);
+    field.key.inside.push_back({.path = "to",
+                                .kind = KeyKind::text,
+                                .sentence = "NAME of an obstacle: they keep their place on it as it moves, instead of in the "
+                                            "world."});
+    return field;
+}
 
 const FieldTable<ClothSpec>& cloth_table() {
     static const FieldTable<ClothSpec> table = {
@@ -353,8 +367,7 @@ const FieldTable<ClothSpec>& cloth_table() {
                                            .needs = "mesh",
                                            .needs_why = "warp of a grid runs along x"},
                                           &ClothSpec::warp),
-                   pose_field<ClothSpec>(),
-                   selection_field<ClothSpec>({.path = "pin", .sentence = "Vertices held where they start."}, &ClothSpec::pin)},
+                   pose_field<ClothSpec>(), pin_field()},
         .rules = {.shown = cloth_shown},
         .finish = finish_cloth};
     return table;

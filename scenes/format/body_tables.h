@@ -33,7 +33,8 @@ Field<Spec> selection_field(SceneKey key, Access access) {
                                 .sentence = "Vertices inside a box whose corners are given in "
                                             "fractions of the bounding box of the cloth as it starts.",
                                 .lowest = -1.0,
-                                .highest = 2.0});
+                                .highest = 2.0,
+                                .required = true});
     return field;
 }
 

@@ -30,6 +30,7 @@ struct VertexIndices {
 };
 struct VertexBox {
     Vec3 lowest = Vec3::Zero(), highest = Vec3::Ones();
+    std::string to = {};  // obstacle on which pins keep their place; "": in the world
 };
 struct VertexBoundary {};
 using VertexSelection = std::variant<VertexIndices, VertexBox, VertexBoundary>;
@@ -134,6 +135,7 @@ struct Expectation {
 struct OutputSpec {
     std::string frames = "obj";  // a word of frame_words()
     double fps = 30.0;
+    std::vector<std::string> fields = {};  // some of fit_words: what frames tell of cloth besides its shape
 };
 
 enum class Detector { fcl, bullet, brute_force, none };

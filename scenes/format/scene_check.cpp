@@ -1,5 +1,6 @@
 #include "format/scene_check.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/nearest_name.h"
@@ -83,6 +84,15 @@ void check_names(const TomlNode& node, const SceneKey& key, const std::string& s
     if (node.kind != TomlKind::list || static_cast<int>(node.items.size()) != key.count) fail_kind(node, key, shown);
     for (const TomlNode& item : node.items)
         if (item.kind != TomlKind::text) fail_kind(item, key, shown);
+}
+
+void check_words(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind != TomlKind::list) fail_kind(node, key, shown);
+    for (auto item = node.items.begin(); item != node.items.end(); ++item) {
+        check_word(*item, key, shown);
+        const auto same = [&](const TomlNode& other) { return other.text == item->text; };
+        if (std::any_of(node.items.begin(), item, same)) fail_at(item->place, shown + " has '" + item->text + "' twice");
+    }
 }
 
 void check_pairs(const TomlNode& node, const SceneKey& key, const std::string& shown) {
@@ -204,6 +214,8 @@ void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot, Fa
             return check_vertices(node, key, spot, faults);
         case KeyKind::names:
             return check_names(node, key, spot.shown);
+        case KeyKind::words:
+            return check_words(node, key, spot.shown);
         case KeyKind::pairs:
             return check_pairs(node, key, spot.shown);
         case KeyKind::stitches:

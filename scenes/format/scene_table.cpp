@@ -5,6 +5,7 @@
 #include "fields/option_fields.h"
 #include "format/body_tables.h"
 #include "format/script_tables.h"
+#include "frames/cloth_fit.h"
 #include "frames/frame_formats.h"
 #include "percale/fabric_presets.h"
 
@@ -140,6 +141,12 @@ const FieldTable<OutputSpec>& output_table() {
                                      .lowest = 0.01,
                                      .highest = 1e5},
                                     &OutputSpec::fps),
+            value_field<OutputSpec>({.path = "fields",
+                                     .sentence = "What frames tell of how cloth sits, and report.json sums up as it is at the "
+                                                 "end. " +
+                                                 fit_words_meaning() + ".",
+                                     .choices = {std::begin(fit_words), std::end(fit_words)}},
+                                    &OutputSpec::fields),
         }};
     return table;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "meshes/mesh_fields.h"
 #include "percale/mesh.h"
 
 // What a format of frames has to be: one file that makes a FrameFormat, and one row in frame_formats.cpp.
@@ -25,6 +26,7 @@ struct FrameShapes {
     int index = 0;      // frames come one after the other, from 0 or from where a run is gone on with
     double time = 0.0;  // s
     std::span<const TriangleMesh> cloths, obstacles;
+    std::span<const MeshFields> cloth_fields = {};  // empty: no cloth has any
 };
 
 /// The files that show one frame, relative to the run's folder, in the order of the cast. Frames may share files.
@@ -49,6 +51,7 @@ struct FrameFormat {
     std::string word;                  // in scene files and of --frames
     std::string sentence;              // what is written, for people
     std::vector<std::string> endings;  // of all its files, with the point; no other format has them
+    bool holds_fields = false;         // FrameShapes::cloth_fields
     std::function<std::unique_ptr<FrameEncoder>(const FrameCast&)> make;
 };
 

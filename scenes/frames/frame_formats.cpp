@@ -1,12 +1,14 @@
 #include "frames/frame_formats.h"
 
 #include "frames/obj_frames.h"
+#include "frames/ply_frames.h"
 
 namespace percale::scenes {
 
 std::span<const FrameFormat> frame_formats() {
     static const FrameFormat formats[] = {
         obj_frames(),
+        ply_frames(),
     };
     return formats;
 }

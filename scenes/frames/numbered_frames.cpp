@@ -10,7 +10,7 @@ namespace percale::scenes {
 
 namespace {
 
-using MeshWriter = std::function<void(const std::string&, const TriangleMesh&)>;
+using MeshWriter = std::function<void(const std::string&, const TriangleMesh&, const MeshFields&)>;
 
 class NumberedFrames final : public FrameEncoder {
 public:
@@ -21,13 +21,14 @@ public:
         FrameFiles files;
         for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
             files.cloths.push_back(numbered("frames/" + cast_.cloths[i], frame.index));
-            folder.write(files.cloths.back(), [&](const std::string& path) { write_(path, frame.cloths[i]); });
+            const MeshFields fields = frame.cloth_fields.empty() ? MeshFields() : frame.cloth_fields[i];
+            folder.write(files.cloths.back(), [&](const std::string& path) { write_(path, frame.cloths[i], fields); });
         }
         for (std::size_t i = 0; i < frame.obstacles.size(); ++i) {
             const bool moves = cast_.obstacle_moves[i];
             files.obstacles.push_back(numbered("obstacles/" + cast_.obstacles[i], moves ? frame.index : 0));
             if (!moves && frame.index > 0) continue;
-            folder.write(files.obstacles.back(), [&](const std::string& path) { write_(path, frame.obstacles[i]); });
+            folder.write(files.obstacles.back(), [&](const std::string& path) { write_(path, frame.obstacles[i], {}); });
         }
         return files;
     }

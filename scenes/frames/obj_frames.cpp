@@ -6,7 +6,9 @@
 namespace percale::scenes {
 
 FrameFormat obj_frames() {
-    const auto write = [](const std::string& path, const TriangleMesh& mesh) { write_obj(path, mesh.vertices, mesh.triangles); };
+    const auto write = [](const std::string& path, const TriangleMesh& mesh, const MeshFields&) {
+        write_obj(path, mesh.vertices, mesh.triangles);
+    };
     return {.word = "obj",
             .sentence = "a Wavefront OBJ file for every mesh and frame",
             .endings = {".obj"},

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""A picture of OBJ meshes, headless and with the standard library only.
+"""A picture of OBJ and binary PLY meshes, headless and with the standard library only.
 
-picture.py -o OUT.png [--size 900x1200] [--azimuth DEG] [--elevation DEG] [--distance M] [--no-floor] MESH.obj[=RRGGBB] ...
+picture.py -o OUT.png [--size 900x1200] [--azimuth DEG] [--elevation DEG] [--distance M] [--no-floor]
+           [--field NAME [--range LOW HIGH]] MESH.obj|MESH.ply[=RRGGBB] ...
 
 The camera looks at the centre of everything; azimuth 0 looks at the side that faces +z, positive goes to the subject's left.
+--field colours meshes by a property of their vertices (frames with output.fields) from LOW to HIGH, without --range from the
+smallest value to what 99 % do not exceed, and prints that range; a bar at the right shows the colours, LOW below.
 """
 import argparse, array, math, struct, sys, zlib
 
+RAMP = ["2c3e8f", "3f88c5", "8fd0c3", "f4e285", "f08a4b", "b3202c"]  # from low to high
 PALETTE = ["c9b8a8", "b5403a", "3f6f9f", "7f9a5a"]
 BACKGROUND = ((0.965, 0.968, 0.972), (0.86, 0.875, 0.895))  # top, bottom; linear light is not claimed
 
@@ -22,6 +26,7 @@ def unit(a):
 
 
 def read_obj(file):
+    """Vertices, triangles; an OBJ has no fields."""
     vertices, triangles = [], []
     with open(file) as lines:
         for line in lines:
@@ -32,7 +37,48 @@ def read_obj(file):
                 face = [int(word.split("/")[0]) for word in words[1:]]
                 face = [i - 1 if i > 0 else len(vertices) + i for i in face]
                 triangles += [(face[0], face[k], face[k + 1]) for k in range(1, len(face) - 1)]
-    return vertices, triangles
+    return vertices, triangles, {}
+
+
+PLY_TYPES = {"char": "b", "int8": "b", "uchar": "B", "uint8": "B", "short": "h", "int16": "h", "ushort": "H", "uint16": "H",
+             "int": "i", "int32": "i", "uint": "I", "uint32": "I", "float": "f", "float32": "f", "double": "d", "float64": "d"}
+
+
+def read_ply(file):
+    """Vertices, triangles, fields of vertices by name, of a binary little-endian PLY whose faces are triangles."""
+    with open(file, "rb") as source:
+        data = source.read()
+    at = data.index(b"end_header\n") + len(b"end_header\n")
+    elements = []  # name, count, properties
+    for words in (line.split() for line in data[:at].decode().splitlines()):
+        if words[0] == "format" and words[1] != "binary_little_endian":
+            sys.exit(f"picture.py: {file}: only binary little-endian PLY is read")
+        if words[0] == "element":
+            elements.append((words[1], int(words[2]), []))
+        elif words[0] == "property":
+            elements[-1][2].append(words[1:])
+    vertices, triangles, fields = [], [], {}
+    for name, count, properties in elements:
+        item = struct.Struct("<" + "".join(PLY_TYPES[p[1]] + 3 * PLY_TYPES[p[2]] if p[0] == "list" else PLY_TYPES[p[0]]
+                                           for p in properties))
+        rows = list(item.iter_unpack(data[at:at + count * item.size]))
+        at += count * item.size
+        if name == "vertex":
+            column = {p[-1]: k for k, p in enumerate(properties)}
+            vertices = [tuple(row[column[axis]] for axis in "xyz") for row in rows]
+            fields = {key: [row[k] for row in rows] for key, k in column.items() if key not in ("x", "y", "z")}
+        if name == "face":
+            first = [p[0] for p in properties].index("list") + 1
+            triangles = [row[first:first + 3] for row in rows]
+    return vertices, triangles, fields
+
+
+def ramp_colour(share):
+    """Between the colours of the ramp, share 0 ... 1."""
+    place = min(max(share, 0.0), 1.0) * (len(RAMP) - 1)
+    k = min(int(place), len(RAMP) - 2)
+    low, high = (tuple(int(c[i:i + 2], 16) / 255.0 for i in (0, 2, 4)) for c in RAMP[k:k + 2])
+    return tuple(a + (b - a) * (place - k) for a, b in zip(low, high))
 
 
 def vertex_normals(vertices, triangles):
@@ -134,31 +180,47 @@ def write_png(file, width, height, rows):
                   chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b""))
 
 
-def load(arguments):
-    vertices, triangles, normals, colours = [], [], [], []
+def load(arguments, field):
+    """Everything as one mesh; of each vertex its value of the field, None where its mesh has no such field."""
+    vertices, triangles, normals, colours, values = [], [], [], [], []
+    known = set()
     for number, argument in enumerate(arguments):
         file, _, colour = argument.partition("=")
         colour = colour or PALETTE[number % len(PALETTE)]
-        part, faces = read_obj(file)
+        part, faces, fields = read_ply(file) if file.endswith(".ply") else read_obj(file)
+        known.update(fields)
         normals += vertex_normals(part, faces)
         triangles += [tuple(i + len(vertices) for i in t) for t in faces]
         vertices += part
         colours += [tuple(int(colour[k:k + 2], 16) / 255.0 for k in (0, 2, 4))] * len(faces)
-    return vertices, triangles, normals, colours
+        values += fields.get(field, [None] * len(part))
+    if field and all(value is None for value in values):
+        sys.exit(f"picture.py: no mesh has a field {field}; they have: {', '.join(sorted(known)) or 'none'}")
+    return vertices, triangles, normals, colours, values
+
+
+def field_range(values):
+    there = sorted(value for value in values if value is not None and math.isfinite(value))
+    return there[0], max(there[(99 * len(there)) // 100], there[0] + 1e-12)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("meshes", nargs="+", metavar="MESH.obj[=RRGGBB]")
+    parser.add_argument("meshes", nargs="+", metavar="MESH[=RRGGBB]")
     parser.add_argument("-o", "--output", required=True)
     parser.add_argument("--size", default="900x1200")
     parser.add_argument("--azimuth", type=float, default=28.0)
     parser.add_argument("--elevation", type=float, default=12.0)
     parser.add_argument("--distance", type=float, help="m from the centre; default: everything fits")
     parser.add_argument("--no-floor", action="store_true")
+    parser.add_argument("--field", default="")
+    parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"))
     given = parser.parse_args()
 
-    vertices, triangles, normals, colours = load(given.meshes)
+    vertices, triangles, normals, colours, values = load(given.meshes, given.field)
+    if given.field:
+        least, most = given.range or field_range(values)
+        print(f"{given.field}: {least:.4g} ... {most:.4g}")
     low, high = [min(c) for c in zip(*vertices)], [max(c) for c in zip(*vertices)]
     centre = tuple(0.5 * (a + b) for a, b in zip(low, high))
     radius = max(math.dist(x, centre) for x in vertices)
@@ -197,9 +259,14 @@ def main():
         if dot(normal, eye) < 0.0:
             normal = tuple(-c for c in normal)
         lifted = tuple(c + 0.01 * radius * n for c, n in zip(x, normal))
-        return shade(colours[owner[at] - 1], normal, light, eye, shadow.share(lifted, sample))
+        colour = colours[owner[at] - 1]
+        if given.field and values[t[0]] is not None:
+            colour = ramp_colour((sum(w[k] * values[t[k]] for k in range(3)) - least) / (most - least))
+        return shade(colour, normal, light, eye, shadow.share(lifted, sample))
 
     def pixel(row, column):
+        if given.field and 0.94 * width <= column < 0.96 * width and 0.3 * height <= row < 0.7 * height:
+            return bytes(int(255.0 * c + 0.5) for c in ramp_colour((0.7 * height - row) / (0.4 * height)))
         parts = []
         for sample in range(4):
             r, c = row + sample // 2, column + sample % 2

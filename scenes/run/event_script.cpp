@@ -4,8 +4,8 @@
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
+#include "garment/vertex_selection.h"
 #include "percale/error.h"
-#include "run/vertex_selection.h"
 
 namespace percale::scenes {
 namespace {

@@ -13,6 +13,7 @@
 #include "garment/cloth_shape.h"
 #include "meshes/mesh_import.h"
 #include "percale/error.h"
+#include "run/frame_fields.h"
 #include "run/motion_parts.h"
 #include "run/scene_plan.h"
 #include "run/step_count.h"
@@ -70,15 +71,8 @@ Frame first_frame(const BuiltScene& built) {
     return frame;
 }
 
-/// Whether a seam that lets no cloth meet cloth closes.
-bool sews_without_contact(const BuiltScene& built) {
-    return std::ranges::any_of(built.scene.seams, [&](const SeamSpec& seam) {
-        return !seam.contact_while_closing && built.simulation.time() < seam.over;
-    });
-}
-
 void certify_meeting_cloth(const BuiltScene& built, Frame& frame) {
-    frame.cloth_meets = !sews_without_contact(built);
+    frame.cloth_meets = !built.simulation.sews_without_contact();
     if (!frame.cloth_meets) return;
     std::vector<TriangleMesh> meeting;
     std::vector<int> first_vertex(frame.cloths.size(), -1);
@@ -94,16 +88,9 @@ void certify_meeting_cloth(const BuiltScene& built, Frame& frame) {
 }
 
 void place_and_certify(const BuiltScene& built, Frame& frame) {
-    const Simulation& simulation = built.simulation;
-    frame.time = simulation.time();
+    frame.time = built.simulation.time();
     frame.check = {};
-    for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
-        const std::span<const Vec3> positions = simulation.positions(built.cloths[i]);
-        frame.cloths[i].vertices.assign(positions.begin(), positions.end());
-    }
-    for (std::size_t i = 0; i < frame.obstacles.size(); ++i)
-        frame.obstacles[i].vertices =
-            transform(simulation.obstacle_pose(built.obstacles[i]), std::span<const Vec3>(built.obstacle_meshes[i].vertices));
+    place_shapes(built, frame.cloths, frame.obstacles);
     for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth)
         for (const TriangleMesh& obstacle : frame.obstacles)
             add_certificate(frame.check, certify(frame.cloths[cloth], obstacle, distance_limit(built, cloth)));
@@ -160,6 +147,7 @@ private:
 
     void make_frame() {
         add_frame(measures_, frame_.index, frame_.check);
+        if (hooks_.frame) frame_.fields = fields_of(built_, frame_.cloths, frame_.obstacles);
         if (hooks_.frame) hooks_.frame(frame_);
         ++frame_.index;
         framed_ = true;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "meshes/mesh_fields.h"
 #include "run/measures.h"
 #include "run/scene_build.h"
 #include "run/timeline.h"
@@ -21,6 +22,7 @@ struct Frame {
     double time = 0.0;                    // s, of the state shown
     std::vector<TriangleMesh> cloths;     // in the order of the scene
     std::vector<TriangleMesh> obstacles;  // in the order of the scene
+    std::vector<MeshFields> fields = {};  // of the cloths, as output.fields says; empty where that is empty
     bool cloth_meets = true;              // not while seams close without contact; then it is not certified against cloth
     FrameCheck check;
 };

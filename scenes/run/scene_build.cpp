@@ -7,14 +7,15 @@
 #include "format/expectations.h"
 #include "format/rest_check.h"
 #include "garment/cloth_shape.h"
+#include "garment/vertex_selection.h"
 #include "meshes/mesh_import.h"
 #include "percale/detectors.h"
 #include "percale/error.h"
 #include "percale/fabric_presets.h"
+#include "run/attached_pins.h"
 #include "run/event_script.h"
 #include "run/obstacle_motion.h"
 #include "run/start_fault.h"
-#include "run/vertex_selection.h"
 
 namespace percale::scenes {
 namespace {
@@ -93,6 +94,7 @@ void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
     const ClothId id = built.simulation.add_cloth(shape.start, fabric, {}, cloth.name, shape.rest);
     built.cloths.push_back(id);
     built.cloth_meshes.push_back(std::move(shape.start));
+    built.rest_shapes.push_back(std::move(shape.rest));
     built.pattern_seams.push_back(std::move(shape.seams));
 }
 
@@ -194,6 +196,7 @@ BuiltScene build_scene(const Scene& given) {
                      .simulation = Simulation(scene.step, std::move(detector)),
                      .cloths = {},
                      .cloth_meshes = {},
+                     .rest_shapes = {},
                      .obstacles = {},
                      .obstacle_meshes = {},
                      .pattern_seams = {},
@@ -207,6 +210,7 @@ BuiltScene build_scene(const Scene& given) {
     for (const SeamSpec& seam : scene.seams) add_seam(built, seam);
     sew_other_patterns(built);
     script_events(scene, built.cloth_meshes);
+    attached_pins(scene, built.cloth_meshes);
     check_start(built);
     if (scene.until_rest) check_can_rest(scene, built.simulation.plan());
     return built;

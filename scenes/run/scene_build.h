@@ -22,6 +22,7 @@ struct BuiltScene {
     Simulation simulation;
     std::vector<ClothId> cloths;                       // in the order of scene.cloths
     std::vector<TriangleMesh> cloth_meshes;            // as they start, in world coordinates
+    std::vector<RestShape> rest_shapes;                // where they have no strain
     std::vector<ObstacleId> obstacles;                 // in the order of scene.obstacles
     std::vector<TriangleMesh> obstacle_meshes;         // in their own coordinates, unit applied, pose not
     std::vector<std::vector<SewnSeam>> pattern_seams;  // of each cloth; of one without a pattern none

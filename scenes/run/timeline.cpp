@@ -18,7 +18,8 @@ void move_obstacles(BuiltScene& built, double end) {
 
 }  // namespace
 
-Timeline::Timeline(const BuiltScene& built) : events_(script_events(built.scene, built.cloth_meshes)) {}
+Timeline::Timeline(const BuiltScene& built)
+    : events_(script_events(built.scene, built.cloth_meshes)), attached_pins_(attached_pins(built.scene, built.cloth_meshes)) {}
 
 void Timeline::apply(BuiltScene& built, double time, double dt) {
     while (next_event_ < events_.size() && events_[next_event_].time <= time + event_rounding * dt)
@@ -47,18 +48,20 @@ void Timeline::go_on_from(const BuiltScene& built, const State& state) {
                       std::all_of(state.moving_pins.begin(), state.moving_pins.end(), known);
     if (!fits) throw SceneError("the state of the script is that of another scene");
     next_event_ = static_cast<std::size_t>(state.next_event);
+    moving_pins_.clear();
+    attached_pins_ = attached_pins(built.scene, built.cloth_meshes);
+    for (std::size_t k = 0; k < next_event_; ++k) forget_pins(events_[k]);
     moving_pins_ = state.moving_pins;
 }
 
 void Timeline::act(BuiltScene& built, const ScriptedEvent& event) {
+    forget_pins(event);
     const auto id = [&](int cloth) { return built.cloths[static_cast<std::size_t>(cloth)]; };
     if (const auto* pin = std::get_if<ScriptedPin>(&event.what)) {
         for (const int vertex : pin->vertices) built.simulation.pin(id(pin->cloth), vertex);
     } else if (const auto* unpin = std::get_if<ScriptedUnpin>(&event.what)) {
-        forget_moves(unpin->cloth, unpin->vertices);
         for (const int vertex : unpin->vertices) built.simulation.unpin(id(unpin->cloth), vertex);
     } else if (const auto* move = std::get_if<ScriptedMove>(&event.what)) {
-        forget_moves(move->cloth, move->vertices);
         start_move(built, *move, event.time);
     } else if (const auto* wind = std::get_if<ScriptedWind>(&event.what)) {
         built.simulation.set_wind(wind->wind);
@@ -73,10 +76,17 @@ void Timeline::start_move(const BuiltScene& built, const ScriptedMove& move, dou
         moving_pins_.push_back({move.cloth, vertex, positions[static_cast<std::size_t>(vertex)], move.to, from, move.over});
 }
 
-void Timeline::forget_moves(int cloth, const std::vector<int>& vertices) {
-    std::erase_if(moving_pins_, [&](const MovingPin& pin) {
-        return pin.cloth == cloth && std::binary_search(vertices.begin(), vertices.end(), pin.vertex);
-    });
+/// What an event moves or lets go it finds where it is, not on its way.
+void Timeline::forget_pins(const ScriptedEvent& event) {
+    const auto forget = [&](const auto& of) {
+        const auto is_one = [&](const auto& pin) {
+            return pin.cloth == of.cloth && std::binary_search(of.vertices.begin(), of.vertices.end(), pin.vertex);
+        };
+        std::erase_if(moving_pins_, is_one);
+        std::erase_if(attached_pins_, is_one);
+    };
+    if (const auto* unpin = std::get_if<ScriptedUnpin>(&event.what)) forget(*unpin);
+    if (const auto* move = std::get_if<ScriptedMove>(&event.what)) forget(*move);
 }
 
 void Timeline::move_pins(BuiltScene& built, double end) {
@@ -86,6 +96,9 @@ void Timeline::move_pins(BuiltScene& built, double end) {
         built.simulation.move_pin(built.cloths[static_cast<std::size_t>(pin.cloth)], pin.vertex, target);
     }
     std::erase_if(moving_pins_, [&](const MovingPin& pin) { return fraction(pin) >= 1.0; });
+    for (const AttachedPin& pin : attached_pins_) {
+        built.simulation.move_pin(built.cloths[static_cast<std::size_t>(pin.cloth)], pin.vertex, place_at(pin, built.scene, end));
+    }
 }
 
 }  // namespace percale::scenes

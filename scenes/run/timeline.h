@@ -1,5 +1,6 @@
 #pragma once
 
+#include "run/attached_pins.h"
 #include "run/event_script.h"
 #include "run/scene_build.h"
 
@@ -12,8 +13,9 @@ public:
     explicit Timeline(const BuiltScene& built);
 
     /// Before the step from `time` to `time + dt`: applies the events due at or before `time` (to within a billionth of dt) and
-    /// sets where pins and obstacles are at its end. A move lasts from its event's time on, so that where a pin arrives does not
-    /// depend on the steps; it begins where the vertex is when the event is applied, and replaces an earlier move of the vertex.
+    /// sets where pins and obstacles are at its end. A pin on an obstacle stays on it until it is moved or let go. A move lasts
+    /// from its event's time on, so that where a pin arrives does not depend on the steps; it begins where the vertex is when the
+    /// event is applied, and replaces an earlier move of the vertex.
     void apply(BuiltScene& built, double time, double dt);
 
     /// Whether something is still to happen after `time`: an event, a pin on its way, an obstacle that moves, a seam that closes.
@@ -36,14 +38,15 @@ public:
     void go_on_from(const BuiltScene& built, const State& state);
 
 private:
+    void forget_pins(const ScriptedEvent& event);
     void act(BuiltScene& built, const ScriptedEvent& event);
     void start_move(const BuiltScene& built, const ScriptedMove& move, double from);
-    void forget_moves(int cloth, const std::vector<int>& vertices);
     void move_pins(BuiltScene& built, double end);
 
     std::vector<ScriptedEvent> events_;
     std::size_t next_event_ = 0;
     std::vector<MovingPin> moving_pins_;
+    std::vector<AttachedPin> attached_pins_;  // but for those that events moved or let go
 };
 
 }  // namespace percale::scenes

@@ -57,6 +57,8 @@ public:
                 return vertices_of(key, path);
             case KeyKind::names:
                 return list(key.count, [&] { return one_of({"\"c0\"", "\"c1\""}); });
+            case KeyKind::words:
+                return below(2) == 0 ? "[]" : "[\"" + one_of(key.choices) + "\"]";
             case KeyKind::pairs:
                 return list(1 + below(3), [&] { return list(2, [&] { return integer_of(key); }); });
             case KeyKind::stitches:
@@ -208,7 +210,7 @@ private:
     }
 
     std::string vertices_of(const SceneKey& key, const std::string& path) {
-        const int form = leads_to_wanted(path + ".box") ? 2 : below(3);
+        const int form = wanted.starts_with(path + ".") ? 2 : below(3);
         if (form == 0) return "\"boundary\"";
         if (form == 1) return list(1 + below(4), [&] { return std::to_string(below(100)); });
         return table_of(key, path);

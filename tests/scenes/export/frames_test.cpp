@@ -120,14 +120,15 @@ TEST_CASE("frames of a scene are told from other files by name and number, whole
     const TestFolder folder;
     std::filesystem::create_directories(folder.path("frames"));
     std::filesystem::create_directories(folder.path("obstacles"));
-    for (const std::string name : {"frames/shirt_00002.obj", "frames/shirt_00003.obj", "frames/shirt_100000.obj.part",
-                                   "frames/shirt_3.obj", "frames/shirt_00003.ply", "frames/shirts_00003.obj",
-                                   "frames/shirt_0000x.obj", "obstacles/ball_00000.obj", "obstacles/ball_00005.obj"})
+    for (const std::string name :
+         {"frames/shirt_00002.obj", "frames/shirt_00003.obj", "frames/shirt_100000.obj.part", "frames/shirt_3.obj",
+          "frames/shirt_00003.stl", "frames/shirt_00003.ply", "frames/shirts_00003.obj", "frames/shirt_0000x.obj",
+          "obstacles/ball_00000.obj", "obstacles/ball_00005.obj"})
         folder.write(name, "");
     const FrameWriter writer(folder.path(), scene_with({cloth("shirt")}, {obstacle("ball", 2)}));
     writer.remove_from(3);
     CHECK(folder.file_count() == 6);
-    for (const std::string name : {"shirt_00002.obj", "shirt_3.obj", "shirt_00003.ply", "shirts_00003.obj", "shirt_0000x.obj"})
+    for (const std::string name : {"shirt_00002.obj", "shirt_3.obj", "shirt_00003.stl", "shirts_00003.obj", "shirt_0000x.obj"})
         CHECK(folder.holds("frames/" + name));
     CHECK(folder.holds("obstacles/ball_00000.obj"));
     writer.remove_from(0);

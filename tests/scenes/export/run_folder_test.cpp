@@ -278,11 +278,23 @@ TEST_CASE("a run in another format leaves nothing of the one before, finished or
     CHECK(folder.file_count() == 3);
 }
 
+TEST_CASE("fields are refused where the frames hold none, and taken where they do or nothing is written") {
+    const TestFolder folder;
+    Scene scene = parse_scene(falling_sheet(), "test.toml");
+    scene.output.fields = {"strain"};
+    CHECK_THROWS_WITH(RunFolder(folder.path(), scene, false),
+                      Catch::Contains("output.frames = \"obj\" holds no fields; with them it must be one of none, ply"));
+    for (const char* word : {"ply", no_frames}) {
+        scene.output.frames = word;
+        CHECK_NOTHROW(RunFolder(folder.path(), scene, false));
+    }
+}
+
 TEST_CASE("a word that no format has is refused with those that there are") {
     const TestFolder folder;
     Scene scene = parse_scene(falling_sheet(), "test.toml");
     scene.output.frames = "tally";
-    CHECK_THROWS_WITH(RunFolder(folder.path(), scene, false), Catch::Contains("'tally'; valid: none, obj"));
+    CHECK_THROWS_WITH(RunFolder(folder.path(), scene, false), Catch::Contains("'tally'; valid: none, obj, ply"));
     CHECK_NOTHROW(RunFolder(folder.path(), scene, false, two_formats()));
     CHECK(folder.file_count() == 0);
 }

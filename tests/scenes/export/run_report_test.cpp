@@ -96,6 +96,7 @@ TEST_CASE("a report says what is left of each obstacle mesh and what was dropped
     const ordered_json list = report_of(build_scene(load_scene(folder.path("scene.toml"))), RunResult{}).at("obstacles");
     REQUIRE(list.size() == 2);
     CHECK(list[0] == ordered_json{{"name", "box"},
+                                  {"contact_force", {0.0, 0.0, 0.0}},
                                   {"triangles", 12},
                                   {"merged_vertices", 0},
                                   {"degenerate_triangles", 0},
@@ -103,6 +104,7 @@ TEST_CASE("a report says what is left of each obstacle mesh and what was dropped
                                   {"unreferenced_vertices", 0},
                                   {"internal_triangles", 0}});
     CHECK(list[1] == ordered_json{{"name", "flap"},
+                                  {"contact_force", {0.0, 0.0, 0.0}},
                                   {"triangles", 1},
                                   {"merged_vertices", 1},
                                   {"degenerate_triangles", 1},

@@ -41,6 +41,7 @@ TEST_CASE("values are read from what a document says") {
     CHECK(read<std::array<int, 2>>("[3, 4]") == std::array{3, 4});
     CHECK(read<std::array<std::string, 2>>("[\"a\", \"b\"]") == std::array<std::string, 2>{"a", "b"});
     CHECK(read<std::vector<std::array<int, 2>>>("[[1, 2], [3, 4]]") == std::vector<std::array<int, 2>>{{1, 2}, {3, 4}});
+    CHECK(read<std::vector<std::string>>("[\"a\", \"b\", \"c\"]") == std::vector<std::string>{"a", "b", "c"});
     CHECK(read<std::optional<double>>("2.5") == 2.5);
 }
 
@@ -55,6 +56,7 @@ TEST_CASE("a value that is written is read as the same") {
     CHECK(again(true));
     CHECK(again(std::string("a \"b\"")) == "a \"b\"");
     CHECK(again(Vec3(1.0, -2.0, 0.1)) == Vec3(1.0, -2.0, 0.1));
+    CHECK(again(std::vector<std::string>{"x", "y"}) == std::vector<std::string>{"x", "y"});
     CHECK(again(std::array{3, 4}) == std::array{3, 4});
     CHECK_FALSE(value_node(std::optional<double>()).has_value());
 }

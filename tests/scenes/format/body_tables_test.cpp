@@ -40,6 +40,8 @@ TEST_CASE("pins may be a box or the boundary") {
     const ClothSpec boxed = cloth(grid + "pin = { box = [[0, 0, 0], [0.1, 1, 1]] }\n");
     CHECK(std::get<VertexBox>(boxed.pin).lowest == Vec3(0, 0, 0));
     CHECK(std::get<VertexBox>(boxed.pin).highest == Vec3(0.1, 1, 1));
+    CHECK(std::get<VertexBox>(boxed.pin).to.empty());
+    CHECK(std::get<VertexBox>(cloth(grid + "pin = { box = [[0, 0, 0], [1, 1, 1]], to = \"ball\" }\n").pin).to == "ball");
     CHECK(std::holds_alternative<VertexBoundary>(cloth(grid + "pin = \"boundary\"\n").pin));
 }
 
@@ -130,5 +132,6 @@ TEST_CASE("a selection of vertices is written as it is read") {
     const auto box = std::get<VertexBox>(again(VertexBox{Vec3(0, 0.1, 0), Vec3(1, 2, 1)}));
     CHECK(box.lowest == Vec3(0, 0.1, 0));
     CHECK(box.highest == Vec3(1, 2, 1));
+    CHECK(std::get<VertexBox>(again(VertexBox{Vec3::Zero(), Vec3::Ones(), "ball"})).to == "ball");
     CHECK(std::holds_alternative<VertexBoundary>(again(VertexBoundary{})));
 }

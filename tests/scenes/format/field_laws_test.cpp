@@ -116,6 +116,8 @@ std::vector<std::string> wrong_kinds(const SceneKey& key) {
             return {"7", "\"many\"", "[]", "[7]"};
         case KeyKind::vertices:
             return {"7", "\"edges\""};
+        case KeyKind::words:
+            return {"7", "\"text\"", "{}"};
         case KeyKind::pairs:
             return {"7", "[]"};
         case KeyKind::stitches:

@@ -48,7 +48,7 @@ TEST_CASE("every number has a range, every word its choices, every list its coun
         if (number || list || key.kind == KeyKind::box) CHECK(key.lowest <= key.highest);
         if (number || list) CHECK_FALSE(range_text(key).empty());
         CHECK((key.count > 0) == (list || key.kind == KeyKind::names));
-        CHECK((!key.choices.empty()) == (key.kind == KeyKind::word));
+        CHECK((!key.choices.empty()) == (key.kind == KeyKind::word || key.kind == KeyKind::words));
     }
 }
 

@@ -11,7 +11,7 @@ using percale::scenes::test::TestFolder;
 namespace {
 
 std::unique_ptr<FrameEncoder> counted_vertices(const FrameCast& cast) {
-    return numbered_frames(cast, ".count", [](const std::string& path, const TriangleMesh& mesh) {
+    return numbered_frames(cast, ".count", [](const std::string& path, const TriangleMesh& mesh, const MeshFields&) {
         write_whole_file(path, std::to_string(mesh.vertices.size()));
     });
 }

@@ -154,6 +154,47 @@ TEST_CASE("a moving obstacle is where its motion says at the end of every step, 
     CHECK((built.simulation.obstacle_pose(built.obstacles[0]).translation - Vec3(0.004, 5, 0)).norm() < 1e-15);
 }
 
+namespace {
+
+/// The sheet held at one corner by a ball that moves 0.2 m/s upwards.
+BuiltScene carried_sheet(const std::string& events) {
+    const std::string text = small_scene() + "pin = { box = [[0, 0, 0], [0, 1, 0]], to = \"ball\" }\n" +
+                             "[[obstacle]]\nname = \"ball\"\nshape = { sphere = { radius = 0.05 } }\nmotion = [ { time = 0, "
+                             "translation = [-3, 0, 0] }, { time = 1, translation = [-3, 0.2, 0] } ]\n" +
+                             events;
+    const Override settings[] = {{"step.time_step", "0.01"}, {"step.detector", "brute_force"}};
+    return build_scene(parse_scene(text, "t", settings));
+}
+
+}  // namespace
+
+TEST_CASE("a pin on an obstacle goes with it until an event moves it or lets it go") {
+    BuiltScene carried = carried_sheet("");
+    Timeline timeline(carried);
+    const Vec3 start = position(carried, 0);
+    for (int n = 1; n <= 10; ++n) {
+        run_steps(carried, timeline, 1);
+        CHECK((position(carried, 0) - start - Vec3(0, 0.002 * n, 0)).norm() < 1e-12);
+    }
+    BuiltScene freed = carried_sheet(event(0.05, "unpin = { cloth = \"flag\", vertices = [0] }"));
+    Timeline other(freed);
+    run_steps(freed, other, 30);
+    CHECK(position(freed, 0).y() < 0.01);
+    BuiltScene moved = carried_sheet(event(0.05, "move = { cloth = \"flag\", vertices = [0], to = [0, 0, 0.01], over = 0.02 }"));
+    Timeline third(moved);
+    run_steps(moved, third, 20);
+    CHECK((position(moved, 0) - start - Vec3(0, 0.01, 0.01)).norm() < 1e-12);
+    // Which pins still go with it follows from how far the script has come.
+    BuiltScene resumed =
+        carried_sheet(event(0.05, "move = { cloth = \"flag\", vertices = [0], to = [0, 0, 0.01], over = 0.02 }"));
+    Timeline fourth(resumed);
+    resumed.simulation.restore(moved.simulation.save());
+    fourth.go_on_from(resumed, third.state());
+    run_steps(moved, third, 5);
+    run_steps(resumed, fourth, 5);
+    CHECK(resumed.simulation.state_hash() == moved.simulation.state_hash());
+}
+
 TEST_CASE("a script goes on where another one stands, in the midst of a move") {
     const std::string events = event(0.015, move(0, "[0, 1, 0]", "0.1")) + event(0.035, "gravity = [0, 0, 0]") +
                                event(0.075, "unpin = { cloth = \"flag\", vertices = [0] }");

@@ -1,4 +1,4 @@
-#include "run/vertex_selection.h"
+#include "garment/vertex_selection.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "scenes/run/vertex_selection.h"
+#include "scenes/garment/vertex_selection.h"
 
 #include <numbers>
 #include <set>

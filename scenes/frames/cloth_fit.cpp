@@ -1,0 +1,105 @@
+#include "frames/cloth_fit.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "percale/certify.h"
+#include "percale/strain.h"
+
+namespace percale::scenes {
+namespace {
+
+double area_of(const TriangleMesh& mesh, const Triangle& t) {
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    return 0.5 * (b - a).cross(c - a).norm();
+}
+
+/// m^2, shared out as masses are: a quarter of each cell of a grid, a third of each triangle.
+std::vector<double> vertex_areas(const TriangleMesh& mesh) {
+    std::vector<double> areas(mesh.vertices.size(), 0.0);
+    if (!mesh.is_grid()) {
+        for (const Triangle& t : mesh.triangles) {
+            for (const int v : t) areas[v] += area_of(mesh, t) / 3.0;
+        }
+        return areas;
+    }
+    for (int row = 0; row + 1 < mesh.grid_rows; ++row) {
+        for (int column = 0; column + 1 < mesh.grid_columns; ++column) {
+            const int i = row * mesh.grid_columns + column, below = i + mesh.grid_columns;
+            const double cell = area_of(mesh, {i, below, below + 1}) + area_of(mesh, {i, below + 1, i + 1});
+            for (const int v : {i, i + 1, below, below + 1}) areas[v] += cell / 4.0;
+        }
+    }
+    return areas;
+}
+
+/// The mean of what the triangles at a vertex have, each by its area in a mesh.
+std::vector<double> vertex_means(const TriangleMesh& mesh, std::span<const double> of_triangles) {
+    std::vector<double> sum(mesh.vertices.size(), 0.0), areas(mesh.vertices.size(), 0.0);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const double area = area_of(mesh, mesh.triangles[i]);
+        for (const int v : mesh.triangles[i]) {
+            sum[v] += area * of_triangles[i];
+            areas[v] += area;
+        }
+    }
+    for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = areas[v] > 0.0 ? sum[v] / areas[v] : 0.0;
+    return sum;
+}
+
+void add_strain(const DressedCloth& cloth, MeshFields& fields) {
+    MeshField warp{"strain_warp", {}}, weft{"strain_weft", {}}, shear{"strain_shear", {}};
+    for (const TriangleStrain& strain : triangle_strains(cloth.start, cloth.rest, cloth.now.vertices)) {
+        warp.values.push_back(strain.warp);
+        weft.values.push_back(strain.weft);
+        shear.values.push_back(strain.shear);
+    }
+    for (const MeshField* field : {&warp, &weft, &shear}) {
+        fields.vertex.push_back({field->name, vertex_means(cloth.start, field->values)});
+    }
+    for (MeshField* field : {&warp, &weft, &shear}) fields.triangle.push_back(std::move(*field));
+}
+
+std::vector<double> nearest_obstacle(const DressedCloth& cloth) {
+    std::vector<double> nearest(cloth.now.vertices.size(), std::numeric_limits<double>::infinity());
+    for (const TriangleMesh& obstacle : cloth.obstacles) {
+        const std::vector<double> distances = surface_distances(obstacle, cloth.now.vertices);
+        for (std::size_t v = 0; v < nearest.size(); ++v) nearest[v] = std::min(nearest[v], distances[v]);
+    }
+    return nearest;
+}
+
+}  // namespace
+
+std::string fit_words_meaning() {
+    return "strain: strain_warp, strain_weft (share of the length) and strain_shear (rad) of vertices and triangles; pressure: "
+           "of "
+           "obstacles on vertices, Pa; distance: of vertices from the nearest obstacle, m";
+}
+
+std::vector<double> contact_pressure(const TriangleMesh& now, std::span<const ContactLoad> loads) {
+    const std::vector<double> area = vertex_areas(now);
+    std::vector<double> pressure(now.vertices.size(), 0.0);
+    for (const ContactLoad& load : loads) {
+        if (area[load.vertex] > 0.0) pressure[load.vertex] += load.normal.norm() / area[load.vertex];
+    }
+    return pressure;
+}
+
+MeshFields fit_fields(const DressedCloth& cloth, std::span<const std::string> words) {
+    MeshFields fields;
+    for (const std::string& word : words) {
+        if (word == "strain") add_strain(cloth, fields);
+        if (word == "pressure") fields.vertex.push_back({word, contact_pressure(cloth.now, cloth.loads)});
+        if (word == "distance") fields.vertex.push_back({word, nearest_obstacle(cloth)});
+    }
+    return fields;
+}
+
+Spread spread_of(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t last = values.size() - 1;
+    return {values.front(), values[last / 2], values[95 * last / 100], values.back()};
+}
+
+}  // namespace percale::scenes

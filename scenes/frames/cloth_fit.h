@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "meshes/mesh_fields.h"
+#include "percale/contact_load.h"
+#include "percale/rest_shape.h"
+
+// How cloth sits: what a scene's output.fields asks for.
+namespace percale::scenes {
+
+/// The words of output.fields.
+inline constexpr std::string_view fit_words[] = {"strain", "pressure", "distance"};
+
+/// "strain: ...; pressure: ...".
+std::string fit_words_meaning();
+
+/// One cloth as it hangs.
+struct DressedCloth {
+    const TriangleMesh& start;  // and `rest`: as given to Simulation::add_cloth, m
+    const RestShape& rest;
+    const TriangleMesh& now;                  // m, world
+    std::span<const ContactLoad> loads;       // on its vertices
+    std::span<const TriangleMesh> obstacles;  // m, world
+};
+
+/// Pa, of each vertex: the sum of what obstacles push it off with, |normal|, over its area as it is now, which is
+/// shared out as mass is: a quarter of each cell of a grid, a third of each triangle of other meshes.
+std::vector<double> contact_pressure(const TriangleMesh& now, std::span<const ContactLoad> loads);
+
+/// The fields of these words. strain: strain_warp, strain_weft, strain_shear (TriangleStrain) of triangles, and of vertices as
+/// their mean by rest area; pressure: Pa, of vertices; distance: m, of vertices, to the nearest obstacle, with a minus inside a
+/// closed one, infinity without obstacles.
+MeshFields fit_fields(const DressedCloth& cloth, std::span<const std::string> words);
+
+/// Where the values of a field lie, sorted.
+struct Spread {
+    double smallest = 0.0, median = 0.0, of_95_percent = 0.0, largest = 0.0;
+};
+
+/// Of at least one value.
+Spread spread_of(std::vector<double> values);
+
+}  // namespace percale::scenes
