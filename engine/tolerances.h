@@ -427,10 +427,10 @@ constexpr int most_repair_turns = 8;
 constexpr int most_relaxations = 60;
 constexpr double relaxation_step = 1.0 / 60.0;
 
-/// Share of h to which contact parts cloth that was just taken out of cloth, and steps that it has for it. 0: the first step
-/// begins at a gap of nothing. 1: cloth that is pressed together has no such gap.
-constexpr double repaired_gap = 0.25;
-constexpr int most_partings = 10;
+/// Share by which strain has to fall, and steps in a row without after which relaxing is over. Fewer: starts are refused that
+/// would have relaxed.
+constexpr double relaxed_share = 0.01;
+constexpr int most_idle_relaxations = 10;
 
 /// Share of h. Vertices that a repair moved by less are not told of.
 constexpr double told_move_share = 0.1;

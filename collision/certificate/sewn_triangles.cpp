@@ -1,8 +1,6 @@
 #include "certificate/sewn_triangles.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <numeric>
 #include <string>
 
@@ -18,10 +16,6 @@ void check(const Stitch& stitch, std::size_t vertices) {
                          std::to_string(static_cast<long>(vertices) - 1));
     }
 }
-
-using Edge = std::array<int, 2>;
-
-Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 }  // namespace
 
@@ -45,20 +39,19 @@ SewnTriangles::SewnTriangles(const TriangleMesh& mesh, std::span<const Stitch> s
     if (stitches.empty()) return;
     for (const Stitch& stitch : stitches) check(stitch, mesh.vertices.size());
     const std::vector<int> number = closed_vertices(mesh.vertices.size(), stitches);
-    std::vector<bool> sewn(mesh.vertices.size(), false);
-    std::map<Edge, std::vector<int>> on_edge;
+    std::vector<std::vector<int>> points_at(mesh.vertices.size());
     for (const Stitch& stitch : stitches) {
-        sewn[number[stitch.vertex]] = true;
-        if (!stitch.joins_vertices()) on_edge[edge_of(stitch.from, stitch.to)].push_back(number[stitch.vertex]);
+        const int point = number[stitch.vertex];
+        points_at[point].push_back(point);
+        if (stitch.joins_vertices()) continue;
+        for (const int end : {stitch.from, stitch.to}) points_at[number[end]].push_back(point);
     }
     points_.resize(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Triangle& corners = mesh.triangles[t];
         std::vector<int>& points = points_[t];
-        for (int k = 0; k < 3; ++k) {
-            if (sewn[number[corners[k]]]) points.push_back(number[corners[k]]);
-            const auto found = on_edge.find(edge_of(corners[k], corners[(k + 1) % 3]));
-            if (found != on_edge.end()) points.insert(points.end(), found->second.begin(), found->second.end());
+        for (const int corner : mesh.triangles[t]) {
+            const std::vector<int>& own = points_at[number[corner]];
+            points.insert(points.end(), own.begin(), own.end());
         }
         std::sort(points.begin(), points.end());
     }

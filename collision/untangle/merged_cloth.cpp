@@ -4,7 +4,6 @@
 #include <set>
 
 #include "certificate/sewn_triangles.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -18,12 +17,12 @@ double mean_edge_of(std::span<const Triangle> triangles, std::span<const Vec3> x
 }
 
 /// Those that join two vertices of cloth that are near each other.
-std::vector<Stitch> closed_stitches(const CrossedCloth& cloth, std::span<const Vec3> x) {
+std::vector<Stitch> closed_stitches(const CrossedCloth& cloth, std::span<const Vec3> x, double edges) {
     std::vector<bool> meets(x.size(), false);
     for (const Triangle& t : cloth.triangles) {
         for (const int v : t) meets[v] = true;
     }
-    const double near = tolerances::closed_stitch * mean_edge_of(cloth.triangles, x);
+    const double near = edges * mean_edge_of(cloth.triangles, x);
     std::vector<Stitch> closed;
     for (const Stitch& stitch : cloth.stitches) {
         if (!stitch.joins_vertices() || !meets[stitch.vertex] || !meets[stitch.other()]) continue;
@@ -55,8 +54,10 @@ void add_triangles(std::span<const Triangle> triangles, MergedCloth& merged) {
         const Triangle sewn{merged.number[t[0]], merged.number[t[1]], merged.number[t[2]]};
         Triangle sorted = sewn;
         std::sort(sorted.begin(), sorted.end());
-        if (sorted[0] == sorted[1] || sorted[1] == sorted[2] || !known.insert(sorted).second) continue;
-        merged.mesh.triangles.push_back(sewn);
+        const bool flat = sorted[0] == sorted[1] || sorted[1] == sorted[2];
+        const bool left_out = flat || !known.insert(sorted).second;
+        merged.triangle.push_back(left_out ? -1 : static_cast<int>(merged.mesh.triangles.size()));
+        if (!left_out) merged.mesh.triangles.push_back(sewn);
     }
 }
 
@@ -73,8 +74,8 @@ std::vector<Vec3> MergedCloth::places(std::span<const Vec3> given, bool gaps) co
     return result;
 }
 
-MergedCloth merge_sewn(const CrossedCloth& cloth, std::span<const Vec3> positions) {
-    MergedCloth merged{.number = certificate::closed_vertices(positions.size(), closed_stitches(cloth, positions)),
+MergedCloth merge_sewn(const CrossedCloth& cloth, std::span<const Vec3> positions, double near) {
+    MergedCloth merged{.number = certificate::closed_vertices(positions.size(), closed_stitches(cloth, positions, near)),
                        .free = {cloth.free.begin(), cloth.free.end()},
                        .mesh = {.vertices = {positions.begin(), positions.end()}, .triangles = {}}};
     join_places(merged);

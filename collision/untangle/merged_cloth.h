@@ -20,6 +20,7 @@ struct MergedCloth {
     std::vector<int> number;            // of each vertex, that of the lowest it is one with
     std::vector<double> free;           // 0: stays; counts for the lowest
     TriangleMesh mesh;                  // of what is one the lowest vertex alone is used
+    std::vector<int> triangle = {};     // of each triangle its number in the mesh; -1: it is not there
     std::vector<Stitch> stitches = {};  // those that are left: open ones, and to points between vertices; in numbers of the mesh
     std::vector<Vec3> joined = {};      // m, where each vertex was when joining was over
 
@@ -30,8 +31,8 @@ struct MergedCloth {
     std::vector<Vec3> places(std::span<const Vec3> given, bool gaps) const;
 };
 
-/// Joins what stitches between two vertices of the triangles hold within a quarter of an edge: in the middle, or at the first
-/// that stays. Of triangles that then have the same corners one is left, of those without area none.
-MergedCloth merge_sewn(const CrossedCloth& cloth, std::span<const Vec3> positions);
+/// Joins what stitches between two vertices of the triangles hold within `near` edges (of the mean length): in the middle, or at
+/// the first that stays. Of triangles that then have the same corners one is left, of those without area none.
+MergedCloth merge_sewn(const CrossedCloth& cloth, std::span<const Vec3> positions, double near);
 
 }  // namespace percale

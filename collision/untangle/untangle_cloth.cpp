@@ -31,8 +31,9 @@ Vec3 across(const Stitch& stitch, std::span<const Vec3> x) {
 
 class Rounds {
 public:
-    Rounds(const CrossedCloth& cloth, std::span<const Vec3> positions)
-        : cloth_(cloth), given_(positions), merged_(merge_sewn(cloth, positions)) {
+    /// `near`: stitches as near as so many edges are closed.
+    Rounds(const CrossedCloth& cloth, std::span<const Vec3> positions, double near)
+        : cloth_(cloth), given_(positions), merged_(merge_sewn(cloth, positions, near)) {
         surface_ = make_cloth_surface(mesh_.triangles, mesh_.vertices.size());
         for (const ClothSurface::Edge& edge : surface_.edges) {
             bonds_.push_back({edge.vertex, (mesh_.vertices[edge.vertex[0]] - mesh_.vertices[edge.vertex[1]]).norm()});
@@ -52,51 +53,47 @@ public:
                 fewest = pairs.size();
                 since_fewest = 0;
             }
-            // What is left may be at seams alone, where it does not count.
-            if (since_fewest == tolerances::idle_rounds_before_smoothing && is_clear(places(false))) return places(false);
-            if (since_fewest > tolerances::most_idle_rounds) break;
-            move_back(edge_crossings(surface_, pairs, mesh_.vertices));
+            if (since_fewest > tolerances::most_idle_rounds) return std::nullopt;
+            move_back(crossings_of(pairs));
             if (since_fewest > tolerances::idle_rounds_before_smoothing) smooth(pairs);
             for (int sweep = 0; sweep < tolerances::bond_sweeps; ++sweep) keep_lengths();
         }
-        return is_clear(places(false)) ? std::optional(places(false)) : std::nullopt;
+        return std::nullopt;
     }
 
 private:
     std::vector<Vec3> places(bool gaps) const { return merged_.places(given_, gaps); }
 
-    /// As the start is checked: triangles at one stitch may cross.
-    bool is_clear(const std::vector<Vec3>& places) const {
-        const ClothCertificate found =
-            certify_cloth({.vertices = places, .triangles = {cloth_.triangles.begin(), cloth_.triangles.end()}}, cloth_.stitches);
-        return found.crossing.empty() && found.touching.empty();
-    }
-
+    /// What has not moved keeps the gaps that it had, unless something crosses by that.
     std::vector<Vec3> clear_places() const {
         std::vector<Vec3> with_gaps = places(true);
-        return is_clear(with_gaps) ? with_gaps : places(false);
+        const std::vector<Triangle> triangles(cloth_.triangles.begin(), cloth_.triangles.end());
+        const ClothCertificate found = certify_cloth({.vertices = with_gaps, .triangles = triangles}, cloth_.stitches);
+        return found.crossing.empty() && found.touching.empty() ? with_gaps : places(false);
     }
 
-    /// What crosses or touches: of all cloth now and then and where nothing seems to be left, else of what is near the crossings
-    /// found then.
+    /// What crosses or touches, as the start is checked (triangles at one stitch may): of all cloth now and then and where
+    /// nothing seems to be left, else of what is near the crossings found then.
     std::vector<IntersectingPair> find_pairs(int round) {
         if (round % tolerances::rounds_between_searches != 0) {
             const std::vector<IntersectingPair> pairs = pairs_among(near_);
             if (!pairs.empty()) return pairs;
         }
-        std::vector<int> all(mesh_.triangles.size());
+        std::vector<int> all(cloth_.triangles.size());
         std::iota(all.begin(), all.end(), 0);
         const std::vector<IntersectingPair> pairs = pairs_among(all);
         const std::vector<bool> near = near_vertices(pairs, tolerances::searched_rings);
-        std::erase_if(all, [&](int t) { return std::ranges::none_of(mesh_.triangles[t], [&](int v) { return near[v]; }); });
+        std::erase_if(all,
+                      [&](int t) { return std::ranges::none_of(cloth_.triangles[t], [&](int v) { return near[number_[v]]; }); });
         near_ = std::move(all);
         return pairs;
     }
 
+    /// Of the triangles as they were given.
     std::vector<IntersectingPair> pairs_among(const std::vector<int>& triangles) const {
-        TriangleMesh part{.vertices = mesh_.vertices, .triangles = {}};
-        for (const int t : triangles) part.triangles.push_back(mesh_.triangles[t]);
-        ClothCertificate certificate = certify_cloth(part, merged_.stitches);
+        TriangleMesh part{.vertices = places(false), .triangles = {}};
+        for (const int t : triangles) part.triangles.push_back(cloth_.triangles[t]);
+        ClothCertificate certificate = certify_cloth(part, cloth_.stitches);
         std::vector<IntersectingPair>& pairs = certificate.crossing;
         pairs.insert(pairs.end(), certificate.touching.begin(), certificate.touching.end());
         for (auto& [first, second] : pairs) {
@@ -106,12 +103,21 @@ private:
         return std::move(pairs);
     }
 
+    std::vector<EdgeCrossing> crossings_of(const std::vector<IntersectingPair>& pairs) const {
+        std::vector<IntersectingPair> merged;
+        for (const auto& [first, second] : pairs) {
+            const int one = merged_.triangle[first], other = merged_.triangle[second];
+            if (one >= 0 && other >= 0) merged.push_back({one, other});
+        }
+        return edge_crossings(surface_, merged, mesh_.vertices);
+    }
+
     /// Whether a vertex is one of the pairs', or at most so many edges from one.
     std::vector<bool> near_vertices(const std::vector<IntersectingPair>& pairs, int rings) const {
         std::vector<bool> near(mesh_.vertices.size(), false);
         for (const auto& [first, second] : pairs) {
             for (const int triangle : {first, second}) {
-                for (const int v : mesh_.triangles[triangle]) near[v] = true;
+                for (const int v : cloth_.triangles[triangle]) near[number_[v]] = true;
             }
         }
         for (int ring = 0; ring < rings; ++ring) {
@@ -191,18 +197,21 @@ private:
     std::span<const Vec3> given_;
     MergedCloth merged_;
     TriangleMesh& mesh_ = merged_.mesh;
+    const std::vector<int>& number_ = merged_.number;
     const std::vector<double>& free_ = merged_.free;
     ClothSurface surface_;  // of an edge with more than two triangles it knows two, which are enough for a direction
     std::vector<Bond> bonds_;
     std::vector<Tie> ties_;
-    std::vector<int> near_;  // triangles near the crossings of the last search of all cloth
+    std::vector<int> near_;  // triangles as given near the crossings of the last search of all cloth
     double reach_ = 0.0;     // m, farthest that a round moves a vertex
 };
 
 }  // namespace
 
 std::optional<std::vector<Vec3>> untangle_cloth(const CrossedCloth& cloth, std::span<const Vec3> positions) {
-    return Rounds(cloth, positions).run();
+    // Sides that lie a little apart may be clear as they are and cross when they are drawn together: then once more as they are.
+    std::optional<std::vector<Vec3>> apart = Rounds(cloth, positions, tolerances::closed_stitch).run();
+    return apart || cloth.stitches.empty() ? apart : Rounds(cloth, positions, 0.0).run();
 }
 
 }  // namespace percale

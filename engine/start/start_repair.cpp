@@ -29,6 +29,7 @@ public:
         world.scene.settings.adaptive = false;
         world.scene.settings.gravity = Vec3::Zero();
         world.scene.settings.newton_tolerance.reset();
+        world.scene.settings.newton_iterations = 1;  // linearly implicit: a share of the way, at a bounded cost
         world.scene.script.pin_targets = world.state.cloth.positions;
         for (ObstacleState& obstacle : world.scene.script.obstacles) obstacle.end = obstacle.start;
         scene_changed(world);
@@ -58,17 +59,16 @@ private:
 
 double strain(const World& world) { return largest_strain(world.scene.model.springs, world.state.cloth.positions); }
 
-/// Until no spring is stretched further and, if `apart`, contact has drawn cloth apart to a share of its thickness.
-void relax(World& world, double enough, bool apart) {
+/// Until no spring is stretched further, or they relax no more.
+void relax(World& world, double enough) {
     const Paused paused(world);
-    const double gap = apart ? repaired_gap * *std::ranges::min_element(world.scene.model.thickness) : 0.0;
-    bool near = apart;
-    for (int i = 0; i < most_relaxations && ((near && i < most_partings) || strain(world) > enough); ++i) {
+    double least = strain(world);
+    for (int i = 0, idle = 0; i < most_relaxations && idle < most_idle_relaxations && strain(world) > enough; ++i) {
         for (int v = 0; v < world.scene.model.vertex_count(); ++v) world.state.cloth.velocities.set(v, Vec3::Zero());
         world.state.time = paused.time() - relaxation_step;  // seams close no further
-        const StepReport report = step(world);
-        if (!report.ok()) return;
-        near = report.smallest_distance < gap;
+        if (!step(world).ok()) return;
+        idle = strain(world) < least * (1.0 - relaxed_share) ? 0 : idle + 1;
+        least = std::min(least, strain(world));
     }
 }
 
@@ -175,7 +175,7 @@ StartRepair repair_start(World& world, StartFault fault) {
     std::vector<int> cause(before.points.size(), unmoved);
     StartRepair repair{.moves = {}, .obstruction = leave_all(world, std::move(fault), cause)};
     if (repair.obstruction.empty()) {
-        relax(world, std::max(good_start_strain, strain_before), std::ranges::find(cause, moved_by_cloth) != cause.end());
+        relax(world, std::max(good_start_strain, strain_before));
         const double strain_after = strain(world);
         if (strain_after > std::max(most_start_strain, strain_before))
             repair.obstruction = strain_text(strain_after);

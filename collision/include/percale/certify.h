@@ -47,8 +47,8 @@ struct ClothCertificate {
 };
 
 /// Exact, with the triangle-triangle tests of certify; shares no code with the solver. Neighbours cross where they share more
-/// than the vertices, edge or points that they have to. Triangles at one stitch (where it is, they share a point once it is
-/// closed) are counted apart, since how far they cross is a matter of the gap. Thread-safe.
+/// than the vertices, edge or points that they have to. Triangles at one stitch (each has a vertex of it) are counted apart,
+/// since how far they cross is a matter of its gap and of how the sides of the seam are divided. Thread-safe.
 ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches = {});
 
 /// Crossing pairs of one mesh, as far as they were looked for.

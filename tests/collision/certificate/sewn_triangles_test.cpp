@@ -25,7 +25,7 @@ TriangleMesh loose_triangles() {
 
 }  // namespace
 
-TEST_CASE("triangles are sewn together where a vertex or an edge of both is in one stitch") {
+TEST_CASE("triangles are sewn together where both have a vertex of one stitch") {
     const TriangleMesh mesh = loose_triangles();
     const SewnTriangles none(mesh, {});
     CHECK_FALSE(none.together(0, 1));
@@ -37,8 +37,9 @@ TEST_CASE("triangles are sewn together where a vertex or an edge of both is in o
     const SewnTriangles point(mesh, std::vector<Stitch>{{0, 6, 7, 0.5}});
     CHECK(point.together(0, 2));
     CHECK(point.together(2, 0));
-    CHECK_FALSE(point.together(0, 3));
+    CHECK(point.together(0, 3));
     CHECK_FALSE(point.together(0, 1));
+    CHECK_FALSE(point.together(1, 2));
 }
 
 TEST_CASE("crossings of triangles that a stitch joins are told apart from those of others") {

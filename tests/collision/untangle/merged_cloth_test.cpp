@@ -15,7 +15,7 @@ TriangleMesh two_squares(double above) { return joined(make_grid(1, 1, 2, 2), mo
 
 MergedCloth merge(const TriangleMesh& mesh, const std::vector<Stitch>& stitches, std::vector<double> free = {}) {
     free.resize(mesh.vertices.size(), 1.0);
-    return merge_sewn({mesh.triangles, free, stitches}, mesh.vertices);
+    return merge_sewn({mesh.triangles, free, stitches}, mesh.vertices, 0.25);
 }
 
 }  // namespace

@@ -173,6 +173,7 @@ scenes::BuiltScene build(const Draw& draw) {
                              .simulation = Simulation(draw.settings, make_detector(draw.detector)),
                              .cloths = {},
                              .cloth_meshes = {draw.cloth.mesh},
+                             .rest_shapes = {{}},
                              .obstacles = {},
                              .obstacle_meshes = {draw.obstacle.mesh},
                              .pattern_seams = {},
