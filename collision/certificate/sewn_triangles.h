@@ -11,8 +11,9 @@ namespace percale::certificate {
 /// Vertices that are one once the stitches are closed have the same number: that of the lowest.
 std::vector<int> closed_vertices(std::size_t count, std::span<const Stitch> stitches);
 
-/// Which triangles of a mesh meet at a stitch once it is closed: each has a vertex of it. The ends of an edge to which a vertex is
-/// sewn are vertices of the stitch: where the sides of a seam have other vertices, triangles of one and the other overlap along it.
+/// Which triangles of a mesh meet at a stitch once it is closed: each has a vertex of it. The ends of an edge to which a vertex
+/// is sewn are vertices of the stitch: where the sides of a seam have other vertices, triangles of one and the other overlap
+/// along it.
 class SewnTriangles {
 public:
     /// Throws SceneError for a stitch of a vertex that there is not.
