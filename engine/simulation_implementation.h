@@ -9,6 +9,7 @@
 #include "forces/springs.h"
 #include "percale/error.h"
 #include "percale/simulation.h"
+#include "state/saved_world.h"
 #include "step/measure.h"
 #include "step/step.h"
 #include "tolerances.h"
@@ -91,6 +92,15 @@ struct Simulation::Implementation {
                    same_gravity = settings.gravity == world.scene.settings.gravity;
         if (!same_air || !same_gravity || settings.time_step != world.scene.settings.time_step) scene_changed(world);
         world.scene.settings = settings;
+    }
+
+    /// Simulation::save, or nothing where the detector cannot save its state.
+    std::vector<std::byte> saved_if_possible() const {
+        try {
+            return saved_world(world, start_moves);
+        } catch (const SceneError&) {
+            return {};
+        }
     }
 
     /// A step whose seams closed, and whose cloth was then moved: what it measured, of the state as it is now. The energy that

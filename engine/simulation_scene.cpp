@@ -130,9 +130,9 @@ StepReport Simulation::step() {
     const double start = cpu_seconds();
     prepare();
     // Should cloth not come apart when seams have closed, the whole step is taken back.
-    const bool may_close =
-        world.cloth_waits && !closes_without_contact(world, world.state.time + 1.5 * world.scene.settings.time_step);
-    const std::vector<std::byte> before = may_close ? save() : std::vector<std::byte>();
+    const double next = world.state.time + 1.5 * world.scene.settings.time_step;
+    const bool may_close = world.cloth_waits && meets_cloth(world.scene) && !closes_without_contact(world, next);
+    const std::vector<std::byte> before = may_close ? implementation_->saved_if_possible() : std::vector<std::byte>();
     StepReport report = percale::step(world);
     if (!report.slept) implementation_->update_views();
     if (report.ok() && world.cloth_waits && !closes_without_contact(world, world.state.time)) {
@@ -141,7 +141,7 @@ StepReport Simulation::step() {
         try {
             prepare();
         } catch (const StartError&) {
-            restore(before);
+            if (!before.empty()) restore(before);
             throw;
         }
         if (implementation_->start_moves.size() > moves) implementation_->tell_of_moves(energy, report);

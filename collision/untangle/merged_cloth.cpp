@@ -81,7 +81,8 @@ MergedCloth merge_sewn(const CrossedCloth& cloth, std::span<const Vec3> position
     join_places(merged);
     add_triangles(cloth.triangles, merged);
     for (const auto& [vertex, from, to, share] : cloth.stitches) {
-        const Stitch stitch{merged.number[vertex], merged.number[from], merged.number[to], share};
+        Stitch stitch{merged.number[vertex], merged.number[from], merged.number[to], share};
+        if (stitch.joins_vertices()) stitch = {stitch.vertex, stitch.other(), stitch.other(), 0.0};
         if (stitch.vertex != stitch.from && stitch.vertex != stitch.to) merged.stitches.push_back(stitch);
     }
     merged.joined = merged.mesh.vertices;

@@ -17,12 +17,13 @@ struct CrossedCloth {
 
 /// Crossed cloth in which closed stitches are gone: what they join is one vertex.
 struct MergedCloth {
-    std::vector<int> number;            // of each vertex, that of the lowest it is one with
-    std::vector<double> free;           // 0: stays; counts for the lowest
-    TriangleMesh mesh;                  // of what is one the lowest vertex alone is used
-    std::vector<int> triangle = {};     // of each triangle its number in the mesh; -1: it is not there
-    std::vector<Stitch> stitches = {};  // those that are left: open ones, and to points between vertices; in numbers of the mesh
-    std::vector<Vec3> joined = {};      // m, where each vertex was when joining was over
+    std::vector<int> number;         // of each vertex, that of the lowest it is one with
+    std::vector<double> free;        // 0: stays; counts for the lowest
+    TriangleMesh mesh;               // of what is one the lowest vertex alone is used
+    std::vector<int> triangle = {};  // of each triangle its number in the mesh; -1: it is not there
+    /// Those that are left, in numbers of the mesh: open ones, their share 0, and those to points between vertices.
+    std::vector<Stitch> stitches = {};
+    std::vector<Vec3> joined = {};  // m, where each vertex was when joining was over
 
     /// Length of edges, m; 0 without any.
     double mean_edge() const;

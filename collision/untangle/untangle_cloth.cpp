@@ -25,8 +25,7 @@ struct Tie {
 };
 
 Vec3 across(const Stitch& stitch, std::span<const Vec3> x) {
-    const double share = stitch.joins_vertices() ? 0.0 : stitch.share;
-    return x[stitch.vertex] - ((1.0 - share) * x[stitch.joins_vertices() ? stitch.other() : stitch.from] + share * x[stitch.to]);
+    return x[stitch.vertex] - ((1.0 - stitch.share) * x[stitch.from] + stitch.share * x[stitch.to]);
 }
 
 class Rounds {
@@ -182,9 +181,9 @@ private:
 
     void draw_together(const Stitch& stitch, double length) {
         const Vec3 gap = across(stitch, mesh_.vertices);
-        const double now = gap.norm(), share = stitch.joins_vertices() ? 0.0 : stitch.share;
-        const std::array<int, 3> vertex{stitch.vertex, stitch.joins_vertices() ? stitch.other() : stitch.from, stitch.to};
-        const std::array<double, 3> weight{1.0, share - 1.0, -share};
+        const double now = gap.norm();
+        const std::array<int, 3> vertex{stitch.vertex, stitch.from, stitch.to};
+        const std::array<double, 3> weight{1.0, stitch.share - 1.0, -stitch.share};
         double sum = 0.0;
         for (int k = 0; k < 3; ++k) sum += weight[k] * weight[k] * free_[vertex[k]];
         if (now <= length || sum == 0.0) return;

@@ -1,5 +1,6 @@
 #include "lumped_mass.h"
 
+#include "percale/strain.h"
 #include "rest_edges.h"
 
 namespace percale {
@@ -30,5 +31,7 @@ std::vector<double> lumped_masses(const TriangleMesh& rest, double area_density,
     }
     return masses;
 }
+
+std::vector<double> vertex_areas(const TriangleMesh& mesh) { return lumped_masses(mesh, 1.0); }
 
 }  // namespace percale

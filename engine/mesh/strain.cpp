@@ -24,6 +24,7 @@ Gradient deformation_gradient(const std::array<Eigen::Vector2d, 3>& rest, const 
 
 TriangleStrain along_axes(const Gradient& f) {
     const double warp = f.col(0).norm(), weft = f.col(1).norm();
+    if (!(warp * weft > 0.0)) return {warp - 1.0, weft - 1.0, 0.0};  // no length, no angle
     const double cosine = std::clamp(f.col(0).dot(f.col(1)) / (warp * weft), -1.0, 1.0);
     return {warp - 1.0, weft - 1.0, std::asin(cosine)};
 }

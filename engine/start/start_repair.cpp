@@ -62,13 +62,14 @@ double strain(const World& world) { return largest_strain(world.scene.model.spri
 /// Until no spring is stretched further, or they relax no more.
 void relax(World& world, double enough) {
     const Paused paused(world);
-    double least = strain(world);
-    for (int i = 0, idle = 0; i < most_relaxations && idle < most_idle_relaxations && strain(world) > enough; ++i) {
+    double now = strain(world), least = now;
+    for (int i = 0, idle = 0; i < most_relaxations && idle < most_idle_relaxations && now > enough; ++i) {
         for (int v = 0; v < world.scene.model.vertex_count(); ++v) world.state.cloth.velocities.set(v, Vec3::Zero());
         world.state.time = paused.time() - relaxation_step;  // seams close no further
         if (!step(world).ok()) return;
-        idle = strain(world) < least * (1.0 - relaxed_share) ? 0 : idle + 1;
-        least = std::min(least, strain(world));
+        now = strain(world);
+        idle = now < least * (1.0 - relaxed_share) ? 0 : idle + 1;
+        least = std::min(least, now);
     }
 }
 

@@ -14,25 +14,6 @@ double area_of(const TriangleMesh& mesh, const Triangle& t) {
     return 0.5 * (b - a).cross(c - a).norm();
 }
 
-/// m^2, shared out as masses are: a quarter of each cell of a grid, a third of each triangle.
-std::vector<double> vertex_areas(const TriangleMesh& mesh) {
-    std::vector<double> areas(mesh.vertices.size(), 0.0);
-    if (!mesh.is_grid()) {
-        for (const Triangle& t : mesh.triangles) {
-            for (const int v : t) areas[v] += area_of(mesh, t) / 3.0;
-        }
-        return areas;
-    }
-    for (int row = 0; row + 1 < mesh.grid_rows; ++row) {
-        for (int column = 0; column + 1 < mesh.grid_columns; ++column) {
-            const int i = row * mesh.grid_columns + column, below = i + mesh.grid_columns;
-            const double cell = area_of(mesh, {i, below, below + 1}) + area_of(mesh, {i, below + 1, i + 1});
-            for (const int v : {i, i + 1, below, below + 1}) areas[v] += cell / 4.0;
-        }
-    }
-    return areas;
-}
-
 /// The mean of what the triangles at a vertex have, each by its area in a mesh.
 std::vector<double> vertex_means(const TriangleMesh& mesh, std::span<const double> of_triangles) {
     std::vector<double> sum(mesh.vertices.size(), 0.0), areas(mesh.vertices.size(), 0.0);

@@ -27,8 +27,8 @@ struct DressedCloth {
     std::span<const TriangleMesh> obstacles;  // m, world
 };
 
-/// Pa, of each vertex: the sum of what obstacles push it off with, |normal|, over its area as it is now, which is
-/// shared out as mass is: a quarter of each cell of a grid, a third of each triangle of other meshes.
+/// Pa, of each vertex: the sum of what obstacles push it off with, |normal|, over its area as it is now
+/// (vertex_areas).
 std::vector<double> contact_pressure(const TriangleMesh& now, std::span<const ContactLoad> loads);
 
 /// The fields of these words. strain: strain_warp, strain_weft, strain_shear (TriangleStrain) of triangles, and of vertices as

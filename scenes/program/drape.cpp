@@ -18,6 +18,7 @@
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
+#include "run/frame_fields.h"
 #include "run/measures.h"
 #include "run/scene_build.h"
 #include "run/start_fault.h"
@@ -157,9 +158,7 @@ Drape settle(BuiltScene& built, const DrapeOptions& options) {
 
 FrameCheck write_and_certify(const BuiltScene& built, const DrapeOptions& options) {
     TriangleMesh cloth = built.cloth_meshes[0], body = built.obstacle_meshes[0];
-    const std::span<const Vec3> positions = built.simulation.positions(built.cloths[0]);
-    cloth.vertices.assign(positions.begin(), positions.end());
-    body.vertices = transform(built.simulation.obstacle_pose(built.obstacles[0]), std::span<const Vec3>(body.vertices));
+    place_shapes(built, {&cloth, 1}, {&body, 1});
     write_obj(options.out, cloth.vertices, cloth.triangles);
     FrameCheck check;
     add_certificate(check, certify(cloth, body, 4.0 * options.fabric.thickness));

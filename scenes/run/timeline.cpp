@@ -48,7 +48,6 @@ void Timeline::go_on_from(const BuiltScene& built, const State& state) {
                       std::all_of(state.moving_pins.begin(), state.moving_pins.end(), known);
     if (!fits) throw SceneError("the state of the script is that of another scene");
     next_event_ = static_cast<std::size_t>(state.next_event);
-    moving_pins_.clear();
     attached_pins_ = attached_pins(built.scene, built.cloth_meshes);
     for (std::size_t k = 0; k < next_event_; ++k) forget_pins(events_[k]);
     moving_pins_ = state.moving_pins;

@@ -87,7 +87,8 @@ public:
     /// clear.
     std::span<const StartMove> start_repair() const;
     /// Advances by the time step. Throws what `prepare` does, before anything moves; where seams close in this step without
-    /// contact and their cloth does not come apart, StartError after all has been put back as it was before the step.
+    /// contact and their cloth does not come apart, StartError after all has been put back as it was before the step
+    /// (where the detector can save its state; else the step is made).
     StepReport step();
     /// What the coming steps are made of and what is left out; runs nothing. `to_come`: what will change later on.
     ScenePlan plan(const ScriptedChanges& to_come = {}) const;

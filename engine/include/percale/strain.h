@@ -21,4 +21,8 @@ struct TriangleStrain {
 /// Thread-safe.
 std::vector<TriangleStrain> triangle_strains(const TriangleMesh& mesh, const RestShape& rest, std::span<const Vec3> positions);
 
+/// Area of every vertex of a mesh as it lies, m^2, shared out as masses are: a quarter of each cell of a grid that it touches, a
+/// third of each triangle of another mesh. Thread-safe.
+std::vector<double> vertex_areas(const TriangleMesh& mesh);
+
 }  // namespace percale

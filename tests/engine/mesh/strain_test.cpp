@@ -83,6 +83,26 @@ TEST_CASE("Strain refers to the rest shape, whose panels may lie apart and turne
     }
 }
 
+TEST_CASE("Areas of vertices are those that masses go by, of the mesh as it lies") {
+    TriangleMesh grid = make_grid(0.4, 0.2, 3, 3);
+    for (Vec3& x : grid.vertices) x *= 2.0;
+    const std::vector<double> areas = vertex_areas(grid);
+    CHECK(areas[4] == Approx(0.08));
+    CHECK(areas[0] == Approx(0.02));
+    double sum = 0.0;
+    for (const double area : vertex_areas(free_mesh(grid))) sum += area;
+    CHECK(sum == Approx(0.32));
+}
+
+TEST_CASE("A triangle drawn together to a point along warp has no shear") {
+    const TriangleMesh mesh = make_grid(1, 1, 2, 2);
+    for (const TriangleStrain& strain : triangle_strains(mesh, {}, std::vector<Vec3>(4, Vec3::Zero()))) {
+        CHECK(strain.warp == -1.0);
+        CHECK(strain.weft == -1.0);
+        CHECK(strain.shear == 0.0);
+    }
+}
+
 TEST_CASE("Strains of another number of positions are refused") {
     const TriangleMesh grid = make_grid(0.6, 0.4, 4, 3);
     CHECK_THROWS_AS(triangle_strains(grid, {}, std::vector<Vec3>(5, Vec3::Zero())), SceneError);
