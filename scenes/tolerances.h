@@ -171,6 +171,12 @@ constexpr double default_tolerances[] = {1e-2, 1e-3, 1e-4};
 /// Share of a rate of steps that it may be off a whole number and be written as 1/number.
 constexpr double whole_rate_rounding = 1e-9;
 
+// ---- program/
+
+/// m. `drape` calls a seam with a wider gap not sewn. Smaller: tight gathers fail. Larger: seams closed on the wrong side of a
+/// limb pass.
+constexpr double widest_sewn_gap = 0.01;
+
 // ---- run/
 
 /// Edges of a rest shape that are by more longer or shorter than those of the start are likely in another unit.

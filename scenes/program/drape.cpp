@@ -22,6 +22,7 @@
 #include "run/measures.h"
 #include "run/scene_build.h"
 #include "run/start_fault.h"
+#include "tolerances.h"
 
 namespace percale::program {
 
@@ -175,13 +176,43 @@ FrameCheck write_and_certify(const BuiltScene& built, const DrapeOptions& option
     return check;
 }
 
-int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& check) {
+/// The stitch that is farthest open.
+struct WidestGap {
+    std::size_t stitches = 0;  // of all seams
+    double width = 0.0;        // m
+    std::string seam = {};
+    Vec3 place = Vec3::Zero();  // m, of its vertex
+};
+
+WidestGap widest_gap(const BuiltScene& built) {
+    WidestGap widest;
+    for (const BuiltSeam& seam : built.seams) {
+        const std::vector<double> gaps = built.simulation.seam_gaps(seam.id);
+        widest.stitches += gaps.size();
+        const auto found = std::max_element(gaps.begin(), gaps.end());
+        if (*found < widest.width) continue;
+        widest.width = *found;
+        widest.seam = seam.name;
+        const int vertex = seam.sewn.stitches[static_cast<std::size_t>(found - gaps.begin())].vertex;
+        widest.place = built.simulation.positions(built.cloths[seam.sewn.cloths[0]])[vertex];
+    }
+    return widest;
+}
+
+int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& check, const WidestGap& gap) {
     const char* out = options.out.c_str();
     if (!check.clean()) {
         std::fprintf(stderr,
                      "percale: %s: not clean: %d intersecting pairs (with the body or itself), %d vertices inside the body, "
                      "deepest %.3g m\n",
                      out, check.intersections, check.vertices_inside, check.deepest_penetration);
+        return not_as_expected;
+    }
+    if (gap.width > widest_sewn_gap) {
+        std::fprintf(stderr,
+                     "percale: %s: not sewn: seam '%s' is open by %.3g m at (%.3g, %.3g, %.3g); does its way lie around or "
+                     "through the body?\n",
+                     out, gap.seam.c_str(), gap.width, gap.place.x(), gap.place.y(), gap.place.z());
         return not_as_expected;
     }
     if (drape.end == DrapeEnd::settled) return all_well;
@@ -196,16 +227,9 @@ int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& c
     return stopped ? stopped_by_signal : not_as_expected;
 }
 
-void print_seams(const BuiltScene& built, const FrameCheck& check) {
-    double widest = 0.0;
-    std::size_t stitches = 0;
-    for (const BuiltSeam& seam : built.seams) {
-        const std::vector<double> gaps = built.simulation.seam_gaps(seam.id);
-        widest = std::max(widest, *std::max_element(gaps.begin(), gaps.end()));
-        stitches += gaps.size();
-    }
-    if (stitches == 0) return;
-    std::printf("%zu stitches, largest gap %.3g m", stitches, widest);
+void print_seams(const WidestGap& gap, const FrameCheck& check) {
+    if (gap.stitches == 0) return;
+    std::printf("%zu stitches, largest gap %.3g m", gap.stitches, gap.width);
     if (check.at_seams > 0) std::printf("; %d pairs of triangles at one stitch cross within it", check.at_seams);
     std::printf("\n");
 }
@@ -231,8 +255,9 @@ int drape_garment(const DrapeOptions& options) {
         std::printf("%s: %s%.3g s simulated, fastest vertex %.3g m/s, %d intersecting pairs, %s\n", options.out.c_str(),
                     drape.end == DrapeEnd::settled ? "at rest, " : "", drape.last.time, drape.speed, check.intersections,
                     nearness_text(check.smallest_distance).c_str());
-    if (!options.quiet) print_seams(built, check);
-    return verdict(options, drape, check);
+    const WidestGap gap = widest_gap(built);
+    if (!options.quiet) print_seams(gap, check);
+    return verdict(options, drape, check, gap);
 }
 
 /// The preset as it is on a mesh that does not say where warp is, with what else the command line says.

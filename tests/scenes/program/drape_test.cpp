@@ -77,6 +77,22 @@ TEST_CASE("a pattern is sewn around the body first, and then hangs on it") {
     CHECK(refused(drape({"--garment-unit", "cm"}), "a pattern says its own unit"));
 }
 
+TEST_CASE("a seam that the body keeps open is named, with its gap and its place") {
+    const TestFolder folder;
+    // Two strips on both sides of a plate that is wider than they are.
+    const std::string strip = "points = [[-10, 0], [10, 0], [10, 10], [-10, 10]]\n";
+    folder.write("strips.toml", "unit = \"cm\"\n[[panel]]\nname = \"a\"\n" + strip + "at = [0, 0, 5]\n[[panel]]\nname = \"b\"\n" +
+                                    strip + "at = [0, 0, -5]\nturn = [0, 180, 0]\n[[seam]]\nname = \"left side\"\n" +
+                                    "sides = [[\"a.1\"], [\"b.3\"]]\n");
+    const TriangleMesh plate = make_box(Vec3(2.0, 2.0, 0.02));
+    scenes::write_obj(folder.path("plate.obj"), plate.vertices, plate.triangles);
+    const ProgramRun run = run_program({"drape", "strips.toml", "plate.obj", "-o", "out.obj", "--seconds", "0.7"}, folder.path());
+    CAPTURE(run.out, run.error);
+    CHECK(run.exit_code == 1);
+    CHECK(run.error.find("not sewn: seam 'left side' is open by ") != std::string::npos);
+    CHECK(folder.holds("out.obj"));
+}
+
 TEST_CASE("when the time is up the garment is written all the same, and the speed named") {
     const TestFolder folder;
     write_pair(folder, 1.0);
