@@ -229,6 +229,12 @@ constexpr Option<StepSettings> step_list[] = {
      .changes_steps = false,
      .get_choice = [](const StepSettings& s) { return static_cast<int>(s.start); },
      .set_choice = [](StepSettings& s, int i) { s.start = static_cast<StartRule>(i); }},
+    {.key = "kinetic_damping",
+     .unit = "",
+     .sentence = "Whether all cloth is stopped after each step in which its potential energy has risen, so that what swings "
+                 "comes to rest "
+                 "sooner, on a path that means nothing; not while pins or obstacles move or seams close.",
+     .flag = [](StepSettings& s) { return &s.kinetic_damping; }},
     {.key = "skip",
      .unit = "",
      .sentence = "Whether work that the scene does not need is left out (percale plan lists it); false runs everything.",

@@ -33,6 +33,9 @@ struct StepPlan {
     bool rest = true;             // cloth at rest falls asleep
     bool everything = false;      // nothing is skipped that could be done
 
+    /// In the coming step, from without.
+    bool something_moves() const { return pins_move || obstacles_move || seams_close; }
+
     bool operator==(const StepPlan&) const = default;
 };
 

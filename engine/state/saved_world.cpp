@@ -15,7 +15,7 @@
 
 namespace percale {
 
-constexpr SealKind state_seal{.name = "PERCALES", .version = 6, .words = "saved state"};
+constexpr SealKind state_seal{.name = "PERCALES", .version = 7, .words = "saved state"};
 
 /// What an obstacle's name is not needed for.
 struct SavedObstacle {
@@ -102,7 +102,7 @@ void exchange(Archive& archive, Value& rest) {
 
 template <class Archive, OfType<RestState> Value>
 void exchange(Archive& archive, Value& rest) {
-    archive(rest.cloths, rest.anchor, rest.asleep, rest.figures);
+    archive(rest.cloths, rest.anchor, rest.potential, rest.asleep, rest.figures);
 }
 
 template <class Archive, OfType<SchemeMemory> Value>

@@ -70,8 +70,7 @@ void fall_asleep(ClothState& cloth, RestState& rest, StepReport& last) {
 
 void update_rest(const StepScene& scene, const Vectors& forces, ClothState& cloth, RestState& rest, StepReport& report) {
     if (!scene.plan.rest) return;
-    const bool moved = scene.plan.pins_move || scene.plan.obstacles_move || scene.plan.seams_close;
-    if (moved || report.status != StepStatus::ok) return wake(rest);
+    if (scene.plan.something_moves() || report.status != StepStatus::ok) return wake(rest);
     if (rest.cloths.size() != scene.model.cloths.size()) {
         rest.cloths.assign(scene.model.cloths.size(), {});
         rest.anchor = cloth.positions;
@@ -89,6 +88,7 @@ void update_rest(const StepScene& scene, const Vectors& forces, ClothState& clot
 void wake(RestState& rest) {
     rest.cloths.clear();
     rest.anchor.resize(0);
+    rest.potential.reset();
     rest.asleep = false;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "model/vectors.h"
@@ -16,9 +17,10 @@ struct ClothRest {
 
 struct RestState {
     std::vector<ClothRest> cloths;
-    Vectors anchor;       // m, where each vertex was when its cloth became still
-    bool asleep = false;  // all cloths: steps are not solved
-    StepReport figures;   // of the last step that was solved
+    Vectors anchor;                   // m, where each vertex was when its cloth became still
+    std::optional<double> potential;  // J, after the last step (damp_kinetic_energy)
+    bool asleep = false;              // all cloths: steps are not solved
+    StepReport figures;               // of the last step that was solved
 };
 
 /// After a good step: follows how long each cloth has been still, and lets all fall asleep (velocities become zero) once every

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "checks/checked_terms.h"
+#include "kinetic_damping.h"
 #include "measure.h"
 #include "motion.h"
 #include "plan/planning.h"
@@ -80,6 +81,7 @@ StepReport step(World& world) {
         finish_motion(scene);
         advance_time(dt, state);
         measure.accepted(state, work, report);
+        damp_kinetic_energy(scene, state, rest, report);
         update_rest(scene, work.newton.current.forces.total, state.cloth, rest, report);
     } else {
         state.past.forget();

@@ -87,6 +87,7 @@ Scene drape_scene(const DrapeOptions& options) {
     scene.file = "drape";
     scene.until_rest = true;
     scene.longest = options.seconds;
+    scene.step.kinetic_damping = true;
     scene.fabrics["garment"] = options.fabric;
     scene.fabrics["garment"].self_contact = !options.no_self_contact;
     ClothSpec cloth;

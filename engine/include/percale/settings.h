@@ -50,7 +50,12 @@ struct StepSettings {
     /// repair: cloth that starts through, inside or touching an obstacle, or with self_contact through such cloth, is moved out
     /// before the first step, as Simulation::start_repair tells; refuse: such a start is an error.
     StartRule start = StartRule::repair;
-    bool skip = true;                      // leave out what the scene does not need (Simulation::plan); false runs everything
+    bool skip = true;  // leave out what the scene does not need (Simulation::plan); false runs everything
+    /// Stops all cloth (velocities become 0) after each step in which its potential energy, elastic and of gravity, has risen:
+    /// what swings comes to rest sooner, what creeps is left alone; the path there means nothing. Not while pins or obstacles
+    /// move or seams close. Kinetic damping of dynamic relaxation (Barnes 1999, Form finding and analysis of tension structures
+    /// by dynamic relaxation), by the potential instead of the kinetic energy.
+    bool kinetic_damping = false;
     bool check_derivatives = false;        // after each step, of every force at its end state; slow, for those who change forces
     Vec3 gravity = Vec3(0.0, -9.81, 0.0);  // m/s^2
     std::optional<Vec3> wind = {};         // m/s, velocity of the air; empty: no air at all, (0, 0, 0): it stands still

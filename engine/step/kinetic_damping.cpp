@@ -1,0 +1,24 @@
+#include "kinetic_damping.h"
+
+#include <algorithm>
+
+#include "measure.h"
+
+namespace percale {
+
+void damp_kinetic_energy(const StepScene& scene, StepState& state, RestState& rest, StepReport& report) {
+    if (!scene.settings.kinetic_damping) return;
+    const StepEnergy energy = energy_of(scene, state);
+    const double potential = energy.gravity + energy.elastic;
+    const bool rises = rest.potential && potential > *rest.potential && !scene.plan.something_moves();
+    rest.potential = potential;
+    if (!rises) return;
+    for (auto* axis : {&state.cloth.velocities.x, &state.cloth.velocities.y, &state.cloth.velocities.z})
+        std::fill(axis->begin(), axis->end(), 0.0);
+    state.past.forget();
+    report.energy.kinetic -= energy.kinetic;
+    report.energy.dissipated_integrator += energy.kinetic;
+    report.largest_speed *= 0.0;  // or still NaN where it is not measured
+}
+
+}  // namespace percale

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "rest_detection.h"
+#include "span/span.h"
+
+namespace percale {
+
+/// After a good step, with StepSettings::kinetic_damping: stops all cloth if its potential energy, elastic and of gravity, rose
+/// in it. `rest.potential` holds that from step to step. What is taken counts as dissipated by the integrator.
+void damp_kinetic_energy(const StepScene& scene, StepState& state, RestState& rest, StepReport& report);
+
+}  // namespace percale
