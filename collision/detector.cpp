@@ -57,7 +57,8 @@ public:
 
     std::optional<std::vector<Vec3>> untangle_cloth(std::span<const Vec3> positions, std::span<const double> free) override {
         if (!between_cloths_) return std::nullopt;
-        return percale::untangle_cloth({between_cloths_->triangles(), free, between_cloths_->stitches()}, positions);
+        return percale::untangle_cloth(
+            {between_cloths_->triangles(), free, between_cloths_->stitches(), between_cloths_->meeting()}, positions);
     }
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {

@@ -101,16 +101,17 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
 
 void Simulation::prepare() {
     World& world = implementation_->world;
-    const bool sewn_now = world.cloth_waits && !closes_without_contact(world, world.state.time);
+    std::vector<int> waiting = waiting_cloth(world.scene, world.state.time);
+    const bool sewn_now = waiting != world.waiting;
     if (sewn_now) {
-        world.cloth_waits = false;
+        world.waiting = std::move(waiting);
         pass_cloth_to_detector(world);
         world.changed = true;
     }
     if (!world.changed) return;
     check_scheme(implementation_->world.scene);
     const bool obstacles = !world.scene.script.obstacles.empty() && !world.scene.model.cloths.empty();
-    if (world.scene.detector && (obstacles || (meets_cloth(world.scene) && !world.cloth_waits))) {
+    if (world.scene.detector && (obstacles || cloth_meets_now(world))) {
         std::vector<StartMove> moves = clear_start(world, sewn_now ? " is sewn " : " starts ");
         std::vector<StartMove>& known = implementation_->start_moves;
         if (!sewn_now) known.clear();
@@ -131,11 +132,11 @@ StepReport Simulation::step() {
     prepare();
     // Should cloth not come apart when seams have closed, the whole step is taken back.
     const double next = world.state.time + 1.5 * world.scene.settings.time_step;
-    const bool may_close = world.cloth_waits && meets_cloth(world.scene) && !closes_without_contact(world, next);
+    const bool may_close = meets_cloth(world.scene) && waiting_cloth(world.scene, next) != world.waiting;
     const std::vector<std::byte> before = may_close ? implementation_->saved_if_possible() : std::vector<std::byte>();
     StepReport report = percale::step(world);
     if (!report.slept) implementation_->update_views();
-    if (report.ok() && world.cloth_waits && !closes_without_contact(world, world.state.time)) {
+    if (report.ok() && waiting_cloth(world.scene, world.state.time) != world.waiting) {
         const std::size_t moves = implementation_->start_moves.size();
         const double energy = this->energy().total();
         try {

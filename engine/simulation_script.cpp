@@ -55,6 +55,7 @@ void Simulation::set_wind(const Vec3& velocity) {
 
 SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const Stitch> stitches, const SeamSettings& settings) {
     World& world = implementation_->world;
+    check_range(settings.name, "after", "s", settings.after, 0.0, 1e6);
     check_range(settings.name, "over", "s", settings.over, 0.0, 1e6);
     check_range(settings.name, "stiffness", "N/m", settings.stiffness, 1e-3, 1e9);
     std::vector<Stitch> sewn;
@@ -77,8 +78,19 @@ SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const std::
     return add_seam(first, second, stitches, settings);
 }
 
-bool Simulation::sews_without_contact() const {
-    return closes_without_contact(implementation_->world, implementation_->world.state.time);
+void Simulation::set_pair(ClothId first, ClothId second, const ClothPair& pair) {
+    World& world = implementation_->world;
+    const std::string names = implementation_->cloth(first).name + " and " + implementation_->cloth(second).name;
+    if (pair.thickness) check_range(names, "thickness", "m", *pair.thickness, 1e-6, 1.0);
+    world.scene.script.pairs.set(first.index, second.index, pair);
+    pass_cloth_to_detector(world);
+    world.changed = true;
+    scene_changed(world);
+}
+
+bool Simulation::meets(ClothId first, ClothId second) const {
+    static_cast<void>(implementation_->cloth(first)), static_cast<void>(implementation_->cloth(second));
+    return meet_now(implementation_->world, first.index, second.index);
 }
 
 std::vector<double> Simulation::seam_gaps(SeamId seam) const {

@@ -200,13 +200,13 @@ std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const 
     return distances;
 }
 
-ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches) {
+ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches, const MeetingCloth& meeting) {
     check(cloth, "certify_cloth: cloth");
     const Surface surface(cloth);
     const SewnTriangles sewn(cloth, stitches);
     ClothCertificate result;
     surface.tree.walk_overlaps(surface.tree, [&](int i, int j) {
-        if (i >= j) return;
+        if (i >= j || !meeting.meet(i, j)) return;
         const Overlap overlap = overlap_within(cloth, surface, i, j);
         if (overlap == Overlap::disjoint) return;
         const bool together = sewn.together(i, j), cross = overlap == Overlap::crossing;

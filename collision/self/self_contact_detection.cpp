@@ -24,7 +24,10 @@ SelfContactDetection::SelfContactDetection(std::span<const Triangle> triangles, 
       friction_(cloth.friction.begin(), cloth.friction.end()),
       stitches_(cloth.stitches.begin(), cloth.stitches.end()) {
     for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
-        if (cloth.cloth[triangles[t][0]] >= 0) met_triangles_.push_back(t);
+        const int owner = cloth.cloth[triangles[t][0]];
+        if (owner < 0) continue;
+        met_triangles_.push_back(t);
+        cloth_of_triangle_.push_back(owner);
     }
 }
 
@@ -36,7 +39,7 @@ std::vector<Triangle> SelfContactDetection::triangles() const {
 
 StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) const {
     const TriangleMesh cloth{.vertices = {positions.begin(), positions.end()}, .triangles = triangles()};
-    const ClothCertificate certificate = certify_cloth(cloth, stitches_);
+    const ClothCertificate certificate = certify_cloth(cloth, stitches_, meeting());
     const auto& pairs = certificate.crossing.empty() ? certificate.touching : certificate.crossing;
     if (pairs.empty()) return {};
     StartFault fault;

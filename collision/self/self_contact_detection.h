@@ -14,11 +14,13 @@ class SelfContactDetection {
 public:
     SelfContactDetection(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, const SelfContact& cloth);
 
-    /// The first pair of cloth triangles that cross, or touch without being neighbours; exact.
     /// The triangles of cloth that meets cloth.
     std::vector<Triangle> triangles() const;
     std::span<const Stitch> stitches() const { return stitches_; }
+    /// Which of them meet.
+    MeetingCloth meeting() const { return {cloth_of_triangle_, &lists_.cloth_pairs()}; }
 
+    /// The first pair of cloth triangles that cross, or touch without being neighbours; exact.
     StartFault check_start(std::span<const Vec3> positions) const;
 
     /// As those of ContactDetector.
@@ -39,7 +41,8 @@ private:
 
     SelfContactLists lists_;
     std::vector<double> friction_;
-    std::vector<int> met_triangles_;  // of cloth that meets cloth
+    std::vector<int> met_triangles_;      // of cloth that meets cloth
+    std::vector<int> cloth_of_triangle_;  // of each of them
     std::vector<Stitch> stitches_;
 };
 

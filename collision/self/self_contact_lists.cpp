@@ -12,6 +12,15 @@ namespace {
 
 double largest(std::span<const double> list) { return list.empty() ? 0.0 : *std::max_element(list.begin(), list.end()); }
 
+/// m, that is said of a pair of the cloth; 0 where nothing is.
+double largest_thickness(const ClothPairs& pairs, int cloth) {
+    double thickness = 0.0;
+    for (const auto& [cloths, pair] : pairs.said()) {
+        if (cloths[0] == cloth || cloths[1] == cloth) thickness = std::max(thickness, pair.thickness.value_or(0.0));
+    }
+    return thickness;
+}
+
 bool comes_before(const SelfPair& a, const SelfPair& b) { return std::tie(a.shape, a.feature) < std::tie(b.shape, b.feature); }
 
 }  // namespace
@@ -20,6 +29,7 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
                                    const SelfContact& cloth)
     : thickness_(vertex_thickness.begin(), vertex_thickness.end()),
       cloth_(cloth.cloth.begin(), cloth.cloth.end()),
+      cloth_pairs_(cloth.pairs),
       rest_(cloth.rest.begin(), cloth.rest.end()),
       surface_(make_cloth_surface(triangles, vertex_thickness.size())),
       sewn_(surface_, cloth.stitches, rest_, largest(vertex_thickness) / tolerances::contact_of_seam),
@@ -38,7 +48,7 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
         if (owner >= 0) of_cloth.push_back(t);
         const bool last = t + 1 == static_cast<int>(triangles.size()) || cloth_[triangles[t + 1][0]] != owner;
         if (!last || of_cloth.empty()) continue;
-        add_clusters(of_cloth, cloth.rest);
+        add_clusters(owner, of_cloth, cloth.rest);
         of_cloth.clear();
     }
     cluster_boxes_.resize(clusters_.size());
@@ -47,11 +57,14 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
     triangle_boxes_.resize(surface_.triangles.size());
 }
 
-void SelfContactLists::add_clusters(std::span<const int> triangles, std::span<const Vec3> rest) {
+void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles, std::span<const Vec3> rest) {
+    const double said = largest_thickness(cloth_pairs_, cloth);
     std::vector<Triangle> corners;
     for (const int t : triangles) corners.push_back(surface_.triangles[t]);
     for (const ClothCluster& made : make_clusters(corners, rest).clusters) {
         Cluster& cluster = clusters_.emplace_back();
+        cluster.cloth = cloth;
+        cluster.thickness = said;
         cluster.vertices = made.vertices;
         cluster.all_vertices = made.all_vertices;
         for (const int t : made.triangles) cluster.triangles.push_back(triangles[t]);
@@ -156,6 +169,8 @@ bool SelfContactLists::rebuild(std::span<const Vec3> from, std::span<const Vec3>
     memory_.lists.clear();
     memory_.pairs.clear();
     for (const auto& [a, b] : cluster_pairs_) {
+        pair_ = cloth_pairs_.of(clusters_[a].cloth, clusters_[b].cloth);
+        if (!pair_.contact) continue;
         SelfList list{.first = a, .second = b, .begin = memory_.pairs.size()};
         fill_list(list, from);
         if (list.end > list.begin) memory_.lists.push_back(list);
@@ -237,7 +252,7 @@ double SelfContactLists::sewn_distance(const SelfPair& pair) const {
 /// Keeps a pair that may come into contact if its distance can shrink by `room`.
 void SelfContactLists::consider(SelfPair pair, double room, std::span<const Vec3> from) {
     ++considered_;
-    pair.thickness = 0.5 * (thickness_[pair.vertex[0]] + thickness_[pair.vertex[3]]);
+    pair.thickness = pair_.thickness.value_or(0.5 * (thickness_[pair.vertex[0]] + thickness_[pair.vertex[3]]));
     pair.reach = self_distance(pair, from);
     if (pair.reach >= pair.thickness + room) return;
     const bool one_cloth = cloth_[pair.vertex[0]] == cloth_[pair.vertex[3]];

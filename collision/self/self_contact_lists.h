@@ -55,13 +55,15 @@ public:
         return std::span(memory_.pairs).subspan(list.begin, list.end - list.begin);
     }
     const ClothSurface& surface() const { return surface_; }
+    const ClothPairs& cloth_pairs() const { return cloth_pairs_; }
     std::size_t cluster_count() const { return clusters_.size(); }
 
 private:
     struct Cluster {
         std::vector<int> vertices, edges, triangles;  // owned
         std::vector<int> all_vertices;
-        double thickness = 0.0;  // m, largest
+        int cloth = -1;
+        double thickness = 0.0;  // m, largest, what is said of pairs of its cloth included
         Vec3 mean = Vec3::Zero();
         double spread = 0.0;  // m, from the mean motion
     };
@@ -69,7 +71,7 @@ private:
         std::vector<int> vertices, edges, triangles;
     };
 
-    void add_clusters(std::span<const int> triangles, std::span<const Vec3> rest);
+    void add_clusters(int cloth, std::span<const int> triangles, std::span<const Vec3> rest);
     bool covers(std::span<const Vec3> positions) const;
     bool rebuild(std::span<const Vec3> from, std::span<const Vec3> to, bool whatever_it_takes);
     void set_boxes();
@@ -88,6 +90,8 @@ private:
 
     std::vector<double> thickness_;
     std::vector<int> cloth_;
+    ClothPairs cloth_pairs_;
+    ClothPair pair_;  // of the clusters whose list is being filled
     std::vector<Vec3> rest_;
     ClothSurface surface_;
     SewnRest sewn_;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "percale/cloth_pairs.h"
 #include "percale/mesh.h"
 #include "percale/stitch.h"
 
@@ -13,6 +14,7 @@ struct CrossedCloth {
     std::span<const Triangle> triangles;
     std::span<const double> free;      // 0: stays
     std::span<const Stitch> stitches;  // also of vertices that no triangle has, and those that are still open
+    MeetingCloth meeting = {};
 };
 
 /// Crossed cloth in which closed stitches are gone: what they join is one vertex.

@@ -67,7 +67,8 @@ private:
     std::vector<Vec3> clear_places() const {
         std::vector<Vec3> with_gaps = places(true);
         const std::vector<Triangle> triangles(cloth_.triangles.begin(), cloth_.triangles.end());
-        const ClothCertificate found = certify_cloth({.vertices = with_gaps, .triangles = triangles}, cloth_.stitches);
+        const ClothCertificate found =
+            certify_cloth({.vertices = with_gaps, .triangles = triangles}, cloth_.stitches, cloth_.meeting);
         return found.crossing.empty() && found.touching.empty() ? with_gaps : places(false);
     }
 
@@ -91,8 +92,10 @@ private:
     /// Of the triangles as they were given.
     std::vector<IntersectingPair> pairs_among(const std::vector<int>& triangles) const {
         TriangleMesh part{.vertices = places(false), .triangles = {}};
+        std::vector<int> cloth;
         for (const int t : triangles) part.triangles.push_back(cloth_.triangles[t]);
-        ClothCertificate certificate = certify_cloth(part, cloth_.stitches);
+        for (const int t : triangles) cloth.push_back(cloth_.meeting.cloth_of(t));
+        ClothCertificate certificate = certify_cloth(part, cloth_.stitches, {cloth, cloth_.meeting.pairs});
         std::vector<IntersectingPair>& pairs = certificate.crossing;
         pairs.insert(pairs.end(), certificate.touching.begin(), certificate.touching.end());
         for (auto& [first, second] : pairs) {

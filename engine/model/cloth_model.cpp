@@ -120,6 +120,11 @@ void set_model_clamps(std::span<const double> free, ClothModel& model) {
     copy_bending(model.springs, model.adjacency);
 }
 
+int cloth_of(const ClothModel& model, int vertex) {
+    const auto next = std::ranges::upper_bound(model.cloths, vertex, {}, &ClothRange::first);
+    return static_cast<int>(next - model.cloths.begin()) - 1;
+}
+
 double largest_aspect(const ClothModel& model, const ClothRange& cloth) {
     if (cloth.grid || !cloth.fabric.has_moduli()) return 0.0;
     double largest = 0.0;

@@ -70,6 +70,9 @@ void set_bending(ClothModel& model);
 /// Makes hinges beside clamps stiffer. `free`: 1, or 0 at pinned vertices.
 void set_model_clamps(std::span<const double> free, ClothModel& model);
 
+/// The number of the cloth that a vertex belongs to.
+int cloth_of(const ClothModel& model, int vertex);
+
 /// Longest edge of a triangle over its height there at rest, largest of a cloth of moduli on a free mesh: its stiffness across is
 /// by as much larger than along. 0 for other cloth.
 double largest_aspect(const ClothModel& model, const ClothRange& cloth);

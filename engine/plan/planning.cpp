@@ -55,6 +55,7 @@ SceneFacts counted_facts(const StepScene& scene, const ClothState& state, const 
     facts.changes.obstacles = to_come.obstacles || obstacles_move(scene);
     facts.changes.pins = to_come.pins || pins_move(scene, state);
     facts.springs.hinge = static_cast<int>(model.hinges.all.size());
+    facts.pairs = scene.script.pairs;
     for (const ClothRange& cloth : model.cloths) facts.cloths.push_back({cloth.name, cloth.grid, cloth.fabric});
     return facts;
 }

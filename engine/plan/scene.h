@@ -27,6 +27,7 @@ struct Script {
     Vectors pin_targets;         // m, at the end of the coming step; meaningful where pinned
     std::vector<ObstacleState> obstacles;
     std::vector<Seam> seams;
+    ClothPairs pairs;  // m, as thicknesses of the model
 };
 
 /// All that is fixed while the spans of a step are solved. Between steps the plan is renewed, with hinges beside pins, and

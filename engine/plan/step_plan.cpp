@@ -21,6 +21,12 @@ void add_contacts(const StepPlan& plan, const SceneFacts& facts, std::vector<Ski
     for (const ClothFacts& cloth : facts.cloths) {
         if (!cloth.fabric.self_contact) skipped.push_back({"contact of " + cloth.name + " with cloth", "self_contact is false"});
     }
+    for (const auto& [cloths, pair] : facts.pairs.said()) {
+        if (pair.contact) continue;
+        const std::string &first = facts.cloths[cloths[0]].name, &second = facts.cloths[cloths[1]].name;
+        skipped.push_back(
+            {"contact of " + first + " with " + (first == second ? "itself" : second), "the pair's contact is false"});
+    }
 }
 
 void add_motion(const StepPlan& plan, const SceneFacts& facts, std::vector<Skip>& skipped) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/cloth_facts.h"
+#include "percale/cloth_pairs.h"
 #include "percale/plan.h"
 #include "percale/settings.h"
 
@@ -53,6 +54,7 @@ struct SceneFacts {
     bool detector = false;         // there is one, with or without obstacles
     ScriptedChanges changes = {};  // that are known of
     std::vector<ClothFacts> cloths = {};
+    ClothPairs pairs = {};
 };
 
 /// Explicit schemes use velocity damping, whatever the setting says about the implicit ones. Without damping the velocity form is

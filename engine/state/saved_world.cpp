@@ -31,7 +31,8 @@ struct SavedContact {
 
 /// All of a world that is not its model and its settings, nor made anew in each step.
 struct SavedWorld {
-    bool changed = true, plan_outdated = true, cloth_waits = false;
+    bool changed = true, plan_outdated = true;
+    std::vector<int> waiting;
     StepSettings settings;  // time step, gravity and wind of them
     StepState state;        // but for contact, and without points
     SavedContact contact;
@@ -133,7 +134,7 @@ void exchange(Archive& archive, Value& move) {
 
 template <class Archive, OfType<SavedWorld> Value>
 void exchange(Archive& archive, Value& saved) {
-    archive(saved.changed, saved.plan_outdated, saved.cloth_waits);
+    archive(saved.changed, saved.plan_outdated, saved.waiting);
     archive(saved.settings.time_step, saved.settings.gravity, saved.settings.wind);
     archive(saved.state, saved.contact, saved.free, saved.pin_targets, saved.obstacles, saved.seams, saved.sewn_directions,
             saved.clamps);
@@ -150,7 +151,7 @@ struct Identity {
     std::uint64_t cloth = 0, obstacles = 0, settings = 0;
 };
 
-std::uint64_t cloth_hash(const ClothModel& model) {
+std::uint64_t cloth_hash(const ClothModel& model, const ClothPairs& pairs) {
     ListHash hash;
     for (const ClothRange& cloth : model.cloths) {
         for (const int number : {cloth.first, cloth.count, cloth.columns, static_cast<int>(cloth.fabric.self_contact)}) {
@@ -161,6 +162,10 @@ std::uint64_t cloth_hash(const ClothModel& model) {
     for (const auto* numbers : {&model.mass, &model.thickness}) hash.add_all(*numbers);
     hash.add_all(model.rest);
     hash.add_all(model.triangles);
+    for (const auto& [cloths, pair] : pairs.said()) {
+        for (const int number : {cloths[0], cloths[1], static_cast<int>(pair.contact)}) hash.add(number);
+        hash.add(pair.thickness.value_or(0.0));
+    }
     for (const ForceTerm* term : force_terms()) term->identify(model, hash);
     return hash.value();
 }
@@ -174,7 +179,7 @@ std::uint64_t obstacles_hash(const World& world) {
 }
 
 Identity identity_of(const World& world) {
-    return {cloth_hash(world.scene.model), obstacles_hash(world), options_hash(world.scene.settings)};
+    return {cloth_hash(world.scene.model, world.scene.script.pairs), obstacles_hash(world), options_hash(world.scene.settings)};
 }
 
 SavedWorld state_of(const World& world) {
@@ -182,7 +187,7 @@ SavedWorld state_of(const World& world) {
     SavedWorld saved;
     saved.changed = world.changed;
     saved.plan_outdated = world.plan_outdated;
-    saved.cloth_waits = world.cloth_waits;
+    saved.waiting = world.waiting;
     saved.settings = scene.settings;
     saved.state = world.state;
     const ContactMemory& contact = world.state.contact;
@@ -381,23 +386,24 @@ void put_state(SavedWorld& saved, World& world) {
     world.saved_loads = std::move(saved.loads.all);
 }
 
-/// The detector holds cloth against cloth only if that does not wait. Where it refuses the state it is as it was.
+/// The detector holds only cloth that does not wait against cloth. Where it refuses the state it is as it was.
 void restore_detector(const SavedWorld& saved, World& world) {
     ContactDetector& detector = *world.scene.detector;
     StateReader reader(saved.detector);
-    if (saved.cloth_waits == world.cloth_waits) return detector.restore(reader);
+    if (saved.waiting == world.waiting) return detector.restore(reader);
     StateWriter before;
     detector.save(before);
     const std::vector<std::byte> own = before.take();
-    const auto let_wait = [&](bool waits) {
-        world.cloth_waits = waits;
+    const std::vector<int> own_waiting = world.waiting;
+    const auto let_wait = [&](const std::vector<int>& waiting) {
+        world.waiting = waiting;
         pass_cloth_to_detector(world);
     };
-    let_wait(saved.cloth_waits);
+    let_wait(saved.waiting);
     try {
         detector.restore(reader);
     } catch (const SceneError&) {
-        let_wait(!saved.cloth_waits);
+        let_wait(own_waiting);
         StateReader again(own);
         detector.restore(again);
         throw;
@@ -420,7 +426,8 @@ std::vector<StartMove> restore_world(std::span<const std::byte> bytes, World& wo
     const Identity own = identity_of(world);
     Identity identity;
     reader(identity.cloth, identity.obstacles, identity.settings);
-    if (identity.cloth != own.cloth) throw SceneError("saved state: it is of other cloth or seams than this simulation has");
+    if (identity.cloth != own.cloth)
+        throw SceneError("saved state: it is of other cloth, pairs of cloths or seams than this simulation has");
     if (identity.obstacles != own.obstacles) throw SceneError("saved state: it is of other obstacles than this simulation has");
     if (identity.settings != own.settings) throw SceneError("saved state: it was made with other step settings than these");
     SavedWorld saved;

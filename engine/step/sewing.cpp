@@ -15,7 +15,10 @@ bool joins_itself(const Stitch& stitch) {
 
 int sew(World& world, std::span<const Stitch> stitches, const SeamSettings& settings) {
     ClothModel model = world.scene.model;
-    Seam seam{.length = {}, .from = world.state.time, .over = settings.over, .contact = settings.contact_while_closing};
+    Seam seam{.length = {},
+              .from = world.state.time + settings.after,
+              .over = settings.over,
+              .contact = settings.contact_while_closing};
     append_seam(stitches, settings.stiffness, world.state.cloth.positions, seam, model);
     finish_model(model);
     world.scene.model = std::move(model);
@@ -23,7 +26,7 @@ int sew(World& world, std::span<const Stitch> stitches, const SeamSettings& sett
     world.scene.script.seams.push_back(std::move(seam));
     world.work.newton.solver.forget_model();
     scene_changed(world);
-    world.cloth_waits = world.cloth_waits || closes_without_contact(world, world.state.time);
+    world.waiting = waiting_cloth(world.scene, world.state.time);
     if (meets_cloth(world.scene)) {
         pass_cloth_to_detector(world);
         world.changed = true;

@@ -16,10 +16,64 @@ bool meets_cloth(const StepScene& scene) {
                        [](const ClothRange& cloth) { return cloth.fabric.self_contact; });
 }
 
-bool closes_without_contact(const World& world, double time) {
-    return std::ranges::any_of(world.scene.script.seams,
-                               [&](const Seam& seam) { return !seam.contact && seam.closes_after(time); });
+std::vector<int> waiting_cloth(const StepScene& scene, double time) {
+    const ClothModel& model = scene.model;
+    std::vector<int> group(model.cloths.size(), -1);
+    const auto join = [&](int first, int second) {
+        const int from = group[first] < 0 ? first : group[first], other = group[second] < 0 ? second : group[second];
+        group[first] = group[second] = std::min(from, other);
+        std::ranges::replace(group, std::max(from, other), std::min(from, other));
+    };
+    bool any = false;
+    for (const Seam& seam : scene.script.seams) {
+        if (seam.contact || !seam.closes_after(time)) continue;
+        any = true;
+        // All its stitches join the same two.
+        join(cloth_of(model, seam.stitches.front().vertex), cloth_of(model, seam.stitches.front().from));
+    }
+    return any ? group : std::vector<int>();
 }
+
+bool meet_now(const World& world, int first, int second) {
+    const std::vector<ClothRange>& cloths = world.scene.model.cloths;
+    if (!cloths[first].fabric.self_contact || !cloths[second].fabric.self_contact) return false;
+    const std::vector<int>& waiting = world.waiting;
+    const auto group = [&](int cloth) { return cloth < static_cast<int>(waiting.size()) ? waiting[cloth] : -1; };
+    if (group(first) >= 0 && group(first) == group(second)) return false;
+    return world.scene.script.pairs.of(first, second).contact;
+}
+
+bool cloth_meets_now(const World& world) {
+    const int count = static_cast<int>(world.scene.model.cloths.size());
+    for (int first = 0; first < count; ++first) {
+        for (int second = first; second < count; ++second) {
+            if (meet_now(world, first, second)) return true;
+        }
+    }
+    return false;
+}
+
+namespace {
+
+/// What the detector is told of pairs: what is said, and that those which wait do not meet. `zone`: times the thickness.
+ClothPairs pairs_now(const World& world, double zone) {
+    ClothPairs pairs;
+    const int count = static_cast<int>(world.scene.model.cloths.size());
+    for (const auto& [cloths, said] : world.scene.script.pairs.said()) {
+        ClothPair pair = said;
+        if (pair.thickness) *pair.thickness *= zone;
+        pairs.set(cloths[0], cloths[1], pair);
+    }
+    if (world.waiting.empty()) return pairs;
+    for (int first = 0; first < count; ++first) {
+        for (int second = first; second < count; ++second) {
+            if (!meet_now(world, first, second)) pairs.set(first, second, {.contact = false});
+        }
+    }
+    return pairs;
+}
+
+}  // namespace
 
 void pass_cloth_to_detector(World& world) {
     const ClothModel& model = world.scene.model;
@@ -28,7 +82,7 @@ void pass_cloth_to_detector(World& world) {
     const double factor = world.work.newton.law(world.scene.settings.contact_response).zone();
     for (double& thickness : zone) thickness *= factor;
     world.scene.detector->set_cloth(model.triangles, zone);
-    if (!meets_cloth(world.scene) || world.cloth_waits) return;
+    if (!cloth_meets_now(world)) return;
     std::vector<int> owner;
     std::vector<double> friction;
     for (std::size_t c = 0; c < model.cloths.size(); ++c) {
@@ -39,7 +93,8 @@ void pass_cloth_to_detector(World& world) {
     }
     std::vector<Stitch> stitches;
     for (const Seam& seam : world.scene.script.seams) stitches.insert(stitches.end(), seam.stitches.begin(), seam.stitches.end());
-    world.scene.detector->set_self_contact({.cloth = owner, .rest = model.rest, .friction = friction, .stitches = stitches});
+    world.scene.detector->set_self_contact(
+        {.cloth = owner, .rest = model.rest, .friction = friction, .stitches = stitches, .pairs = pairs_now(world, factor)});
 }
 
 void check_scheme(const StepScene& scene) {

@@ -33,16 +33,24 @@ struct World {
     bool changed = true;        // cloth or obstacles were added since the last preparation
     LoadSource load_source = LoadSource::nowhere;
     std::vector<ContactLoad> saved_loads;  // of a state that was restored
-    bool cloth_waits = false;              // for seams to close, until it meets cloth
+    /// Of each cloth that waits for seams to close: cloths with the same number are joined by such seams and do not meet each
+    /// other, nor themselves, before; -1: it waits for none. Empty where none waits.
+    std::vector<int> waiting;
 };
 
 /// Some cloth has self_contact.
 bool meets_cloth(const StepScene& scene);
 
-/// Whether a seam that lets no cloth meet cloth closes after the time, s.
-bool closes_without_contact(const World& world, double time);
+/// World::waiting as it is after a time, s.
+std::vector<int> waiting_cloth(const StepScene& scene, double time);
 
-/// Tells the detector all cloth anew, and what of it meets cloth, unless it waits.
+/// Whether two cloths, or a cloth with itself, meet now: both have self_contact, nothing else is said, and they do not wait.
+bool meet_now(const World& world, int first, int second);
+
+/// Whether any two do.
+bool cloth_meets_now(const World& world);
+
+/// Tells the detector all cloth anew, and what of it meets cloth now.
 void pass_cloth_to_detector(World& world);
 
 /// Throws SceneError where the scheme takes no contact and the scene has some, or takes none by projection.

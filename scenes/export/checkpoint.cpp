@@ -12,7 +12,7 @@ namespace percale::scenes {
 
 using nlohmann::json;
 
-constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 3, .words = "checkpoint"};
+constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 4, .words = "checkpoint"};
 
 template <class Archive, OfType<RunTotals> Value>
 void exchange(Archive& archive, Value& totals) {

@@ -68,7 +68,6 @@ FrameWriter::FrameWriter(const std::string& folder, const Scene& scene, std::spa
       cast_(cast_of(scene)),
       files_(folder),
       encoder_(encoder_of(scene.output.frames, cast_, formats)) {
-    for (const ClothSpec& cloth : scene.cloths) cloth_meets_.push_back(scene.meets_cloth(cloth));
     const std::string& word = scene.output.frames;
     const bool holds = std::ranges::any_of(formats_, [&](const FrameFormat& f) { return f.word == word && f.holds_fields; });
     if (scene.output.fields.empty() || word == no_frames || holds) return;
@@ -83,8 +82,7 @@ FrameRecord FrameWriter::write(const Frame& frame) {
     files_.check();
     record.cloths = files.cloths;
     record.obstacles = files.obstacles;
-    for (std::size_t i = 0; i < record.cloths.size(); ++i)
-        if (cloth_meets_[i] && frame.cloth_meets) record.meeting.push_back(record.cloths[i]);
+    if (!record.cloths.empty()) record.meeting = frame.meeting;
     return record;
 }
 

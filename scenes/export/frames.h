@@ -19,7 +19,7 @@ struct FrameRecord {
     std::vector<std::string> cloths;     // in the order of the scene; empty if nothing was written
     std::vector<std::string> obstacles;  // in the order of the scene; a resting one has the same file in every frame
     FrameCheck check;
-    std::vector<std::string> meeting;  // those of `cloths` that meet each other (self_contact)
+    PairsOfCloths meeting;  // of `cloths`, by number, that meet each other (self_contact)
 };
 
 /// Writes the frames of a scene in the format that it names (output.frames) into FOLDER/frames and FOLDER/obstacles, whole or not
@@ -48,7 +48,6 @@ private:
     std::string folder_;
     std::span<const FrameFormat> formats_;
     FrameCast cast_;
-    std::vector<bool> cloth_meets_;
     FrameFolder files_;
     std::unique_ptr<FrameEncoder> encoder_;  // null: no frames are written
 };

@@ -260,7 +260,7 @@ FrameRecord frame_record(const ordered_json& json) {
     record.check.deepest_penetration = json.at("deepest_penetration").get<double>();
     record.check.smallest_distance = number_or_infinity(json.at("smallest_distance"));
     // Reports of builds without contact between cloths lack it.
-    if (json.contains("self_contact")) record.meeting = json.at("self_contact").get<std::vector<std::string>>();
+    if (json.contains("self_contact")) record.meeting = json.at("self_contact").get<PairsOfCloths>();
     return record;
 }
 

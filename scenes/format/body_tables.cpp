@@ -105,6 +105,22 @@ Field<ClothSpec> edge_length_field() {
     return field;
 }
 
+Field<ClothSpec> panel_offset_field() {
+    Field<ClothSpec> field = value_field<ClothSpec>({.path = "panel_offset",
+                                                     .sentence = "How much farther out the panels of a pattern start, each "
+                                                                 "along its normal: room for what is worn below.",
+                                                     .unit = "m",
+                                                     .lowest = 0.0,
+                                                     .highest = 10.0,
+                                                     .needs = "pattern",
+                                                     .needs_why = "panel_offset moves a pattern's panels"},
+                                                    &ClothSpec::panel_offset);
+    field.write = [](const ClothSpec& spec) {
+        return spec.pattern.empty() ? std::nullopt : std::optional(value_node(spec.panel_offset));
+    };
+    return field;
+}
+
 Field<ClothSpec> rest_field() {
     Field<ClothSpec> field =
         value_field<ClothSpec>({.path = "rest",
@@ -358,7 +374,7 @@ const FieldTable<ClothSpec>& cloth_table() {
                                            .alternative = true},
                                           &ClothSpec::grid, grid_table()),
                    mesh_field<ClothSpec>("Mesh file, relative to the scene file; instead of grid."), unit_field<ClothSpec>(),
-                   pattern_field(), edge_length_field(), rest_field(), uv_scale_field(),
+                   pattern_field(), edge_length_field(), panel_offset_field(), rest_field(), uv_scale_field(),
                    value_field<ClothSpec>({.path = "warp",
                                            .sentence = "Where warp runs, of any length: in uv, then v if not said, or in the "
                                                        "axes of the mesh without strain; weft is across.",

@@ -23,7 +23,7 @@ void check_ends(const Scene& scene, double end, const SourcePlace& place, const 
 
 void check_script_ends(const Scene& scene) {
     for (const EventSpec& event : scene.events) check_ends(scene, event_end(event), event.place, "event");
-    for (const SeamSpec& seam : scene.seams) check_ends(scene, seam.over, seam.place, "seam: closing");
+    for (const SeamSpec& seam : scene.seams) check_ends(scene, seam.from + seam.over, seam.place, "seam: closing");
     for (const ObstacleSpec& obstacle : scene.obstacles) {
         const std::string name = "obstacle '" + obstacle.name + "': ";
         if (obstacle.spin && obstacle.spin->turns_per_s != 0.0)

@@ -54,6 +54,7 @@ struct ClothSpec {
     VertexSelection pin = VertexIndices{};
     std::string pattern;        // path of a sewing pattern
     double edge_length = 0.02;  // m, of its mesh
+    double panel_offset = 0.0;  // m, by which its panels start farther out
     SourcePlace pin_place;      // of `pin`; of the cloth where that is not said
     SourcePlace place;
 };
@@ -84,16 +85,25 @@ struct ObstacleSpec {
     SourcePlace place;
 };
 
-/// Vertices sewn to vertices, or to points between two; closing begins with the scene.
+/// Vertices sewn to vertices, or to points between two.
 struct SeamSpec {
     std::string name;                                         // for messages; "" = its number
     std::optional<std::array<std::string, 2>> cloths;         // without, the only one with itself
     std::optional<std::vector<std::array<int, 2>>> vertices;  // of the first and of the second cloth
     std::optional<std::vector<Stitch>> points;                // likewise
     std::string file;                                         // of more, relative to the scene file; "mesh": that of the cloth
+    double from = 0.0;                                        // s, when closing begins
     double over = 1.0;                                        // s
     double stiffness = 1000.0;                                // N/m
     bool contact_while_closing = true;
+    SourcePlace place;
+};
+
+/// What two cloths, or a cloth with itself, are to each other.
+struct PairSpec {
+    std::array<std::string, 2> cloths;
+    bool contact = true;
+    std::optional<double> thickness;  // m
     SourcePlace place;
 };
 
@@ -158,6 +168,7 @@ struct Scene {
     std::vector<ClothSpec> cloths;
     std::vector<ObstacleSpec> obstacles;
     std::vector<SeamSpec> seams;
+    std::vector<PairSpec> pairs;
     std::vector<EventSpec> events;  // ascending times
     std::vector<Expectation> expectations;
     OutputSpec output;

@@ -197,6 +197,10 @@ const FieldTable<Scene>& scene_table() {
                               &Scene::obstacles, obstacle_table()),
             list_field<Scene>({.path = "seam", .sentence = "Sews vertices together, pair by pair; [[seam]] once for each."},
                               &Scene::seams, seam_table()),
+            list_field<Scene>({.path = "pair",
+                               .sentence = "Two cloths with self_contact that do not meet, or keep another distance; [[pair]] "
+                                           "once for each."},
+                              &Scene::pairs, pair_table()),
             list_field<Scene>({.path = "event",
                                .sentence = "Something that happens once, before the first step at or after its time: exactly one "
                                            "of pin, unpin, move, gravity, wind."},

@@ -139,12 +139,16 @@ const FieldTable<SeamSpec>& seam_table() {
                      .sentence = "A text file of stitches, a line \"i j\" or \"i j k t\" each, relative to the scene "
                                  "file; \"mesh\": the lines \"stitch i j k t\" of the cloth's OBJ file."},
                     &SeamSpec::file),
-                value_field<SeamSpec>({.path = "over",
-                                       .sentence = "How long closing takes, from the start of the scene on.",
-                                       .unit = "s",
-                                       .lowest = 0.0,
-                                       .highest = longest},
-                                      &SeamSpec::over),
+                value_field<SeamSpec>(
+                    {.path = "from",
+                     .sentence = "When closing begins; before, each stitch keeps the length that it starts with.",
+                     .unit = "s",
+                     .lowest = 0.0,
+                     .highest = longest},
+                    &SeamSpec::from),
+                value_field<SeamSpec>(
+                    {.path = "over", .sentence = "How long closing takes.", .unit = "s", .lowest = 0.0, .highest = longest},
+                    &SeamSpec::over),
                 value_field<SeamSpec>({.path = "stiffness",
                                        .sentence = "Constant of the spring that draws a stitch together and then holds it.",
                                        .unit = "N/m",
@@ -153,13 +157,37 @@ const FieldTable<SeamSpec>& seam_table() {
                                       &SeamSpec::stiffness),
                 value_field<SeamSpec>(
                     {.path = "contact_while_closing",
-                     .sentence = "false: until this seam has closed no cloth meets cloth; what then crosses is untangled. For "
-                                 "panels that start over each other."},
+                     .sentence = "false: until this seam has closed the cloths that it joins meet neither each other nor "
+                                 "themselves; what then crosses is untangled. For panels that start over each other."},
                     &SeamSpec::contact_while_closing),
             },
         .rules = {.shown = [](const TomlNode&) -> std::string { return "seam"; },
                   .at_least_one = {"vertices", "points", "file"},
                   .at_least_one_why = "what is sewn together"}};
+    return table;
+}
+
+const FieldTable<PairSpec>& pair_table() {
+    static const FieldTable<PairSpec> table = {
+        .fields =
+            {
+                value_field<PairSpec>({.path = "cloths",
+                                       .sentence = "NAMEs of the two cloths; twice the same is one with itself.",
+                                       .required = true},
+                                      &PairSpec::cloths),
+                value_field<PairSpec>({.path = "contact", .sentence = "false: they pass through each other."},
+                                      &PairSpec::contact),
+                value_field<PairSpec>(
+                    {.path = "thickness",
+                     .sentence = "Below this distance they are in contact; without it the mean of their thicknesses.",
+                     .unit = "m",
+                     .lowest = 1e-6,
+                     .highest = 1.0},
+                    &PairSpec::thickness),
+            },
+        .rules = {.shown = [](const TomlNode&) -> std::string { return "pair"; },
+                  .at_least_one = {"contact", "thickness"},
+                  .at_least_one_why = "what the two are to each other"}};
     return table;
 }
 

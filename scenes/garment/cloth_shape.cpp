@@ -5,6 +5,7 @@
 #include "common/text.h"
 #include "meshes/mesh_import.h"
 #include "pattern/pattern_file.h"
+#include "pattern/pattern_parts.h"
 #include "percale/error.h"
 #include "tolerances.h"
 
@@ -23,7 +24,9 @@ RestShape uv_shape(const std::string& file, const ClothSpec& cloth, const Triang
 }
 
 PatternMesh pattern_mesh(const Scene& scene, const ClothSpec& cloth) {
-    return mesh_pattern(read_pattern(path_beside(scene, cloth.pattern)), cloth.edge_length);
+    Pattern pattern = read_pattern(path_beside(scene, cloth.pattern));
+    move_apart(pattern, cloth.panel_offset);
+    return mesh_pattern(pattern, cloth.edge_length);
 }
 
 /// The flat panels of a pattern; warp runs along their y.

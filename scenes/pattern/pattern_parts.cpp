@@ -40,6 +40,21 @@ Vec3 placed_point(const Panel& panel, const Point2& point) {
     return transform(panel.pose, x);
 }
 
+void move_apart(Pattern& pattern, double distance) {
+    std::vector<Vec3> middles;
+    Vec3 middle = Vec3::Zero();
+    for (const Panel& panel : pattern.panels) {
+        Vec3& own = middles.emplace_back(Vec3::Zero());
+        for (const Point2& corner : panel.corners) own += placed_point(panel, corner) / static_cast<double>(panel.corners.size());
+        middle += own / static_cast<double>(pattern.panels.size());
+    }
+    for (std::size_t k = 0; k < middles.size(); ++k) {
+        Pose& pose = pattern.panels[k].pose;
+        const Vec3 normal = transform({.rotation = pose.rotation}, Vec3(Vec3::UnitZ()));
+        pose.translation += (normal.dot(middles[k] - middle) < 0.0 ? -distance : distance) * normal;
+    }
+}
+
 Panel mirrored(const Panel& panel, const std::string& name) {
     Panel image = panel;
     image.name = name;

@@ -20,6 +20,9 @@ Vec3 placed_point(const Panel& panel, const Point2& point);
 /// The panel seen in the mirror x = 0 of the world, under another name. Edge k is the image of edge k.
 Panel mirrored(const Panel& panel, const std::string& name);
 
+/// Moves each panel along its normal by a distance, m, away from the middle of all panels: room for what is worn below.
+void move_apart(Pattern& pattern, double distance);
+
 /// Where a side of a seam begins and ends, in the world.
 std::array<Vec3, 2> side_ends(const Pattern& pattern, const std::vector<EdgeUse>& side);
 

@@ -34,7 +34,8 @@ struct CertifyOptions {
 /// One time: every cloth file against every obstacle file, and those that meet each other.
 struct CertifiedFrame {
     std::string label;
-    std::vector<std::string> cloths, obstacles, meeting;
+    std::vector<std::string> cloths, obstacles;
+    PairsOfCloths meeting;  // of the cloths by number
     FrameCheck check;
     std::vector<ClothStitches> seams = {};  // between the cloths by number
 };
@@ -53,13 +54,16 @@ std::vector<CertifiedFrame> frames_of_run(const std::string& folder) {
         CertifiedFrame frame{"frame " + std::to_string(record.index), {}, {}, {}, {}};
         for (const std::string& file : record.cloths) frame.cloths.push_back(folder + "/" + file);
         for (const std::string& file : record.obstacles) frame.obstacles.push_back(folder + "/" + file);
-        for (const std::string& file : record.meeting) frame.meeting.push_back(folder + "/" + file);
+        frame.meeting = record.meeting;
         frames.push_back(frame);
     }
     if (frames.empty()) throw SceneError(folder + ": the report lists no frames");
     const std::vector<ClothStitches> seams = read_seam_records(folder);
     for (CertifiedFrame& frame : frames) {
         const auto there = [&](int cloth) { return cloth >= 0 && static_cast<std::size_t>(cloth) < frame.cloths.size(); };
+        for (const auto& pair : frame.meeting) {
+            if (!std::ranges::all_of(pair, there)) throw SceneError(folder + ": the report has contact of no cloth");
+        }
         for (const ClothStitches& seam : seams) {
             if (!std::ranges::all_of(seam.cloths, there)) throw SceneError(folder + ": the report has a seam of no cloth");
         }
@@ -97,19 +101,13 @@ void check_frame(CertifiedFrame& frame, double distance_limit, MeshCache& obstac
         const bool needed = std::find(frame.obstacles.begin(), frame.obstacles.end(), entry->first) != frame.obstacles.end();
         entry = needed ? std::next(entry) : obstacles.erase(entry);
     }
-    std::vector<TriangleMesh> meeting;
-    std::vector<int> first_vertex(frame.cloths.size(), -1);
-    int vertices = 0;
-    for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
-        const std::string& file = frame.cloths[i];
-        const TriangleMesh cloth = import_mesh(file);
+    std::vector<TriangleMesh> cloths;
+    for (const std::string& file : frame.cloths) {
+        const TriangleMesh& cloth = cloths.emplace_back(import_mesh(file));
         for (const std::string& obstacle : frame.obstacles)
             add_certificate(frame.check, certify(cloth, cached_mesh(obstacles, obstacle), distance_limit));
-        if (std::find(frame.meeting.begin(), frame.meeting.end(), file) == frame.meeting.end()) continue;
-        meeting.push_back(cloth);
-        first_vertex[i] = std::exchange(vertices, vertices + static_cast<int>(cloth.vertices.size()));
     }
-    if (!meeting.empty()) add_cloth_certificate(frame.check, meeting, joined_stitches(frame.seams, first_vertex));
+    add_cloth_certificate(frame.check, cloths, frame.seams, frame.meeting);
 }
 
 Verdict check_frames(std::vector<CertifiedFrame> frames, double distance_limit) {
@@ -192,7 +190,7 @@ int certify_files(const CertifyOptions& options) {
     if (!(options.distance_limit >= 0.0)) throw SceneError("--distance-limit: must be at least 0 m");
     std::vector<CertifiedFrame> frames = frames_to_check(options);
     for (CertifiedFrame& frame : frames)
-        if (options.self) frame.meeting = frame.cloths;
+        if (options.self) frame.meeting = all_pairs(static_cast<int>(frame.cloths.size()));
     const Verdict verdict = check_frames(std::move(frames), options.distance_limit);
     if (options.json)
         print_json(verdict, options.distance_limit);

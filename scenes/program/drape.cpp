@@ -164,11 +164,10 @@ FrameCheck write_and_certify(const BuiltScene& built, const DrapeOptions& option
     write_obj(options.out, cloth.vertices, cloth.triangles);
     FrameCheck check;
     add_certificate(check, certify(cloth, body, 4.0 * options.fabric.thickness));
-    std::vector<Stitch> stitches;
-    for (const BuiltSeam& seam : built.seams)
-        stitches.insert(stitches.end(), seam.sewn.stitches.begin(), seam.sewn.stitches.end());
+    std::vector<ClothStitches> sewn;
+    for (const BuiltSeam& seam : built.seams) sewn.push_back(seam.sewn);
     FrameCheck own;
-    add_cloth_certificate(own, {&cloth, 1}, stitches);
+    add_cloth_certificate(own, {&cloth, 1}, sewn, all_pairs(1));
     check.at_seams = own.at_seams;
     if (!options.no_self_contact)
         check.intersections += own.intersections;

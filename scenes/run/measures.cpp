@@ -16,14 +16,35 @@ void add_certificate(FrameCheck& check, const Certificate& certificate) {
     check.smallest_distance = std::min(check.smallest_distance, certificate.smallest_distance);
 }
 
-void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const Stitch> stitches) {
-    TriangleMesh all;
-    for (const TriangleMesh& cloth : cloths) {
-        const int first = static_cast<int>(all.vertices.size());
-        all.vertices.insert(all.vertices.end(), cloth.vertices.begin(), cloth.vertices.end());
-        for (const auto& [a, b, c] : cloth.triangles) all.triangles.push_back({first + a, first + b, first + c});
+PairsOfCloths all_pairs(int cloths) {
+    PairsOfCloths pairs;
+    for (int first = 0; first < cloths; ++first) {
+        for (int second = first; second < cloths; ++second) pairs.push_back({first, second});
     }
-    const ClothCertificate certificate = certify_cloth(all, stitches);
+    return pairs;
+}
+
+void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const ClothStitches> seams,
+                           std::span<const std::array<int, 2>> meeting) {
+    if (meeting.empty()) return;
+    const int count = static_cast<int>(cloths.size());
+    ClothPairs pairs;
+    std::vector<bool> meets(cloths.size(), false);
+    for (const std::array<int, 2>& pair : all_pairs(count)) pairs.set(pair[0], pair[1], {.contact = false});
+    for (const auto& [first, second] : meeting) {
+        pairs.set(first, second, {});
+        meets[first] = meets[second] = true;
+    }
+    TriangleMesh all;
+    std::vector<int> owner, first_vertex(cloths.size(), -1);
+    for (int cloth = 0; cloth < count; ++cloth) {
+        if (!meets[cloth]) continue;
+        const int first = first_vertex[cloth] = static_cast<int>(all.vertices.size());
+        all.vertices.insert(all.vertices.end(), cloths[cloth].vertices.begin(), cloths[cloth].vertices.end());
+        for (const auto& [a, b, c] : cloths[cloth].triangles) all.triangles.push_back({first + a, first + b, first + c});
+        owner.resize(all.triangles.size(), cloth);
+    }
+    const ClothCertificate certificate = certify_cloth(all, joined_stitches(seams, first_vertex), {owner, &pairs});
     check.intersections += static_cast<int>(certificate.crossing.size());
     check.touching_pairs += static_cast<int>(certificate.touching.size());
     check.at_seams += static_cast<int>(certificate.at_seams.size());

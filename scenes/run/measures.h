@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <map>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "garment/seam_stitches.h"
 #include "percale/certify.h"
 #include "percale/simulation.h"
 
@@ -26,8 +28,14 @@ struct FrameCheck {
 };
 
 void add_certificate(FrameCheck& check, const Certificate& certificate);
-/// Of cloths that meet each other, all together; distances between them are not measured. `stitches`: among the vertices of all.
-void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const Stitch> stitches);
+
+/// Pairs of cloths by their numbers, of a cloth with itself, too: first <= second, in ascending order.
+using PairsOfCloths = std::vector<std::array<int, 2>>;
+PairsOfCloths all_pairs(int cloths);
+
+/// Of the pairs that meet; distances between cloths are not measured.
+void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const ClothStitches> seams,
+                           std::span<const std::array<int, 2>> meeting);
 
 /// What the certificates of all states say, one after each step and one of the start.
 struct StepChecks {

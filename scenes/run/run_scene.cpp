@@ -72,19 +72,13 @@ Frame first_frame(const BuiltScene& built) {
 }
 
 void certify_meeting_cloth(const BuiltScene& built, Frame& frame) {
-    frame.cloth_meets = !built.simulation.sews_without_contact();
-    if (!frame.cloth_meets) return;
-    std::vector<TriangleMesh> meeting;
-    std::vector<int> first_vertex(frame.cloths.size(), -1);
-    int vertices = 0;
-    for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth) {
-        if (!built.scene.meets_cloth(built.scene.cloths[cloth])) continue;
-        meeting.push_back(frame.cloths[cloth]);
-        first_vertex[cloth] = std::exchange(vertices, vertices + static_cast<int>(frame.cloths[cloth].vertices.size()));
-    }
+    frame.meeting = all_pairs(static_cast<int>(frame.cloths.size()));
+    std::erase_if(frame.meeting, [&](const std::array<int, 2>& pair) {
+        return !built.simulation.meets(built.cloths[pair[0]], built.cloths[pair[1]]);
+    });
     std::vector<ClothStitches> sewn;
     for (const BuiltSeam& seam : built.seams) sewn.push_back(seam.sewn);
-    if (!meeting.empty()) add_cloth_certificate(frame.check, meeting, joined_stitches(sewn, first_vertex));
+    add_cloth_certificate(frame.check, frame.cloths, sewn, frame.meeting);
 }
 
 void place_and_certify(const BuiltScene& built, Frame& frame) {

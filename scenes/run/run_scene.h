@@ -23,7 +23,7 @@ struct Frame {
     std::vector<TriangleMesh> cloths;     // in the order of the scene
     std::vector<TriangleMesh> obstacles;  // in the order of the scene
     std::vector<MeshFields> fields = {};  // of the cloths, as output.fields says; empty where that is empty
-    bool cloth_meets = true;              // not while seams close without contact; then it is not certified against cloth
+    PairsOfCloths meeting = {};           // that meet now and are certified, by numbers of the scene
     FrameCheck check;
 };
 

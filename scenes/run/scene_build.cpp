@@ -115,9 +115,12 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
 
 void sew(BuiltScene& built, const SeamSpec& seam, BuiltSeam made) {
     const auto [first, second] = made.sewn.cloths;
-    made.id = built.simulation.add_seam(
-        built.cloths[first], built.cloths[second], made.sewn.stitches,
-        {.over = seam.over, .stiffness = seam.stiffness, .contact_while_closing = seam.contact_while_closing, .name = made.name});
+    made.id = built.simulation.add_seam(built.cloths[first], built.cloths[second], made.sewn.stitches,
+                                        {.after = seam.from,
+                                         .over = seam.over,
+                                         .stiffness = seam.stiffness,
+                                         .contact_while_closing = seam.contact_while_closing,
+                                         .name = made.name});
     built.seams.push_back(std::move(made));
 }
 
@@ -150,6 +153,13 @@ void sew_other_patterns(BuiltScene& built) {
         };
         if (std::ranges::none_of(built.scene.seams, says)) sew_pattern(built, cloth, {});
     }
+}
+
+void set_pair(BuiltScene& built, const PairSpec& pair) {
+    const auto id = [&](const std::string& name) {
+        return built.cloths[std::ranges::find(built.scene.cloths, name, &ClothSpec::name) - built.scene.cloths.begin()];
+    };
+    built.simulation.set_pair(id(pair.cloths[0]), id(pair.cloths[1]), {.contact = pair.contact, .thickness = pair.thickness});
 }
 
 // Cloths have the same numbers in the scene and in the simulation; triangles are counted through all of them.
@@ -209,6 +219,7 @@ BuiltScene build_scene(const Scene& given) {
     for (const ObstacleSpec& obstacle : scene.obstacles) at_place_of(obstacle, [&] { add_obstacle(built, obstacle); });
     for (const SeamSpec& seam : scene.seams) add_seam(built, seam);
     sew_other_patterns(built);
+    for (const PairSpec& pair : scene.pairs) at_place(pair.place, "", [&] { set_pair(built, pair); });
     script_events(scene, built.cloth_meshes);
     attached_pins(scene, built.cloth_meshes);
     check_start(built);

@@ -35,7 +35,8 @@ bool Timeline::more_to_come(const Scene& scene, double time) const {
     };
     return next_event_ < events_.size() || !moving_pins_.empty() ||
            std::any_of(scene.obstacles.begin(), scene.obstacles.end(), moves) ||
-           std::any_of(scene.seams.begin(), scene.seams.end(), [&](const SeamSpec& seam) { return seam.over > time; });
+           std::any_of(scene.seams.begin(), scene.seams.end(),
+                       [&](const SeamSpec& seam) { return seam.from + seam.over > time; });
 }
 
 void Timeline::go_on_from(const BuiltScene& built, const State& state) {

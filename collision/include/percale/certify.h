@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "percale/cloth_pairs.h"
 #include "percale/mesh.h"
 #include "percale/stitch.h"
 
@@ -48,8 +49,10 @@ struct ClothCertificate {
 
 /// Exact, with the triangle-triangle tests of certify; shares no code with the solver. Neighbours cross where they share more
 /// than the vertices, edge or points that they have to. Triangles at one stitch (each has a vertex of it) are counted apart,
-/// since how far they cross is a matter of its gap and of how the sides of the seam are divided. Thread-safe.
-ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches = {});
+/// since how far they cross is a matter of its gap and of how the sides of the seam are divided. Triangles of cloths that do not
+/// meet (`meeting`) are not looked at. Thread-safe.
+ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches = {},
+                               const MeetingCloth& meeting = {});
 
 /// Crossing pairs of one mesh, as far as they were looked for.
 struct CrossingSearch {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "percale/cloth_pairs.h"
 #include "percale/error.h"
 #include "percale/mesh.h"
 #include "percale/stitch.h"
@@ -112,6 +113,7 @@ struct SelfContact {
     std::span<const double> friction;  // Coulomb coefficient of its fabric; between two fabrics the mean counts
     /// What is sewn together. Features at one stitch never are in contact, others near one as if it were closed.
     std::span<const Stitch> stitches = {};
+    ClothPairs pairs = {};  // m, as thicknesses given to set_cloth
 };
 
 /// Finds contacts between all cloth of a simulation and its obstacles. Whole batches, plain types.
@@ -126,8 +128,8 @@ public:
     virtual void set_cloth(std::span<const Triangle> triangles, std::span<const double> vertex_thickness) = 0;
 
     /// After set_cloth, which forgets it: cloth that also meets cloth. Two features of it are in contact below the mean of their
-    /// thicknesses (half a thickness each), but at no more than half of their distance at rest where they belong to one cloth or
-    /// are near a seam.
+    /// thicknesses (half a thickness each), or of what `pairs` says, but at no more than half of their distance at rest where
+    /// they belong to one cloth or are near a seam.
     virtual void set_self_contact(const SelfContact& cloth);
 
     /// Returns the obstacle's number. Throws SceneError if nothing is left of the mesh after cleaning.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "percale/cloth_pairs.h"
 #include "percale/contact.h"
 #include "percale/contact_load.h"
 #include "percale/fabric.h"
@@ -72,6 +73,9 @@ public:
     /// Vertices to vertices, pair by pair.
     SeamId add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices,
                     const SeamSettings& settings = {});
+    /// What two cloths with self_contact, or such a cloth with itself, are to each other from now on; thickness: m, 1e-6 ... 1.
+    /// Cloths that come to meet by that and cross are untangled by the next step, as at a start.
+    void set_pair(ClothId first, ClothId second, const ClothPair& pair);
     void set_time_step(double time_step);  // s, > 0
     /// All vertices of a cloth; m and m/s. For starts that are not at rest.
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
@@ -112,8 +116,9 @@ public:
     /// What all cloth does to an obstacle, N: the sum of those forces with the other sign. Cloth at rest that nothing else holds
     /// presses with its weight.
     Vec3 force_on(ObstacleId obstacle) const;
-    /// Whether no cloth meets cloth yet because a seam closes (SeamSettings::contact_while_closing).
-    bool sews_without_contact() const;
+    /// Whether two cloths, or a cloth with itself, meet now: both have self_contact, set_pair does not keep them apart, and no
+    /// seam that joins them closes without contact (SeamSettings::contact_while_closing).
+    bool meets(ClothId first, ClothId second) const;
     /// How far apart the sides of each stitch are, m, in the order in which they were given.
     std::vector<double> seam_gaps(SeamId seam) const;
     /// Of a vertex, m/s.

@@ -18,10 +18,11 @@ struct Stitch {
 };
 
 struct SeamSettings {
+    double after = 0.0;         // s from now until closing begins, 0 ... 1e6; before, stitches keep their lengths
     double over = 1.0;          // s, how long closing takes, 0 ... 1e6
     double stiffness = 1000.0;  // N/m of each stitch, 1e-3 ... 1e9
-    /// Whether cloth meets cloth while it closes. If not, no cloth of the simulation does before; what crosses then is untangled
-    /// (Simulation::prepare). For panels that start over each other.
+    /// Whether the cloths that it joins meet each other, and themselves, before it has closed. If not, nor do cloths that such
+    /// seams join with them; what crosses then is untangled (Simulation::prepare). For panels that start over each other.
     bool contact_while_closing = true;
     std::string name = "seam";  // for messages
 };

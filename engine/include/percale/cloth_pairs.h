@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+
+namespace percale {
+
+/// What a cloth is to another, or to itself, where both have self_contact.
+struct ClothPair {
+    bool contact = true;                   // whether they meet
+    std::optional<double> thickness = {};  // m, below it they are in contact; without, the mean of their thicknesses
+
+    bool operator==(const ClothPair&) const = default;
+};
+
+/// What is said of pairs of cloths, by the numbers of the cloths, in either order; of all others ClothPair{} holds.
+class ClothPairs {
+public:
+    void set(int first, int second, const ClothPair& pair) {
+        const auto place = said_.insert_or_assign(key(first, second), pair).first;
+        if (pair == ClothPair{}) said_.erase(place);
+    }
+    ClothPair of(int first, int second) const {
+        const auto found = said_.find(key(first, second));
+        return found == said_.end() ? ClothPair{} : found->second;
+    }
+    /// Only what differs from ClothPair{}, the lower number first, in ascending order.
+    const std::map<std::array<int, 2>, ClothPair>& said() const { return said_; }
+
+private:
+    static std::array<int, 2> key(int first, int second) { return {std::min(first, second), std::max(first, second)}; }
+
+    std::map<std::array<int, 2>, ClothPair> said_;
+};
+
+/// Which cloth each of a list of triangles belongs to, and what cloths are to each other. Without `cloth` all meet all.
+struct MeetingCloth {
+    std::span<const int> cloth = {};    // of each triangle
+    const ClothPairs* pairs = nullptr;  // null: nothing is said
+
+    int cloth_of(int triangle) const { return cloth.empty() ? 0 : cloth[triangle]; }
+    bool meet(int first_triangle, int second_triangle) const {
+        return pairs == nullptr || pairs->of(cloth_of(first_triangle), cloth_of(second_triangle)).contact;
+    }
+};
+
+}  // namespace percale
