@@ -61,14 +61,15 @@ void correct_translation(const StepScene& scene, const Vectors& residual, Vector
 }
 
 /// With contact it is not known, and stiff rows hide it from the energy: what is left of it is bounded, by a share of the
-/// momentum that the right side or gravity gives.
+/// momentum that the right side or gravity gives, or that moves it by no more than means nothing (change_is_small).
 void set_net_limits(const StepScene& scene, double dt, NewtonSpace& space) {
     space.net_limits.clear();
     for (const Body& body : scene.model.bodies) {
         if (is_held(scene, body)) continue;
         Vec3 sum = Vec3::Zero();
         for (int i = body.first; i < body.first + body.count; ++i) sum += space.right_side.at(i);
-        const double given = std::max(sum.norm(), body.mass * dt * scene.settings.gravity.norm());
+        const double negligible = contact_accuracy * scene.model.thickness[body.first] / dt;  // m/s
+        const double given = std::max(sum.norm(), body.mass * std::max(dt * scene.settings.gravity.norm(), negligible));
         space.net_limits.push_back({body.first, body.count, net_momentum_share * given});
     }
 }

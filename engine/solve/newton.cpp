@@ -67,6 +67,11 @@ bool is_solution(const StageEquations& equations, const Direction& direction, co
     return by_change || line.stuck;
 }
 
+bool descends(const StageEquations& equations) {
+    const NewtonSpace& space = equations.space();
+    return dot(equations.stage().scene.compute, space.current.residual, space.direction) < 0.0;
+}
+
 /// Newton's method with the multipliers of contact held constant: from space.current, dv of A dv = -r, then as far along dv as
 /// lowers the objective and crosses nothing (Nocedal and Wright, Numerical Optimization, chapters 3 and 7). True once the motion
 /// is solved for; false where it is given up, and at a residual of exactly 0.
@@ -91,6 +96,8 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
             ++report.newton_iterations;
             report.linear_iterations += direction.linear_iterations;
             direction = newton_direction(equations, target, &equations.space().foreseen);
+            // Rows out of reach have no part in the residual yet: the way to where they hold the cloth may lead uphill at first.
+            if (!descends(equations)) direction = newton_direction(equations, target);
             line = search_line(equations, error);
         }
 
