@@ -235,6 +235,14 @@ constexpr Option<StepSettings> step_list[] = {
                  "comes to rest "
                  "sooner, on a path that means nothing; not while pins or obstacles move or seams close.",
      .flag = [](StepSettings& s) { return &s.kinetic_damping; }},
+    {.key = "rest_speed",
+     .unit = "m/s",
+     .sentence =
+         "Cloth is still that for half a second has kept within half a second times this of one place; without it within 0.002 "
+         "of its thickness.",
+     .lowest = 1e-9,
+     .highest = 1.0,
+     .optional_number = [](StepSettings& s) { return &s.rest_speed; }},
     {.key = "skip",
      .unit = "",
      .sentence = "Whether work that the scene does not need is left out (percale plan lists it); false runs everything.",

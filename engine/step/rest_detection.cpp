@@ -78,7 +78,9 @@ void update_rest(const StepScene& scene, const Vectors& forces, ClothState& clot
     }
     for (std::size_t c = 0; c < rest.cloths.size(); ++c) {
         const ClothRange& range = scene.model.cloths[c];
-        const RestCheck check{scene, range, rest_displacement_share * scene.model.thickness[range.first]};
+        const std::optional<double>& speed = scene.settings.rest_speed;
+        const double bound = speed ? *speed * rest_time : rest_displacement_share * scene.model.thickness[range.first];
+        const RestCheck check{scene, range, bound};
         update_cloth(check, forces, cloth.positions, rest.anchor, rest.cloths[c]);
         report.sleeping_cloths += rest.cloths[c].asleep;
     }

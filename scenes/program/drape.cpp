@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "common/nearest_name.h"
 #include "common/text.h"
@@ -31,7 +32,8 @@ namespace {
 using namespace percale::scenes;
 
 struct DrapeOptions {
-    std::string garment, body, out;
+    std::vector<std::string> files;  // garments from the inside out, then the body
+    std::vector<std::string> outs;   // one a garment
     std::string garment_unit = "m", body_unit = "m";
     std::array<double, 3> move = {0.0, 0.0, 0.0};  // m
     // A felt with enough bending springs and damping that free hems come to rest within the limit.
@@ -39,10 +41,14 @@ struct DrapeOptions {
     std::string preset;  // "" for the felt
     double friction = 0.4;
     double seconds = 20.0;      // s, limit
+    double still = 2e-4;        // m/s, what rest is
     double edge_length = 0.02;  // m, of a pattern's mesh
     bool until_rest = true;     // there is nothing else
     bool no_self_contact = false;
     bool quiet = false;
+
+    std::span<const std::string> garments() const { return std::span(files).first(files.size() - 1); }
+    const std::string& body() const { return files.back(); }
 };
 
 enum class DrapeEnd { settled, time_up, failed, stopped };
@@ -60,6 +66,8 @@ constexpr double sewing_time = 0.6;          // s
 constexpr double sewing_stiffness = 3000.0;  // N/m
 /// Of a preset, so that hems come to rest within seconds.
 constexpr double sewing_damping = 0.02;  // s
+/// How much farther out than the one below it the panels of a pattern start.
+constexpr double layer_offset = 0.04;  // m
 
 bool is_pattern(const std::string& garment) {
     const std::string extension = extension_of(garment);
@@ -76,47 +84,73 @@ double metres(const std::string& option, const std::string& unit) {
 void check_options(const DrapeOptions& options) {
     if (!(options.seconds > 0.0 && options.seconds <= 3600.0))
         throw SceneError("--seconds: is outside the allowed range 0 ... 3600 s (0 excluded)");
-    if (std::filesystem::path(options.out).extension() != ".obj")
-        throw SceneError("-o " + options.out + ": its name must end in .obj, which is what is written");
-    const WholeFile probe(options.out);  // an output that cannot be written is found before the work, not after it
+    if (!(options.still >= 1e-9 && options.still <= 1.0))
+        throw SceneError("--still: is outside the allowed range 1e-9 ... 1 m/s");
+    if (options.outs.size() != options.garments().size())
+        throw SceneError("-o: " + std::to_string(options.garments().size()) + " garments and a body are given, but " +
+                         std::to_string(options.outs.size()) + " files to write; it takes one for each garment");
+    for (const std::string& out : options.outs) {
+        if (std::filesystem::path(out).extension() != ".obj")
+            throw SceneError("-o " + out + ": its name must end in .obj, which is what is written");
+        if (std::ranges::count(options.outs, out) > 1) throw SceneError("-o " + out + ": is said twice");
+        const WholeFile probe(out);  // an output that cannot be written is found before the work, not after it
+    }
 }
 
-/// The scene that the command line describes: both meshes where they are, the garment moved as asked.
+/// The pattern of a garment is sewn when those of the garments below it are.
+void add_pattern(const DrapeOptions& options, ClothSpec& cloth, Scene& scene) {
+    if (cloth.unit != 1.0) throw SceneError("--garment-unit: a pattern says its own unit");
+    cloth.pattern = cloth.place.file;
+    cloth.edge_length = options.edge_length;
+    cloth.panel_offset = layer_offset * static_cast<double>(scene.seams.size());
+    scene.step.gravity = Vec3::Zero();
+    SeamSpec seam;
+    seam.cloths = {cloth.name, cloth.name};
+    seam.file = "mesh";
+    seam.from = sewing_time * static_cast<double>(scene.seams.size());
+    seam.over = sewing_time;
+    seam.stiffness = sewing_stiffness;
+    seam.contact_while_closing = false;
+    seam.place = cloth.place;
+    scene.seams.push_back(seam);
+}
+
+/// Its file's name, which no other garment has.
+std::string garment_name(const std::string& file, const Scene& scene) {
+    const std::string stem = std::filesystem::path(file).stem().string();
+    const bool known = std::ranges::any_of(scene.cloths, [&](const ClothSpec& cloth) { return cloth.name == stem; });
+    return known ? stem + " " + std::to_string(scene.cloths.size() + 1) : stem;
+}
+
+/// The scene that the command line describes: meshes where they are, garments moved as asked.
 Scene drape_scene(const DrapeOptions& options) {
     Scene scene;
     scene.file = "drape";
     scene.until_rest = true;
     scene.longest = options.seconds;
     scene.step.kinetic_damping = true;
+    scene.step.rest_speed = options.still;
     scene.fabrics["garment"] = options.fabric;
     scene.fabrics["garment"].self_contact = !options.no_self_contact;
-    ClothSpec cloth;
-    cloth.name = "garment";
-    cloth.fabric = "garment";
-    cloth.place = {.file = options.garment};
-    cloth.unit = metres("--garment-unit", options.garment_unit);
-    if (is_pattern(options.garment)) {
-        if (cloth.unit != 1.0) throw SceneError("--garment-unit: a pattern says its own unit");
-        cloth.pattern = options.garment;
-        cloth.edge_length = options.edge_length;
-        scene.step.gravity = Vec3::Zero();
-        SeamSpec& seam = scene.seams.emplace_back();
-        seam.file = "mesh";
-        seam.over = sewing_time;
-        seam.stiffness = sewing_stiffness;
-        seam.contact_while_closing = false;
-        seam.place = cloth.place;
-    } else {
-        cloth.mesh = options.garment;
+    for (const std::string& file : options.garments()) {
+        ClothSpec cloth;
+        cloth.name = garment_name(file, scene);
+        cloth.fabric = "garment";
+        cloth.place = {.file = file};
+        cloth.unit = metres("--garment-unit", options.garment_unit);
+        cloth.pose.translation = Vec3(options.move[0], options.move[1], options.move[2]);
+        if (is_pattern(file))
+            add_pattern(options, cloth, scene);
+        else
+            cloth.mesh = file;
+        scene.cloths.push_back(cloth);
     }
-    cloth.pose.translation = Vec3(options.move[0], options.move[1], options.move[2]);
-    scene.cloths.push_back(cloth);
     ObstacleSpec body;
     body.name = "body";
-    body.mesh = options.body;
+    body.mesh = options.body();
     body.unit = metres("--body-unit", options.body_unit);
     body.friction = options.friction;
-    body.place = {.file = options.body};
+    body.place = {.file = options.body()};
     scene.obstacles.push_back(body);
     return scene;
 }
@@ -126,9 +160,10 @@ Drape settle(BuiltScene& built, const DrapeOptions& options) {
     ProgressBar bar(!options.quiet, options.seconds);
     Drape drape;
     RestWatch watch;
-    bool sewn = built.seams.empty();
+    const double all_sewn = sewing_time * static_cast<double>(built.scene.seams.size());
+    bool sewn = built.scene.seams.empty();
     while (built.simulation.time() < options.seconds - 1e-9) {
-        if (!sewn && built.simulation.time() >= sewing_time - 1e-9) {
+        if (!sewn && built.simulation.time() >= all_sewn - 1e-9) {
             built.scene.step.gravity = StepSettings{}.gravity;
             built.simulation.set_gravity(built.scene.step.gravity);
             sewn = true;
@@ -159,20 +194,23 @@ Drape settle(BuiltScene& built, const DrapeOptions& options) {
 }
 
 FrameCheck write_and_certify(const BuiltScene& built, const DrapeOptions& options) {
-    TriangleMesh cloth = built.cloth_meshes[0], body = built.obstacle_meshes[0];
-    place_shapes(built, {&cloth, 1}, {&body, 1});
-    write_obj(options.out, cloth.vertices, cloth.triangles);
+    std::vector<TriangleMesh> cloths = built.cloth_meshes;
+    TriangleMesh body = built.obstacle_meshes[0];
+    place_shapes(built, cloths, {&body, 1});
     FrameCheck check;
-    add_certificate(check, certify(cloth, body, 4.0 * options.fabric.thickness));
+    for (std::size_t k = 0; k < cloths.size(); ++k) {
+        write_obj(options.outs[k], cloths[k].vertices, cloths[k].triangles);
+        add_certificate(check, certify(cloths[k], body, 4.0 * options.fabric.thickness));
+    }
     std::vector<ClothStitches> sewn;
     for (const BuiltSeam& seam : built.seams) sewn.push_back(seam.sewn);
     FrameCheck own;
-    add_cloth_certificate(own, {&cloth, 1}, sewn, all_pairs(1));
+    add_cloth_certificate(own, cloths, sewn, all_pairs(static_cast<int>(cloths.size())));
     check.at_seams = own.at_seams;
     if (!options.no_self_contact)
         check.intersections += own.intersections;
     else if (own.intersections > 0 && !options.quiet)
-        std::printf("without self-contact: the garment crosses itself in %d triangle pairs\n", own.intersections);
+        std::printf("without self-contact: cloth crosses cloth in %d triangle pairs\n", own.intersections);
     return check;
 }
 
@@ -200,7 +238,8 @@ WidestGap widest_gap(const BuiltScene& built) {
 }
 
 int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& check, const WidestGap& gap) {
-    const char* out = options.out.c_str();
+    const std::string files = joined(options.outs);
+    const char* out = files.c_str();
     if (!check.clean()) {
         std::fprintf(stderr,
                      "percale: %s: not clean: %d intersecting pairs (with the body or itself), %d vertices inside the body, "
@@ -240,19 +279,19 @@ int drape_garment(const DrapeOptions& options) {
     BuiltScene built = build_scene(scene);
     std::size_t start_moves = 0;
     if (!options.quiet) {
-        std::printf("%s onto %s\n", options.garment.c_str(), options.body.c_str());
+        std::printf("%s onto %s\n", joined(options.garments()).c_str(), options.body().c_str());
         start_moves = print_start_moves(built.simulation);
     }
     std::fflush(stdout);
     const Drape drape = settle(built, options);
     if (!options.quiet) print_moves_after(start_moves, built.simulation);
     if (drape.end == DrapeEnd::failed) {
-        std::fprintf(stderr, "percale: %s: nothing was written: %s\n", options.garment.c_str(), drape.failure.c_str());
+        std::fprintf(stderr, "percale: %s: nothing was written: %s\n", joined(options.garments()).c_str(), drape.failure.c_str());
         return not_as_expected;
     }
     const FrameCheck check = write_and_certify(built, options);
     if (!options.quiet)
-        std::printf("%s: %s%.3g s simulated, fastest vertex %.3g m/s, %d intersecting pairs, %s\n", options.out.c_str(),
+        std::printf("%s: %s%.3g s simulated, fastest vertex %.3g m/s, %d intersecting pairs, %s\n", joined(options.outs).c_str(),
                     drape.end == DrapeEnd::settled ? "at rest, " : "", drape.last.time, drape.speed, check.intersections,
                     nearness_text(check.smallest_distance).c_str());
     const WidestGap gap = widest_gap(built);
@@ -268,7 +307,7 @@ Fabric fabric_from_preset(const CLI::App& command, const DrapeOptions& options) 
         throw SceneError("--fabric: no fabric preset '" + options.preset + "'" + suggestion(options.preset, names));
     // A pattern says where warp is.
     Fabric fabric = fabric_preset(options.preset);
-    if (is_pattern(options.garment)) {
+    if (std::ranges::all_of(options.garments(), is_pattern)) {
         fabric.damping_time = sewing_damping;
     } else {
         fabric = isotropic(fabric);
@@ -283,10 +322,18 @@ Fabric fabric_from_preset(const CLI::App& command, const DrapeOptions& options) 
 }
 
 void add_options(CLI::App& command, DrapeOptions& options) {
-    command.add_option("GARMENT", options.garment, "Garment mesh outside the body, or a sewing pattern around it (.toml, .json)")
+    command
+        .add_option("FILE", options.files,
+                    "Garments from the innermost to the outermost, each a mesh outside the body or a sewing pattern around it "
+                    "(.toml, .json), then the body's mesh")
+        ->type_name("GARMENT... BODY")
+        ->expected(2, 100)
         ->required();
-    command.add_option("BODY", options.body, "Body mesh")->required();
-    command.add_option("-o", options.out, "Draped mesh (.obj)")->type_name("OUT")->required();
+    command.add_option("-o", options.outs, "Draped mesh (.obj), once for each garment")
+        ->type_name("OUT")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->required();
     command.add_option("--garment-unit", options.garment_unit, "Unit of the garment's file: mm, cm, m (default m)")
         ->type_name("UNIT");
     command.add_option("--body-unit", options.body_unit, "Unit of the body's file: mm, cm, m (default m)")->type_name("UNIT");
@@ -312,6 +359,10 @@ void add_options(CLI::App& command, DrapeOptions& options) {
     command.add_option("--edge-length", options.edge_length, "How long the edges of a pattern's mesh are, m (default 0.02)")
         ->type_name("M");
     command.add_option("--seconds", options.seconds, "Simulated time at most, s (default 20)")->type_name("S");
+    command
+        .add_option("--still", options.still,
+                    "At rest is what for half a second keeps within half a second times this of one place, m/s (default 0.0002)")
+        ->type_name("V");
     command.add_flag("--until-rest", options.until_rest,
                      "Go on until the garment is proven at rest; so it does without this, too");
     command.add_flag("--no-self-contact", options.no_self_contact, "Let the garment pass through itself, which costs less");
@@ -322,7 +373,7 @@ void add_options(CLI::App& command, DrapeOptions& options) {
 
 void add_drape_command(CLI::App& program, Action& action) {
     auto options = std::make_shared<DrapeOptions>();
-    CLI::App* command = program.add_subcommand("drape", "Let a garment settle on a body until it is at rest");
+    CLI::App* command = program.add_subcommand("drape", "Let garments settle on a body until they are at rest");
     command->footer("Example: percale drape data/meshes/poncho.obj data/meshes/mannequin.obj --move 0 1.53 0 -o draped.obj");
     add_options(*command, *options);
     command->callback([options, command, &action] {

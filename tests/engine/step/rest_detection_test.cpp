@@ -171,6 +171,15 @@ TEST_CASE("A still cloth whose forces are out of balance is not at rest") {
     CHECK(report.sleeping_cloths == 1);
 }
 
+TEST_CASE("What is slow enough is at rest where a speed of rest is said") {
+    for (const double speed : {1e-4, 4e-4}) {
+        Simulation drifting({.time_step = dt, .rest_speed = 2e-4, .gravity = Vec3::Zero()});
+        const ClothId cloth = drifting.add_cloth(make_grid(0.5, 0.5, 3, 3), sheet_fabric());
+        drifting.set_velocities(cloth, std::vector<Vec3>(9, Vec3(speed, 0, 0)));
+        CHECK((steps_to_sleep(drifting, 120) > 0) == (speed < 2e-4));
+    }
+}
+
 TEST_CASE("Sleep comes half a second after the last move, however many steps that is") {
     for (const double step : {0.1, 0.01}) {
         TriangleMesh grid = make_grid(0.5, 0.5, 3, 3);

@@ -2,11 +2,14 @@
 
 #include <limits>
 
+#include "scenes/format/scene_file.h"
+#include "tests/scenes/message_of.h"
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
 using namespace percale;
 using namespace percale::scenes;
+using percale::scenes::test::message_of;
 
 namespace {
 
@@ -20,6 +23,15 @@ std::vector<Expectation> expectations(const std::string& text) {
     expect_field().read(parse_toml(text, "t"), scene, first);
     return scene.expectations;
 }
+/// Two cloths that meet cloth, and a third that does not.
+std::string two_sheets() {
+    const std::string fabric = "springs = { structural = 100.0 }\n", grid = "grid = { size = [1.0, 1.0], vertices = [3, 3] }\n";
+    std::string text = "[fabric.f]\nself_contact = true\n" + fabric + "[fabric.g]\n" + fabric;
+    for (const std::string name : {"a", "b", "stiff"})
+        text += "[[cloth]]\nname = \"" + name + "\"\nfabric = \"" + (name == "stiff" ? "g" : "f") + "\"\n" + grid;
+    return text;
+}
+
 Expectation expectation(const std::string& text) { return expectations(text).at(0); }
 
 }  // namespace
@@ -33,6 +45,24 @@ TEST_CASE("a seam is read with its pairs, and sews at once where that is said") 
     CHECK(seam.stiffness == SeamSpec{}.stiffness);
     CHECK_FALSE(seam.points);
     CHECK(seam.file.empty());
+}
+
+TEST_CASE("a pair of cloths is read, and says something") {
+    const PairSpec pair = read_spec(parse_toml("cloths = [\"a\", \"b\"]\nthickness = 0.003\n", "t"), pair_table());
+    CHECK(pair.cloths == std::array<std::string, 2>{"a", "b"});
+    CHECK(pair.contact);
+    CHECK(pair.thickness == 0.003);
+    CHECK_FALSE(read_spec(parse_toml("cloths = [\"a\", \"a\"]\ncontact = false\n", "t"), pair_table()).contact);
+    const auto refusal = [](const std::string& keys) {
+        return message_of([&] { parse_scene(two_sheets() + "[[pair]]\n" + keys, "t"); });
+    };
+    CHECK(refusal("cloths = [\"a\", \"b\"]\n").find("what the two are to each other") != std::string::npos);
+    CHECK(refusal("cloths = [\"a\", \"c\"]\ncontact = false\n").find("pair: no cloth 'c'") != std::string::npos);
+    CHECK(refusal("cloths = [\"a\", \"b\"]\nthickness = 0\n").find("thickness") != std::string::npos);
+    const std::string one = "cloths = [\"a\", \"b\"]\ncontact = false\n[[pair]]\ncloths = [\"b\", \"a\"]\ncontact = true\n";
+    CHECK(refusal(one).find("are a pair above already") != std::string::npos);
+    CHECK(refusal("cloths = [\"a\", \"stiff\"]\ncontact = false\n").find("self_contact = false") != std::string::npos);
+    CHECK(refusal("cloths = [\"a\", \"b\"]\ncontact = false\n").empty());
 }
 
 TEST_CASE("a seam is read with points of edges and with a file, its cloths left open, and needs one of the three") {

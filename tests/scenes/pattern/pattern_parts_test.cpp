@@ -58,4 +58,19 @@ TEST_CASE("the second side of a seam is turned around where its ends lie nearer 
     }
 }
 
+TEST_CASE("panels move apart along their normals, to the outside whichever way they face") {
+    for (const bool turned_over : {false, true}) {
+        Pattern pattern;
+        for (const double z : {0.1, -0.1}) {
+            Panel& panel = pattern.panels.emplace_back();
+            panel.corners = {{0, 0}, {1, 0}, {0, 1}};
+            panel.pose.translation = Vec3(0, 0, z);
+            if ((z < 0.0) == turned_over) panel.pose.rotation = turned({0, 180, 0});
+        }
+        move_apart(pattern, 0.05);
+        CHECK((pattern.panels[0].pose.translation - Vec3(0, 0, 0.15)).norm() < 1e-15);
+        CHECK((pattern.panels[1].pose.translation - Vec3(0, 0, -0.15)).norm() < 1e-15);
+    }
+}
+
 }  // namespace percale::scenes::test

@@ -157,7 +157,7 @@ TEST_CASE("a garment that overlaps the body is moved out first, which is said") 
     const ProgramRun run = run_program(
         {"drape", "block.obj", "block.obj", "-o", "out.obj", "--move", "0", "0.1", "0", "--seconds", "0.05"}, folder.path());
     CHECK(run.exit_code == 1);  // not at rest so soon
-    CHECK(run.out.find("vertices of garment moved out of body before the start, the farthest by ") != std::string::npos);
+    CHECK(run.out.find("vertices of block moved out of body before the start, the farthest by ") != std::string::npos);
     CHECK(run.out.find(" 0 intersecting pairs") != std::string::npos);
 }
 
@@ -197,13 +197,44 @@ TEST_CASE("a garment that crosses itself is untangled first, and without self-co
     const std::vector<std::string> arguments = {"drape", "layers.obj", "block.obj", "--seconds", "0.05", "-o", "out.obj"};
     const ProgramRun with = run_program(arguments, folder.path());
     CAPTURE(with.out, with.error);
-    CHECK(with.out.find("vertices of garment moved out of cloth that they crossed before the start") != std::string::npos);
+    CHECK(with.out.find("vertices of layers moved out of cloth that they crossed before the start") != std::string::npos);
     CHECK(with.out.find(" 0 intersecting pairs") != std::string::npos);
     CHECK(self_intersections(read(folder, "out.obj")).empty());
     std::vector<std::string> off = arguments;
     off.emplace_back("--no-self-contact");
     const ProgramRun without = run_program(off, folder.path());
     CAPTURE(without.out, without.error);
-    CHECK(without.out.find("without self-contact: the garment crosses itself in ") != std::string::npos);
+    CHECK(without.out.find("without self-contact: cloth crosses cloth in ") != std::string::npos);
     CHECK(without.out.find(" 0 intersecting pairs") != std::string::npos);
+}
+
+TEST_CASE("garments are draped over each other from the inside out, each into its own file") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    TriangleMesh upper = read(folder, "sheet.obj");
+    for (Vec3& x : upper.vertices) x += Vec3(0.004, 0.02, 0.003);
+    scenes::write_obj(folder.path("upper.obj"), upper.vertices, upper.triangles);
+    const ProgramRun run = run_program(
+        {"drape", "sheet.obj", "upper.obj", "block.obj", "-o", "a.obj", "-o", "b.obj", "--friction", "0.8", "--seconds", "2"},
+        folder.path());
+    CAPTURE(run.out, run.error);
+    CHECK(run.out.find("sheet.obj, upper.obj onto block.obj") != std::string::npos);
+    CHECK(run.out.find(" 0 intersecting pairs") != std::string::npos);
+    const TriangleMesh a = read(folder, "a.obj"), b = read(folder, "b.obj"), block = read(folder, "block.obj");
+    for (const TriangleMesh& cloth : {a, b}) CHECK(certify(cloth, block).clean());
+    CHECK(certify(a, b).pairs.empty());
+    // In the middle, over the block's top, one lies on the other.
+    CHECK(b.vertices[40].y() > a.vertices[40].y() + 0.0025);
+    CHECK(b.vertices[40].y() < a.vertices[40].y() + 0.02);
+
+    const auto refusal = [&](std::vector<std::string> outs) {
+        std::vector<std::string> arguments = {"drape", "sheet.obj", "upper.obj", "block.obj"};
+        arguments.insert(arguments.end(), outs.begin(), outs.end());
+        const ProgramRun refused_run = run_program(arguments, folder.path());
+        CHECK(refused_run.exit_code == 2);
+        return refused_run.error;
+    };
+    CHECK(refusal({"-o", "c.obj"}).find("it takes one for each garment") != std::string::npos);
+    CHECK(refusal({"-o", "c.obj", "-o", "c.obj"}).find("is said twice") != std::string::npos);
+    CHECK(folder.file_count() == 5);
 }

@@ -1,0 +1,230 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "percale/certify.h"
+#include "percale/detectors.h"
+#include "percale/error.h"
+#include "percale/simulation.h"
+#include "tests/support/catch.h"
+#include "tests/support/collision/shapes.h"
+
+// What is said of pairs of cloths, through the whole of a simulation.
+using namespace percale;
+using namespace percale::test;
+
+namespace {
+
+constexpr double h = 0.004;
+const Fabric sheet_cloth{
+    .thickness = h, .self_contact = true, .springs = {.structural = 200.0, .shear = 100.0, .bend = 2.0}, .spring_damping = 0.1};
+
+/// A sheet of 0.6 m held everywhere and two of 0.2 m, one 6 mm and one 60 mm above it.
+struct ThreeSheets {
+    Simulation simulation{StepSettings{}, make_brute_force_detector()};
+    ClothId table, napkin, cloth;
+
+    ThreeSheets() {
+        table = simulation.add_cloth(make_grid(0.6, 0.6, 19, 19), sheet_cloth, {}, "table");
+        for (int v = 0; v < 19 * 19; ++v) simulation.pin(table, v);
+        napkin = simulation.add_cloth(make_grid(0.2, 0.2, 7, 7), sheet_cloth, turned_at(0.006), "napkin");
+        cloth = simulation.add_cloth(make_grid(0.2, 0.2, 7, 7), sheet_cloth, turned_at(0.06), "cloth");
+    }
+    static Pose turned_at(double height) {
+        return {.translation = {0.003, height, 0.004}, .rotation = {std::cos(0.2), 0, std::sin(0.2), 0}};
+    }
+    void run(int steps) {
+        for (int i = 0; i < steps; ++i) REQUIRE(simulation.step().ok());
+    }
+    double lowest(ClothId id) const {
+        double y = 1e9;
+        for (const Vec3& x : simulation.positions(id)) y = std::min(y, x.y());
+        return y;
+    }
+    double highest(ClothId id) const {
+        double y = -1e9;
+        for (const Vec3& x : simulation.positions(id)) y = std::max(y, x.y());
+        return y;
+    }
+    /// Triangle pairs of two of the cloths that cross.
+    std::size_t crossings(ClothId first, ClothId second) const {
+        TriangleMesh all = mesh_of(first);
+        all = joined(all, mesh_of(second));
+        return certify_cloth(all).crossing.size();
+    }
+    TriangleMesh mesh_of(ClothId id) const {
+        TriangleMesh mesh = id.index == table.index ? make_grid(0.6, 0.6, 19, 19) : make_grid(0.2, 0.2, 7, 7);
+        const auto x = simulation.positions(id);
+        mesh.vertices.assign(x.begin(), x.end());
+        return mesh;
+    }
+};
+
+std::string error_of(const auto& call) {
+    try {
+        call();
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("Cloths that are said not to meet pass through each other, others still meet them") {
+    ThreeSheets scene;
+    scene.simulation.set_pair(scene.napkin, scene.table, {.contact = false});
+    CHECK_FALSE(scene.simulation.meets(scene.table, scene.napkin));
+    CHECK(scene.simulation.meets(scene.table, scene.cloth));
+    CHECK(scene.simulation.meets(scene.table, scene.table));
+    scene.run(30);
+    CHECK(scene.highest(scene.napkin) < -0.5);
+    CHECK(scene.lowest(scene.cloth) > 0.0);
+    const auto skips = scene.simulation.plan().skipped;
+    CHECK(std::ranges::any_of(skips, [](const Skip& skip) { return skip.what == "contact of table with napkin"; }));
+}
+
+TEST_CASE("Cloths that do not meet may start through each other") {
+    ThreeSheets scene;
+    std::vector<Vec3> through;
+    for (const Vec3& x : scene.simulation.positions(scene.napkin)) through.push_back({x.x(), 0.2 * x.x(), x.z()});
+    scene.simulation.set_positions(scene.napkin, through);
+    scene.simulation.set_pair(scene.table, scene.napkin, {.contact = false});
+    scene.simulation.prepare();
+    CHECK(scene.simulation.start_repair().empty());
+    CHECK(scene.crossings(scene.table, scene.napkin) > 0);
+    CHECK(certify_cloth(scene.mesh_of(scene.table)).crossing.empty());
+}
+
+TEST_CASE("Cloths that come to meet while they cross are untangled by the next step, and then held apart") {
+    ThreeSheets scene;
+    scene.simulation.set_gravity({0, -1, 0});
+    scene.simulation.set_pair(scene.table, scene.napkin, {.contact = false});
+    std::vector<Vec3> tilted;
+    for (const Vec3& x : scene.simulation.positions(scene.napkin)) tilted.push_back({x.x(), 0.006 + 0.1 * x.x(), x.z()});
+    scene.simulation.set_positions(scene.napkin, tilted);
+    scene.run(1);
+    REQUIRE(scene.crossings(scene.table, scene.napkin) > 0);
+    scene.simulation.set_pair(scene.table, scene.napkin, {});
+    for (int n = 0; n < 20; ++n) {
+        scene.run(1);
+        CHECK(scene.crossings(scene.table, scene.napkin) == 0);
+    }
+    CHECK_FALSE(scene.simulation.start_repair().empty());
+}
+
+TEST_CASE("A pair keeps the distance that is said, nearer or farther than the cloths' own") {
+    for (const double thickness : {0.002, 0.010}) {
+        CAPTURE(thickness);
+        ThreeSheets scene;
+        scene.simulation.set_pair(scene.table, scene.cloth, {.thickness = thickness});
+        scene.simulation.set_pair(scene.table, scene.napkin, {.contact = false});
+        scene.simulation.set_pair(scene.napkin, scene.cloth, {.contact = false});
+        scene.run(120);
+        CHECK(scene.lowest(scene.cloth) > 0.5 * thickness);
+        CHECK(scene.highest(scene.cloth) < thickness);
+    }
+}
+
+TEST_CASE("What is said of a pair is checked, and taken back by saying nothing") {
+    ThreeSheets scene;
+    CHECK(error_of([&] { scene.simulation.set_pair(scene.table, {7}, {}); }).find("no cloth 7") != std::string::npos);
+    const std::string range = error_of([&] { scene.simulation.set_pair(scene.table, scene.napkin, {.thickness = 2.0}); });
+    CHECK(range.find("table and napkin: thickness = 2 m is outside the allowed range 1e-06 ... 1") != std::string::npos);
+    scene.simulation.set_pair(scene.table, scene.napkin, {.contact = false});
+    scene.simulation.set_pair(scene.napkin, scene.table, {});
+    CHECK(scene.simulation.meets(scene.table, scene.napkin));
+    scene.run(30);
+    CHECK(scene.lowest(scene.napkin) > 0.0);
+}
+
+TEST_CASE("All backends see pairs alike, and a saved state is not one of a simulation with other pairs") {
+    const auto run = [](std::unique_ptr<ContactDetector> detector, double thickness) {
+        Simulation simulation({}, std::move(detector));
+        for (int k = 0; k < 3; ++k)
+            simulation.add_cloth(make_grid(0.2, 0.2, 9, 9), sheet_cloth, ThreeSheets::turned_at(0.006 * k));
+        for (const int corner : {0, 8, 72, 80}) simulation.pin({0}, corner);
+        simulation.set_pair({0}, {2}, {.contact = false});
+        simulation.set_pair({1}, {2}, {.thickness = thickness});
+        return simulation;
+    };
+    Simulation one = run(make_fcl_detector(), 0.003), other = run(make_bullet_detector(), 0.003);
+    Simulation resumed = run(make_brute_force_detector(), 0.003), different = run(make_fcl_detector(), 0.0031);
+    for (int n = 0; n < 60; ++n) {
+        if (n == 30) resumed.restore(one.save());
+        if (n == 30) CHECK(error_of([&] { different.restore(one.save()); }).find("pairs of cloths") != std::string::npos);
+        REQUIRE(one.step().ok());
+        REQUIRE(other.step().ok());
+        if (n >= 30) REQUIRE(resumed.step().ok());
+        CHECK(one.state_hash() == other.state_hash());
+        if (n >= 30) CHECK(one.state_hash() == resumed.state_hash());
+    }
+}
+
+namespace {
+
+/// Two panels of one garment that start over each other, sewn along one side without contact, and a napkin that falls on them.
+struct SewnUnderNapkin {
+    Simulation simulation{{.measure = StepMeasures::none}, make_brute_force_detector()};
+    ClothId garment, napkin;
+    SeamId seam;
+
+    explicit SewnUnderNapkin(double after = 0.0) {
+        TriangleMesh second = make_grid(0.4, 0.4, 11, 11);
+        for (Vec3& x : second.vertices) x = {x.x() + 0.2, 0.5 * x.x() + 0.05, x.z()};
+        TriangleMesh panels = joined(make_grid(0.4, 0.4, 11, 11), second);
+        panels.grid_columns = panels.grid_rows = 0;
+        Fabric fabric = sheet_cloth;
+        fabric.springs.shear = 0.0;
+        fabric.spring_damping = 0.5;
+        garment = simulation.add_cloth(panels, fabric, {}, "garment");
+        for (int k = 0; k < 11; ++k) simulation.pin(garment, 11 * k);
+        napkin = simulation.add_cloth(make_grid(0.2, 0.2, 9, 9), sheet_cloth,
+                                      {.translation = {-0.05, 0.02, 0.004}, .rotation = {std::cos(0.2), 0, std::sin(0.2), 0}});
+        std::vector<Stitch> stitches;
+        for (int k = 0; k < 11; ++k) stitches.push_back({11 * k + 10, 121 + 11 * k, 121 + 11 * k, 0.0});
+        seam = simulation.add_seam(garment, garment, stitches,
+                                   {.after = after, .over = 0.3, .stiffness = 500.0, .contact_while_closing = false});
+    }
+    /// Crossing triangle pairs of the garment's (first 400 triangles) with itself, and of it with the napkin.
+    std::array<int, 2> crossings() const {
+        TriangleMesh all = joined(joined(make_grid(0.4, 0.4, 11, 11), make_grid(0.4, 0.4, 11, 11)), make_grid(0.2, 0.2, 9, 9));
+        const auto x = simulation.positions(garment), y = simulation.positions(napkin);
+        std::copy(x.begin(), x.end(), all.vertices.begin());
+        std::copy(y.begin(), y.end(), all.vertices.begin() + 242);
+        std::array<int, 2> count{};
+        for (const auto& [i, j] : certify_cloth(all).crossing) ++count[(i < 400) != (j < 400)];
+        return count;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("While a garment is sewn without contact of its own, other cloth meets it") {
+    SewnUnderNapkin scene;
+    CHECK_FALSE(scene.simulation.meets(scene.garment, scene.garment));
+    CHECK(scene.simulation.meets(scene.garment, scene.napkin));
+    CHECK(scene.simulation.meets(scene.napkin, scene.napkin));
+    REQUIRE(scene.simulation.step().ok());
+    CHECK(scene.simulation.start_repair().empty());
+    CHECK(scene.crossings()[0] > 0);
+    while (scene.simulation.time() < 0.5) {
+        REQUIRE(scene.simulation.step().ok());
+        CHECK(scene.crossings()[1] == 0);
+    }
+    CHECK(scene.simulation.meets(scene.garment, scene.garment));
+}
+
+TEST_CASE("A seam that closes later keeps its lengths until then") {
+    SewnUnderNapkin scene(0.2);
+    scene.simulation.set_gravity(Vec3::Zero());
+    const std::vector<double> before = scene.simulation.seam_gaps(scene.seam);
+    while (scene.simulation.time() < 0.19) REQUIRE(scene.simulation.step().ok());
+    const std::vector<double> waiting = scene.simulation.seam_gaps(scene.seam);
+    for (std::size_t k = 0; k < before.size(); ++k) CHECK(waiting[k] == Approx(before[k]).epsilon(1e-3).margin(1e-6));
+    CHECK_FALSE(scene.simulation.meets(scene.garment, scene.garment));
+    while (scene.simulation.time() < 0.4) REQUIRE(scene.simulation.step().ok());
+    const std::vector<double> closing = scene.simulation.seam_gaps(scene.seam);
+    CHECK(*std::ranges::max_element(closing) < 0.7 * *std::ranges::max_element(before));
+    CHECK(*std::ranges::max_element(closing) > 0.1 * *std::ranges::max_element(before));
+}
