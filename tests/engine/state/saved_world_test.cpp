@@ -366,7 +366,8 @@ TEST_CASE("a seam of points that was made in the midst of a run goes on closing 
     }
     Simulation sewn_otherwise = make();
     sewn_otherwise.add_seam({0}, {1}, std::vector<Stitch>{{0, 0, 1, 0.4}, {2, 1, 2, 0.5}, {3, 3, 3}}, {.over = 0.4});
-    CHECK(scene_error([&] { sewn_otherwise.restore(simulation.save()); }).find("other cloth, pairs of cloths or seams") != std::string::npos);
+    CHECK(scene_error([&] { sewn_otherwise.restore(simulation.save()); }).find("other cloth, pairs of cloths or seams") !=
+          std::string::npos);
 }
 
 }  // namespace percale::test
