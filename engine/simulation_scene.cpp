@@ -73,6 +73,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     world.scene.script.pin_targets = std::move(targets);
     implementation_->update_views();
     implementation_->add_masses(world.scene.model.cloths.back());
+    world.waiting = waiting_cloth(world.scene, world.state.time);
     pass_cloth_to_detector(world);
     world.changed = true;
     scene_changed(world);

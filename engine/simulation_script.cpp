@@ -81,6 +81,12 @@ SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const std::
 void Simulation::set_pair(ClothId first, ClothId second, const ClothPair& pair) {
     World& world = implementation_->world;
     const std::string names = implementation_->cloth(first).name + " and " + implementation_->cloth(second).name;
+    for (const ClothId id : {first, second}) {
+        const ClothRange& cloth = implementation_->cloth(id);
+        if (!cloth.fabric.self_contact)
+            throw SceneError(names, cloth.name + " meets no cloth, its fabric has self_contact = false");
+    }
+    if (pair.thickness && !pair.contact) throw SceneError(names, "without contact a thickness says nothing");
     if (pair.thickness) check_range(names, "thickness", "m", *pair.thickness, 1e-6, 1.0);
     world.scene.script.pairs.set(first.index, second.index, pair);
     pass_cloth_to_detector(world);

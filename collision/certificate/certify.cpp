@@ -202,6 +202,9 @@ std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const 
 
 ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches, const MeetingCloth& meeting) {
     check(cloth, "certify_cloth: cloth");
+    if (!meeting.cloth.empty() && meeting.cloth.size() != cloth.triangles.size())
+        throw SceneError("certify_cloth: the cloths of " + std::to_string(meeting.cloth.size()) + " triangles for " +
+                         std::to_string(cloth.triangles.size()));
     const Surface surface(cloth);
     const SewnTriangles sewn(cloth, stitches);
     ClothCertificate result;

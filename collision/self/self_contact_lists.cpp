@@ -10,7 +10,13 @@
 namespace percale {
 namespace {
 
-double largest(std::span<const double> list) { return list.empty() ? 0.0 : *std::max_element(list.begin(), list.end()); }
+/// m, of the vertices and of what is said of pairs.
+double largest_of(std::span<const double> vertex_thickness, const ClothPairs& pairs) {
+    double largest = 0.0;
+    for (const double thickness : vertex_thickness) largest = std::max(largest, thickness);
+    for (const auto& [cloths, pair] : pairs.said()) largest = std::max(largest, pair.thickness.value_or(0.0));
+    return largest;
+}
 
 /// m, that is said of a pair of the cloth; 0 where nothing is.
 double largest_thickness(const ClothPairs& pairs, int cloth) {
@@ -32,7 +38,7 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
       cloth_pairs_(cloth.pairs),
       rest_(cloth.rest.begin(), cloth.rest.end()),
       surface_(make_cloth_surface(triangles, vertex_thickness.size())),
-      sewn_(surface_, cloth.stitches, rest_, largest(vertex_thickness) / tolerances::contact_of_seam),
+      sewn_(surface_, cloth.stitches, rest_, largest_of(vertex_thickness, cloth.pairs) / tolerances::contact_of_seam),
       memory_{.start = rest_,
               .displacement = std::vector<Vec3>(rest_.size(), Vec3::Zero()),
               .seen = rest_,

@@ -14,11 +14,11 @@ namespace percale {
 /// without length is what holds the seam.
 struct Seam {
     int first_spring = 0;
-    std::vector<double> length;         // m, of each stitch when closing began; its spring is number first_spring + k
+    std::vector<double> length;         // m, of each stitch when it was sewn; its spring is number first_spring + k
     std::vector<Stitch> stitches = {};  // in the numbers of the system
     double from = 0.0;                  // s
     double over = 0.0;                  // s, how long closing takes
-    bool contact = true;                // whether cloth meets cloth while it closes
+    bool contact = true;                // whether the cloths that it joins meet before it has closed
 
     bool closes_after(double time) const { return time < from + over; }
 };

@@ -25,7 +25,7 @@ void add_contacts(const StepPlan& plan, const SceneFacts& facts, std::vector<Ski
         if (pair.contact) continue;
         const std::string &first = facts.cloths[cloths[0]].name, &second = facts.cloths[cloths[1]].name;
         skipped.push_back(
-            {"contact of " + first + " with " + (first == second ? "itself" : second), "the pair's contact is false"});
+            {"contact of " + first + " with " + (cloths[0] == cloths[1] ? "itself" : second), "the pair's contact is false"});
     }
 }
 

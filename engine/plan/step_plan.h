@@ -23,7 +23,7 @@ struct StepPlan {
     DampingForm damping = DampingForm::length_rate;
     bool hinges = false;          // some cloth has bending stiffness
     bool wind = false;            // there is air
-    bool seams_close = false;     // in the coming step
+    bool seams_close = false;     // in the coming step or later
     bool pins = true;             // a vertex is pinned: targets are compared with places
     bool pin_work = false;        // work of pins in the coming step is summed
     bool still_obstacles = true;  // the detector is told about obstacles that stay where it knows them, too

@@ -95,9 +95,16 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
         if (line.met_rows) {
             ++report.newton_iterations;
             report.linear_iterations += direction.linear_iterations;
-            direction = newton_direction(equations, target, &equations.space().foreseen);
+            NewtonSpace& space = equations.space();
+            space.first_direction = space.direction;
+            const Direction to_rows = newton_direction(equations, target, &space.foreseen);
             // Rows out of reach have no part in the residual yet: the way to where they hold the cloth may lead uphill at first.
-            if (!descends(equations)) direction = newton_direction(equations, target);
+            if (descends(equations)) {
+                direction = to_rows;
+            } else {
+                std::swap(space.direction, space.first_direction);
+                direction.linear_iterations = to_rows.linear_iterations;
+            }
             line = search_line(equations, error);
         }
 

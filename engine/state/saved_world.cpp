@@ -371,6 +371,7 @@ void put_solver(const SavedWorld& saved, const StepScene& scene, NewtonSpace& ne
 void put_state(SavedWorld& saved, World& world) {
     world.changed = saved.changed;
     world.plan_outdated = saved.plan_outdated;
+    world.waiting = std::move(saved.waiting);
     StepSettings& settings = world.scene.settings;
     settings.time_step = saved.settings.time_step;
     settings.gravity = saved.settings.gravity;

@@ -16,6 +16,8 @@ void damp_kinetic_energy(const StepScene& scene, StepState& state, RestState& re
     for (auto* axis : {&state.cloth.velocities.x, &state.cloth.velocities.y, &state.cloth.velocities.z})
         std::fill(axis->begin(), axis->end(), 0.0);
     state.past.forget();
+    state.cloth.impacts.clear();  // what is stopped does not bounce
+    report.stopped = true;
     report.energy.kinetic -= energy.kinetic;
     report.energy.dissipated_integrator += energy.kinetic;
     report.largest_speed *= 0.0;  // or still NaN where it is not measured

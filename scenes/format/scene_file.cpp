@@ -52,6 +52,8 @@ void check_pair(const Scene& scene, const PairSpec& pair) {
         if (named && !scene.meets_cloth(cloth))
             fail_at(pair.place, "pair: cloth '" + cloth.name + "' meets no cloth, its fabric has self_contact = false");
     }
+    if (!pair.contact && pair.thickness) fail_at(pair.place, "pair: with contact = false a thickness says nothing");
+    if (pair.contact && !pair.thickness) fail_at(pair.place, "pair: contact = true alone says nothing, cloths meet without it");
     const auto key = [](const PairSpec& p) { return std::minmax(p.cloths[0], p.cloths[1]); };
     const auto first = std::ranges::find_if(scene.pairs, [&](const PairSpec& other) { return key(other) == key(pair); });
     if (&*first != &pair)

@@ -7,13 +7,14 @@
 #include "percale/error.h"
 
 namespace percale::scenes {
-namespace {
 
 int cloth_number(const Scene& scene, const std::string& name) {
     const auto found = std::ranges::find(scene.cloths, name, &ClothSpec::name);
     if (found == scene.cloths.end()) throw SceneError("no cloth '" + name + "'");
     return static_cast<int>(found - scene.cloths.begin());
 }
+
+namespace {
 
 std::vector<Stitch> file_stitches(const Scene& scene, const SeamSpec& seam) {
     if (seam.file != "mesh") return read_stitch_file(path_beside(scene, seam.file));

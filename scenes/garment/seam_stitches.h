@@ -9,6 +9,9 @@
 
 namespace percale::scenes {
 
+/// Throws SceneError where no cloth has the name.
+int cloth_number(const Scene& scene, const std::string& name);
+
 /// The numbers of the cloths that a seam joins.
 std::array<int, 2> seam_cloths(const Scene& scene, const SeamSpec& seam);
 

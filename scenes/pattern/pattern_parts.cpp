@@ -40,6 +40,13 @@ Vec3 placed_point(const Panel& panel, const Point2& point) {
     return transform(panel.pose, x);
 }
 
+namespace {
+
+/// m. Panels that are nearer to one plane lie in it.
+constexpr double same_plane = 1e-6;
+
+}  // namespace
+
 void move_apart(Pattern& pattern, double distance) {
     std::vector<Vec3> middles;
     Vec3 middle = Vec3::Zero();
@@ -49,9 +56,13 @@ void move_apart(Pattern& pattern, double distance) {
         middle += own / static_cast<double>(pattern.panels.size());
     }
     for (std::size_t k = 0; k < middles.size(); ++k) {
-        Pose& pose = pattern.panels[k].pose;
+        Panel& panel = pattern.panels[k];
+        Pose& pose = panel.pose;
         const Vec3 normal = transform({.rotation = pose.rotation}, Vec3(Vec3::UnitZ()));
-        pose.translation += (normal.dot(middles[k] - middle) < 0.0 ? -distance : distance) * normal;
+        // Panels in one plane keep to the side that they face; a wrapped one keeps its axis.
+        const bool inward = panel.wrap == 0.0 && normal.dot(middles[k] - middle) < -same_plane;
+        pose.translation += (inward ? -distance : distance) * normal;
+        if (panel.wrap > 0.0) panel.wrap += distance;
     }
 }
 

@@ -46,6 +46,7 @@ struct DrapeOptions {
     bool until_rest = true;     // there is nothing else
     bool no_self_contact = false;
     bool quiet = false;
+    bool damps_patterns = false;  // a preset whose damping nothing else is said of
 
     std::span<const std::string> garments() const { return std::span(files).first(files.size() - 1); }
     const std::string& body() const { return files.back(); }
@@ -66,6 +67,8 @@ constexpr double sewing_time = 0.6;          // s
 constexpr double sewing_stiffness = 3000.0;  // N/m
 /// Of a preset, so that hems come to rest within seconds.
 constexpr double sewing_damping = 0.02;  // s
+/// A preset's moduli hold on patterns; on meshes that do not say where warp is they are made isotropic, which is warned of.
+constexpr const char *mesh_fabric = "mesh", *pattern_fabric = "pattern";
 /// How much farther out than the one below it the panels of a pattern start.
 constexpr double layer_offset = 0.04;  // m
 
@@ -92,7 +95,10 @@ void check_options(const DrapeOptions& options) {
     for (const std::string& out : options.outs) {
         if (std::filesystem::path(out).extension() != ".obj")
             throw SceneError("-o " + out + ": its name must end in .obj, which is what is written");
-        if (std::ranges::count(options.outs, out) > 1) throw SceneError("-o " + out + ": is said twice");
+        const auto same = [&](const std::string& other) {
+            return std::filesystem::path(other).lexically_normal() == std::filesystem::path(out).lexically_normal();
+        };
+        if (std::ranges::count_if(options.outs, same) > 1) throw SceneError("-o " + out + ": is said twice");
         const WholeFile probe(out);  // an output that cannot be written is found before the work, not after it
     }
 }
@@ -115,11 +121,15 @@ void add_pattern(const DrapeOptions& options, ClothSpec& cloth, Scene& scene) {
     scene.seams.push_back(seam);
 }
 
-/// Its file's name, which no other garment has.
+/// Its file's name, with a number where another garment has it.
 std::string garment_name(const std::string& file, const Scene& scene) {
     const std::string stem = std::filesystem::path(file).stem().string();
-    const bool known = std::ranges::any_of(scene.cloths, [&](const ClothSpec& cloth) { return cloth.name == stem; });
-    return known ? stem + " " + std::to_string(scene.cloths.size() + 1) : stem;
+    const auto known = [&](const std::string& name) {
+        return std::ranges::any_of(scene.cloths, [&](const ClothSpec& cloth) { return cloth.name == name; });
+    };
+    std::string name = stem;
+    for (int number = 2; known(name); ++number) name = stem + " " + std::to_string(number);
+    return name;
 }
 
 /// The scene that the command line describes: meshes where they are, garments moved as asked.
@@ -130,12 +140,19 @@ Scene drape_scene(const DrapeOptions& options) {
     scene.longest = options.seconds;
     scene.step.kinetic_damping = true;
     scene.step.rest_speed = options.still;
-    scene.fabrics["garment"] = options.fabric;
-    scene.fabrics["garment"].self_contact = !options.no_self_contact;
+    Fabric fabric = options.fabric;
+    fabric.self_contact = !options.no_self_contact;
+    scene.fabrics[mesh_fabric] = fabric;
+    if (options.damps_patterns) {
+        fabric.damping_time = sewing_damping;
+        fabric.spring_damping = 0.0;
+    }
+    scene.fabrics[pattern_fabric] = fabric;
+    if (!options.preset.empty()) scene.preset_moduli = {mesh_fabric};
     for (const std::string& file : options.garments()) {
         ClothSpec cloth;
         cloth.name = garment_name(file, scene);
-        cloth.fabric = "garment";
+        cloth.fabric = is_pattern(file) ? pattern_fabric : mesh_fabric;
         cloth.place = {.file = file};
         cloth.unit = metres("--garment-unit", options.garment_unit);
         cloth.pose.translation = Vec3(options.move[0], options.move[1], options.move[2]);
@@ -181,7 +198,7 @@ Drape settle(BuiltScene& built, const DrapeOptions& options) {
             drape.failure = drape.last.explanation();
             return drape;
         }
-        watch.look(built.simulation, built.cloths, drape.last, built.scene.step.gravity, true);
+        watch.look(built.simulation, built.cloths, drape.last, built.scene.step.gravity, sewn);
         drape.speed = watch.figures().largest_speed;
         bar.show(built.simulation.time());
         drape.met = drape.met || drape.last.contacts > 0;
@@ -202,10 +219,8 @@ FrameCheck write_and_certify(const BuiltScene& built, const DrapeOptions& option
         write_obj(options.outs[k], cloths[k].vertices, cloths[k].triangles);
         add_certificate(check, certify(cloths[k], body, 4.0 * options.fabric.thickness));
     }
-    std::vector<ClothStitches> sewn;
-    for (const BuiltSeam& seam : built.seams) sewn.push_back(seam.sewn);
     FrameCheck own;
-    add_cloth_certificate(own, cloths, sewn, all_pairs(static_cast<int>(cloths.size())));
+    add_cloth_certificate(own, cloths, sewn_stitches(built), all_pairs(static_cast<int>(cloths.size())));
     check.at_seams = own.at_seams;
     if (!options.no_self_contact)
         check.intersections += own.intersections;
@@ -242,7 +257,8 @@ int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& c
     const char* out = files.c_str();
     if (!check.clean()) {
         std::fprintf(stderr,
-                     "percale: %s: not clean: %d intersecting pairs (with the body or itself), %d vertices inside the body, "
+                     "percale: %s: not clean: %d intersecting pairs (with the body, themselves or each other), %d vertices "
+                     "inside the body, "
                      "deepest %.3g m\n",
                      out, check.intersections, check.vertices_inside, check.deepest_penetration);
         return not_as_expected;
@@ -280,6 +296,7 @@ int drape_garment(const DrapeOptions& options) {
     std::size_t start_moves = 0;
     if (!options.quiet) {
         std::printf("%s onto %s\n", joined(options.garments()).c_str(), options.body().c_str());
+        for (const std::string& warning : built.warnings) std::printf("warning: %s\n", warning.c_str());
         start_moves = print_start_moves(built.simulation);
     }
     std::fflush(stdout);
@@ -299,19 +316,13 @@ int drape_garment(const DrapeOptions& options) {
     return verdict(options, drape, check, gap);
 }
 
-/// The preset as it is on a mesh that does not say where warp is, with what else the command line says.
+/// The preset, with what else the command line says.
 Fabric fabric_from_preset(const CLI::App& command, const DrapeOptions& options) {
     std::vector<std::string> names;
     for (const FabricPreset& preset : fabric_presets()) names.emplace_back(preset.name);
     if (std::find(names.begin(), names.end(), options.preset) == names.end())
         throw SceneError("--fabric: no fabric preset '" + options.preset + "'" + suggestion(options.preset, names));
-    // A pattern says where warp is.
     Fabric fabric = fabric_preset(options.preset);
-    if (std::ranges::all_of(options.garments(), is_pattern)) {
-        fabric.damping_time = sewing_damping;
-    } else {
-        fabric = isotropic(fabric);
-    }
     const auto given = [&](const std::string& option) { return command.get_option(option)->count() > 0; };
     if (given("--thickness")) fabric.thickness = options.fabric.thickness;
     if (given("--area-density")) fabric.area_density = options.fabric.area_density;
@@ -337,9 +348,7 @@ void add_options(CLI::App& command, DrapeOptions& options) {
     command.add_option("--garment-unit", options.garment_unit, "Unit of the garment's file: mm, cm, m (default m)")
         ->type_name("UNIT");
     command.add_option("--body-unit", options.body_unit, "Unit of the body's file: mm, cm, m (default m)")->type_name("UNIT");
-    command.add_option("--move", options.move, "Move the garment before it starts, m")
-        ->type_name("X Y Z")
-        ->allow_extra_args(false);
+    command.add_option("--move", options.move, "Move garments before they start, m")->type_name("X Y Z")->allow_extra_args(false);
     CLI::Option* preset =
         command
             .add_option(
@@ -364,8 +373,9 @@ void add_options(CLI::App& command, DrapeOptions& options) {
                     "At rest is what for half a second keeps within half a second times this of one place, m/s (default 0.0002)")
         ->type_name("V");
     command.add_flag("--until-rest", options.until_rest,
-                     "Go on until the garment is proven at rest; so it does without this, too");
-    command.add_flag("--no-self-contact", options.no_self_contact, "Let the garment pass through itself, which costs less");
+                     "Go on until all garments are proven at rest; so it does without this, too");
+    command.add_flag("--no-self-contact", options.no_self_contact,
+                     "Let garments pass through themselves and each other, which costs less");
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
@@ -378,6 +388,7 @@ void add_drape_command(CLI::App& program, Action& action) {
     add_options(*command, *options);
     command->callback([options, command, &action] {
         action = [options, command] {
+            options->damps_patterns = !options->preset.empty() && command->get_option("--damping")->count() == 0;
             if (!options->preset.empty()) options->fabric = fabric_from_preset(*command, *options);
             return drape_garment(*options);
         };

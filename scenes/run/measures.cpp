@@ -138,8 +138,8 @@ void RestWatch::look(const Simulation& simulation, std::span<const ClothId> clot
     begin(simulation, cloths);
     double fastest = -1.0, sum = 0.0, change = 0.0;
     for (std::size_t i = 0; i < from.size(); ++i) {
-        // Falling asleep has set velocities to zero, so that the displacement has to tell them.
-        const Vec3 velocity = asleep ? Vec3((positions_[i] - from[i]) / report.dt) : velocities_[i];
+        // Falling asleep and kinetic damping have set velocities to zero, so that the displacement has to tell them.
+        const Vec3 velocity = asleep || report.stopped ? Vec3((positions_[i] - from[i]) / report.dt) : velocities_[i];
         change = std::max(change, (velocity - before[i]).squaredNorm());
         sum += velocity.squaredNorm();
         if (velocity.squaredNorm() <= fastest) continue;

@@ -76,9 +76,7 @@ void certify_meeting_cloth(const BuiltScene& built, Frame& frame) {
     std::erase_if(frame.meeting, [&](const std::array<int, 2>& pair) {
         return !built.simulation.meets(built.cloths[pair[0]], built.cloths[pair[1]]);
     });
-    std::vector<ClothStitches> sewn;
-    for (const BuiltSeam& seam : built.seams) sewn.push_back(seam.sewn);
-    add_cloth_certificate(frame.check, frame.cloths, sewn, frame.meeting);
+    add_cloth_certificate(frame.check, frame.cloths, sewn_stitches(built), frame.meeting);
 }
 
 void place_and_certify(const BuiltScene& built, Frame& frame) {

@@ -156,9 +156,7 @@ void sew_other_patterns(BuiltScene& built) {
 }
 
 void set_pair(BuiltScene& built, const PairSpec& pair) {
-    const auto id = [&](const std::string& name) {
-        return built.cloths[std::ranges::find(built.scene.cloths, name, &ClothSpec::name) - built.scene.cloths.begin()];
-    };
+    const auto id = [&](const std::string& name) { return built.cloths[cloth_number(built.scene, name)]; };
     built.simulation.set_pair(id(pair.cloths[0]), id(pair.cloths[1]), {.contact = pair.contact, .thickness = pair.thickness});
 }
 
@@ -192,6 +190,12 @@ void check_start(BuiltScene& built) {
 }
 
 }  // namespace
+
+std::vector<ClothStitches> sewn_stitches(const BuiltScene& built) {
+    std::vector<ClothStitches> sewn;
+    for (const BuiltSeam& seam : built.seams) sewn.push_back(seam.sewn);
+    return sewn;
+}
 
 TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle) {
     return obstacle.mesh.empty() ? shape_mesh(obstacle.shape) : import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit);

@@ -30,6 +30,9 @@ struct BuiltScene {
     std::vector<std::string> warnings;  // what is not quite as the scene file says
 };
 
+/// What all seams have sewn.
+std::vector<ClothStitches> sewn_stitches(const BuiltScene& built);
+
 /// The mesh of an obstacle with its unit applied, its pose not; not yet checked (check_mesh). Throws SceneError for a file that
 /// cannot be read.
 TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle);

@@ -43,7 +43,7 @@ struct MeetingCloth {
 
     int cloth_of(int triangle) const { return cloth.empty() ? 0 : cloth[triangle]; }
     bool meet(int first_triangle, int second_triangle) const {
-        return pairs == nullptr || pairs->of(cloth_of(first_triangle), cloth_of(second_triangle)).contact;
+        return cloth.empty() || pairs == nullptr || pairs->of(cloth_of(first_triangle), cloth_of(second_triangle)).contact;
     }
 };
 

@@ -139,8 +139,8 @@ public:
     /// change.
     virtual void move_obstacle(int obstacle, const Pose& start, const Pose& end) = 0;
 
-    /// Whether this start may be simulated: no crossing, no touching, no vertex inside a watertight obstacle; none of cloth that
-    /// meets cloth crosses or touches other such cloth.
+    /// Whether this start may be simulated: no crossing, no touching, no vertex inside a watertight obstacle; no cloth
+    /// crosses or touches cloth that it meets.
     virtual StartFault check_start(std::span<const Vec3> positions) = 0;
 
     /// Positions clear of every obstacle, as near to the given ones as was found; nothing where none were found. Vertices with

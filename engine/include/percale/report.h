@@ -112,6 +112,7 @@ struct StepReport {
     double smallest_fraction = 1.0;  // smallest part of a move that was free of crossing
     int sleeping_cloths = 0;         // at rest
     bool slept = false;              // all were: the step was not solved, the figures are those of the last one that was
+    bool stopped = false;            // kinetic damping set all velocities to 0 at its end
     int contacts = 0;                // contact rows at the end
     double smallest_distance = 0.0;  // m; infinity if nothing was near
     double contact_stiffness = 0.0;  // N/m, largest of the step

@@ -74,7 +74,8 @@ public:
     SeamId add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices,
                     const SeamSettings& settings = {});
     /// What two cloths with self_contact, or such a cloth with itself, are to each other from now on; thickness: m, 1e-6 ... 1.
-    /// Cloths that come to meet by that and cross are untangled by the next step, as at a start.
+    /// Cloths that come to meet by that and cross are untangled by the next step, as at a start. Throws SceneError for cloth
+    /// without self_contact, and for a thickness without contact.
     void set_pair(ClothId first, ClothId second, const ClothPair& pair);
     void set_time_step(double time_step);  // s, > 0
     /// All vertices of a cloth; m and m/s. For starts that are not at rest.

@@ -18,7 +18,7 @@ struct Stitch {
 };
 
 struct SeamSettings {
-    double after = 0.0;         // s from now until closing begins, 0 ... 1e6; before, stitches keep their lengths
+    double after = 0.0;         // s from now until closing begins, 0 ... 1e6; before, stitches keep their lengths; nothing sleeps
     double over = 1.0;          // s, how long closing takes, 0 ... 1e6
     double stiffness = 1000.0;  // N/m of each stitch, 1e-3 ... 1e9
     /// Whether the cloths that it joins meet each other, and themselves, before it has closed. If not, nor do cloths that such

@@ -131,6 +131,14 @@ TEST_CASE("What is said of a pair is checked, and taken back by saying nothing")
     CHECK(error_of([&] { scene.simulation.set_pair(scene.table, {7}, {}); }).find("no cloth 7") != std::string::npos);
     const std::string range = error_of([&] { scene.simulation.set_pair(scene.table, scene.napkin, {.thickness = 2.0}); });
     CHECK(range.find("table and napkin: thickness = 2 m is outside the allowed range 1e-06 ... 1") != std::string::npos);
+    const std::string both =
+        error_of([&] { scene.simulation.set_pair(scene.table, scene.napkin, {.contact = false, .thickness = 0.003}); });
+    CHECK(both.find("without contact a thickness says nothing") != std::string::npos);
+    Fabric alone = sheet_cloth;
+    alone.self_contact = false;
+    const ClothId other = scene.simulation.add_cloth(make_grid(0.2, 0.2, 3, 3), alone, {.translation = {0, 1, 0}}, "veil");
+    const std::string meets_none = error_of([&] { scene.simulation.set_pair(scene.table, other, {.contact = false}); });
+    CHECK(meets_none.find("veil meets no cloth") != std::string::npos);
     scene.simulation.set_pair(scene.table, scene.napkin, {.contact = false});
     scene.simulation.set_pair(scene.napkin, scene.table, {});
     CHECK(scene.simulation.meets(scene.table, scene.napkin));
@@ -227,4 +235,58 @@ TEST_CASE("A seam that closes later keeps its lengths until then") {
     const std::vector<double> closing = scene.simulation.seam_gaps(scene.seam);
     CHECK(*std::ranges::max_element(closing) < 0.7 * *std::ranges::max_element(before));
     CHECK(*std::ranges::max_element(closing) > 0.1 * *std::ranges::max_element(before));
+}
+
+TEST_CASE("Cloths that seams without contact join wait together, until the last seam between them has closed") {
+    Simulation simulation({.gravity = Vec3::Zero()}, make_brute_force_detector());
+    for (int k = 0; k < 4; ++k)
+        simulation.add_cloth(make_grid(0.2, 0.2, 5, 5), sheet_cloth, {.translation = {0.0, 0.05 * k, 0.0}});
+    const auto sew = [&](int first, int second, double over) {
+        simulation.add_seam({first}, {second}, std::vector<std::array<int, 2>>{{0, 0}},
+                            {.over = over, .stiffness = 1.0, .contact_while_closing = false});
+    };
+    sew(0, 1, 0.1);
+    sew(2, 1, 0.2);
+    const auto meeting = [&] {
+        std::vector<std::array<int, 2>> pairs;
+        for (int i = 0; i < 4; ++i) {
+            for (int j = i; j < 4; ++j) {
+                if (simulation.meets({i}, {j})) pairs.push_back({i, j});
+            }
+        }
+        return pairs;
+    };
+    using Pairs = std::vector<std::array<int, 2>>;
+    CHECK(meeting() == Pairs{{0, 3}, {1, 3}, {2, 3}, {3, 3}});
+    const std::vector<std::byte> waiting = simulation.save();
+    while (simulation.time() < 0.15) REQUIRE(simulation.step().ok());
+    CHECK(meeting() == Pairs{{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 3}, {2, 3}, {3, 3}});
+    const std::vector<std::byte> half = simulation.save();
+    const std::uint64_t hash = simulation.state_hash();
+    while (simulation.time() < 0.25) REQUIRE(simulation.step().ok());
+    CHECK(meeting().size() == 10);
+    // Back, whatever waits meanwhile, and to the same end.
+    simulation.restore(waiting);
+    CHECK(meeting().size() == 4);
+    while (simulation.time() < 0.15) REQUIRE(simulation.step().ok());
+    CHECK(simulation.state_hash() == hash);
+    simulation.restore(half);
+    CHECK(meeting().size() == 7);
+}
+
+TEST_CASE("The certificate leaves out triangles of cloths that do not meet, and wants to know of all whose they are") {
+    TriangleMesh crossed = make_grid(0.2, 0.2, 5, 5);
+    TriangleMesh other = crossed;
+    for (Vec3& x : other.vertices) x = {x.x() + 0.003, x.z(), x.y() + 0.002};
+    const TriangleMesh all = joined(crossed, other);
+    std::vector<int> cloth(all.triangles.size(), 0);
+    std::fill(cloth.begin() + static_cast<long>(crossed.triangles.size()), cloth.end(), 1);
+    ClothPairs pairs;
+    CHECK_FALSE(certify_cloth(all, {}, {cloth, &pairs}).crossing.empty());
+    pairs.set(1, 0, {.contact = false});
+    CHECK(certify_cloth(all, {}, {cloth, &pairs}).crossing.empty());
+    pairs.set(1, 0, {.thickness = 0.01});
+    CHECK_FALSE(certify_cloth(all, {}, {cloth, &pairs}).crossing.empty());
+    cloth.pop_back();
+    CHECK(error_of([&] { certify_cloth(all, {}, {cloth, &pairs}); }).find("certify_cloth: the cloths of") != std::string::npos);
 }

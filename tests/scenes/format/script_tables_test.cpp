@@ -59,8 +59,10 @@ TEST_CASE("a pair of cloths is read, and says something") {
     CHECK(refusal("cloths = [\"a\", \"b\"]\n").find("what the two are to each other") != std::string::npos);
     CHECK(refusal("cloths = [\"a\", \"c\"]\ncontact = false\n").find("pair: no cloth 'c'") != std::string::npos);
     CHECK(refusal("cloths = [\"a\", \"b\"]\nthickness = 0\n").find("thickness") != std::string::npos);
-    const std::string one = "cloths = [\"a\", \"b\"]\ncontact = false\n[[pair]]\ncloths = [\"b\", \"a\"]\ncontact = true\n";
+    const std::string one = "cloths = [\"a\", \"b\"]\ncontact = false\n[[pair]]\ncloths = [\"b\", \"a\"]\nthickness = 0.003\n";
     CHECK(refusal(one).find("are a pair above already") != std::string::npos);
+    CHECK(refusal("cloths = [\"a\", \"b\"]\ncontact = true\n").find("says nothing") != std::string::npos);
+    CHECK(refusal("cloths = [\"a\", \"b\"]\ncontact = false\nthickness = 0.003\n").find("says nothing") != std::string::npos);
     CHECK(refusal("cloths = [\"a\", \"stiff\"]\ncontact = false\n").find("self_contact = false") != std::string::npos);
     CHECK(refusal("cloths = [\"a\", \"b\"]\ncontact = false\n").empty());
 }

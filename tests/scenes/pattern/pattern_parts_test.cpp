@@ -73,4 +73,25 @@ TEST_CASE("panels move apart along their normals, to the outside whichever way t
     }
 }
 
+TEST_CASE("panels in one plane move apart to the side that they face, a wrapped one around its axis") {
+    Pattern pattern;
+    for (const double x : {0.0, 1.0, 2.5}) {
+        Panel& panel = pattern.panels.emplace_back();
+        panel.corners = {{x, 0}, {x + 1, 0.3}, {x, 1}};
+        panel.pose = {.translation = Vec3(0.1, 0.2, 0.3), .rotation = turned({17, 31, 5})};
+    }
+    const Vec3 normal = transform({.rotation = turned({17, 31, 5})}, Vec3(Vec3::UnitZ()));
+    move_apart(pattern, 0.05);
+    for (const Panel& panel : pattern.panels)
+        CHECK((panel.pose.translation - Vec3(0.1, 0.2, 0.3) - 0.05 * normal).norm() < 1e-15);
+
+    Pattern tube;
+    Panel& panel = tube.panels.emplace_back();
+    panel.corners = {{-0.3, 0}, {0.3, 0}, {0.3, 1}, {-0.3, 1}};
+    panel.wrap = 0.1;
+    const Vec3 axis(0.0, 0.5, -0.1);
+    move_apart(tube, 0.02);
+    for (const double x : {-0.3, -0.1, 0.2}) CHECK((placed_point(tube.panels[0], {x, 0.5}) - axis).norm() == Approx(0.12));
+}
+
 }  // namespace percale::scenes::test

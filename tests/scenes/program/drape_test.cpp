@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 
 #include "meshes/obj_file.h"
@@ -237,4 +238,19 @@ TEST_CASE("garments are draped over each other from the inside out, each into it
     CHECK(refusal({"-o", "c.obj"}).find("it takes one for each garment") != std::string::npos);
     CHECK(refusal({"-o", "c.obj", "-o", "c.obj"}).find("is said twice") != std::string::npos);
     CHECK(folder.file_count() == 5);
+}
+
+TEST_CASE("a pattern without a seam gets its weight, too") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    folder.write("cloth.toml",
+                 "unit = \"cm\"\n[[panel]]\nname = \"cloth\"\npoints = [[-10, -10], [10, -10], [10, 10], [-10, 10]]\n"
+                 "at = [0, 14, 0]\nturn = [-90, 0, 0]\n");
+    const ProgramRun run = run_program(
+        {"drape", "cloth.toml", "block.obj", "-o", "out.obj", "--fabric", "cotton", "--friction", "0.8", "--seconds", "1.5"},
+        folder.path());
+    CAPTURE(run.out, run.error);
+    double lowest = 1.0;
+    for (const Vec3& x : read(folder, "out.obj").vertices) lowest = std::min(lowest, x.y());
+    CHECK(lowest < 0.09);
 }
