@@ -238,11 +238,11 @@ constexpr Option<StepSettings> step_list[] = {
     {.key = "rest_speed",
      .unit = "m/s",
      .sentence =
-         "Cloth is still that for half a second has kept within half a second times this of one place; without it within 0.002 "
-         "of its thickness.",
+         "Cloth is still that for half a second has kept within half a second times this of one place; auto: within 0.002 of its "
+         "thickness.",
      .lowest = 1e-9,
      .highest = 1.0,
-     .optional_number = [](StepSettings& s) { return &s.rest_speed; }},
+     .number_or_auto = [](StepSettings& s) { return &s.rest_speed; }},
     {.key = "skip",
      .unit = "",
      .sentence = "Whether work that the scene does not need is left out (percale plan lists it); false runs everything.",

@@ -45,21 +45,6 @@ void check_only_cloth(const std::vector<std::string>& cloths, const SeamSpec& se
     fail_at(seam.place, "seam lacks cloths: the scene has " + std::to_string(cloths.size()) + ", name the two that it joins");
 }
 
-/// Both meet cloth, and nothing else is said of them.
-void check_pair(const Scene& scene, const PairSpec& pair) {
-    for (const ClothSpec& cloth : scene.cloths) {
-        const bool named = cloth.name == pair.cloths[0] || cloth.name == pair.cloths[1];
-        if (named && !scene.meets_cloth(cloth))
-            fail_at(pair.place, "pair: cloth '" + cloth.name + "' meets no cloth, its fabric has self_contact = false");
-    }
-    if (!pair.contact && pair.thickness) fail_at(pair.place, "pair: with contact = false a thickness says nothing");
-    if (pair.contact && !pair.thickness) fail_at(pair.place, "pair: contact = true alone says nothing, cloths meet without it");
-    const auto key = [](const PairSpec& p) { return std::minmax(p.cloths[0], p.cloths[1]); };
-    const auto first = std::ranges::find_if(scene.pairs, [&](const PairSpec& other) { return key(other) == key(pair); });
-    if (&*first != &pair)
-        fail_at(pair.place, "pair: '" + pair.cloths[0] + "' and '" + pair.cloths[1] + "' are a pair above already");
-}
-
 void check_references(const Scene& scene, FaultList& faults) {
     const std::vector<std::string> cloths = checked_names(scene.cloths, "cloth", faults);
     checked_names(scene.obstacles, "obstacle", faults);
@@ -81,7 +66,6 @@ void check_references(const Scene& scene, FaultList& faults) {
     }
     for (const PairSpec& pair : scene.pairs) {
         for (const std::string& name : pair.cloths) check_name(cloths, name, pair.place, "pair: no cloth");
-        faults.attempt([&] { check_pair(scene, pair); });
     }
     for (const EventSpec& event : scene.events) {
         const std::string name = cloth_of(event);

@@ -185,9 +185,7 @@ const FieldTable<PairSpec>& pair_table() {
                      .highest = 1.0},
                     &PairSpec::thickness),
             },
-        .rules = {.shown = [](const TomlNode&) -> std::string { return "pair"; },
-                  .at_least_one = {"contact", "thickness"},
-                  .at_least_one_why = "what the two are to each other"}};
+        .rules = {.shown = [](const TomlNode&) -> std::string { return "pair"; }}};
     return table;
 }
 

@@ -290,6 +290,8 @@ void print_seams(const WidestGap& gap, const FrameCheck& check) {
 }
 
 int drape_garment(const DrapeOptions& options) {
+    if (options.files.size() < 2)
+        throw SceneError(options.files.front() + ": is the only file; name the garments, the innermost first, and then the BODY");
     const Scene scene = drape_scene(options);
     check_options(options);
     BuiltScene built = build_scene(scene);
@@ -338,7 +340,7 @@ void add_options(CLI::App& command, DrapeOptions& options) {
                     "Garments from the innermost to the outermost, each a mesh outside the body or a sewing pattern around it "
                     "(.toml, .json), then the body's mesh")
         ->type_name("GARMENT... BODY")
-        ->expected(2, 100)
+        ->expected(1, 100)
         ->required();
     command.add_option("-o", options.outs, "Draped mesh (.obj), once for each garment")
         ->type_name("OUT")

@@ -156,6 +156,12 @@ void sew_other_patterns(BuiltScene& built) {
 }
 
 void set_pair(BuiltScene& built, const PairSpec& pair) {
+    const std::string names = "'" + pair.cloths[0] + "' and '" + pair.cloths[1] + "'";
+    const auto key = [](const PairSpec& p) { return std::minmax(p.cloths[0], p.cloths[1]); };
+    const auto first = std::ranges::find_if(built.scene.pairs, [&](const PairSpec& other) { return key(other) == key(pair); });
+    if (&*first != &pair) throw SceneError("pair: " + names + " are a pair above already");
+    if (pair.contact && !pair.thickness)
+        throw SceneError("pair: " + names + ": contact = true alone says nothing, cloths meet without it");
     const auto id = [&](const std::string& name) { return built.cloths[cloth_number(built.scene, name)]; };
     built.simulation.set_pair(id(pair.cloths[0]), id(pair.cloths[1]), {.contact = pair.contact, .thickness = pair.thickness});
 }
@@ -223,7 +229,7 @@ BuiltScene build_scene(const Scene& given) {
     for (const ObstacleSpec& obstacle : scene.obstacles) at_place_of(obstacle, [&] { add_obstacle(built, obstacle); });
     for (const SeamSpec& seam : scene.seams) add_seam(built, seam);
     sew_other_patterns(built);
-    for (const PairSpec& pair : scene.pairs) at_place(pair.place, "", [&] { set_pair(built, pair); });
+    for (const PairSpec& pair : built.scene.pairs) at_place(pair.place, "", [&] { set_pair(built, pair); });
     script_events(scene, built.cloth_meshes);
     attached_pins(scene, built.cloth_meshes);
     check_start(built);

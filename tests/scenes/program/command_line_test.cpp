@@ -36,7 +36,7 @@ TEST_CASE("a command line that cannot be read ends with exit code 2 and one mess
     CHECK(refused(run_program({"run", "a.toml", "--thread=2"}), "no such option '--thread'; did you mean '--threads'?"));
     CHECK(refused(run_program({"run", "a.toml", "b.toml", "c.toml"}), "unexpected argument 'b.toml'"));
     CHECK(refused(run_program({"check", "a.toml", "--jobs", "many"}), "many"));
-    CHECK(refused(run_program({"drape", "a.obj"}), "BODY"));
+    CHECK(refused(run_program({"drape", "a.obj", "-o", "b.obj"}), "BODY"));
 }
 
 TEST_CASE("output that cannot be written is an error") {

@@ -311,3 +311,43 @@ TEST_CASE("an obstacle starts where its motion begins") {
     const BuiltScene scene = built(small_scene() + moving);
     CHECK(scene.simulation.obstacle_pose(scene.obstacles[0]).translation == Vec3(0, -2, 0));
 }
+
+namespace {
+
+/// Two cloths that meet cloth, and a third that does not.
+std::string three_sheets() {
+    const std::string fabric = "thickness = 0.004\nsprings = { structural = 100.0 }\n";
+    std::string text = "duration = 0.1\n[fabric.f]\nself_contact = true\n" + fabric + "[fabric.g]\n" + fabric;
+    for (const std::string name : {"a", "b", "c"})
+        text += "[[cloth]]\nname = \"" + name + "\"\nfabric = \"" + (name == "c" ? "g" : "f") +
+                "\"\ngrid = { size = [1.0, 1.0], vertices = [3, 3] }\npose = { translation = [0, 0." +
+                std::to_string(name[0] - 'a') + ", 0] }\n";
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("pairs of cloths are told to the simulation, and those that say nothing are refused at their place") {
+    const auto with = [](const std::string& keys) { return three_sheets() + "[[pair]]\n" + keys; };
+    const BuiltScene apart = built(with("cloths = [\"b\", \"a\"]\ncontact = false\n"));
+    CHECK_FALSE(apart.simulation.meets(apart.cloths[0], apart.cloths[1]));
+    CHECK(apart.simulation.meets(apart.cloths[0], apart.cloths[0]));
+    CHECK(built(with("cloths = [\"b\", \"a\"]\nthickness = 0.003\n")).simulation.meets({0}, {1}));
+    const std::string first = "cloths = [\"a\", \"b\"]\ncontact = false\n";
+    CHECK(fault(with(first + "[[pair]]\ncloths = [\"b\", \"a\"]\nthickness = 0.003\n")).find("are a pair above already") !=
+          std::string::npos);
+    CHECK(fault(with("cloths = [\"a\", \"b\"]\n")).find("alone says nothing") != std::string::npos);
+    CHECK(fault(with(first + "thickness = 0.003\n")).find("without contact a thickness says nothing") != std::string::npos);
+    const std::string none = fault(with("cloths = [\"a\", \"c\"]\ncontact = false\n"));
+    CHECK(none.starts_with("t:"));
+    CHECK(none.find("c meets no cloth, its fabric has self_contact = false") != std::string::npos);
+}
+
+TEST_CASE("a seam of a scene closes from its time on") {
+    const std::string seam = "[[seam]]\ncloths = [\"a\", \"b\"]\nvertices = [[0, 0]]\nfrom = 0.05\nover = 0.05\n";
+    BuiltScene scene = built(three_sheets() + seam + "[step]\ntime_step = 0.01\n");
+    for (int n = 0; n < 4; ++n) REQUIRE(scene.simulation.step().ok());
+    CHECK(scene.simulation.seam_gaps(scene.seams[0].id)[0] == Approx(0.1).epsilon(0.01));
+    for (int n = 0; n < 6; ++n) REQUIRE(scene.simulation.step().ok());
+    CHECK(scene.simulation.seam_gaps(scene.seams[0].id)[0] < 0.05);
+}
