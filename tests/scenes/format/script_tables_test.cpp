@@ -5,11 +5,13 @@
 #include "scenes/format/scene_file.h"
 #include "tests/scenes/message_of.h"
 #include "tests/scenes/scene_texts.h"
+#include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
 using namespace percale;
 using namespace percale::scenes;
 using percale::scenes::test::message_of;
+using percale::scenes::test::sheet_on_box;
 
 namespace {
 
