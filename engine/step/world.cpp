@@ -17,6 +17,8 @@ bool meets_cloth(const StepScene& scene) {
 }
 
 std::vector<int> waiting_cloth(const StepScene& scene, double time) {
+    const auto waits = [&](const Seam& seam) { return !seam.contact && seam.closes_after(time); };
+    if (std::ranges::none_of(scene.script.seams, waits)) return {};
     const ClothModel& model = scene.model;
     std::vector<int> group(model.cloths.size(), -1);
     const auto join = [&](int first, int second) {
@@ -24,14 +26,12 @@ std::vector<int> waiting_cloth(const StepScene& scene, double time) {
         group[first] = group[second] = std::min(from, other);
         std::ranges::replace(group, std::max(from, other), std::min(from, other));
     };
-    bool any = false;
     for (const Seam& seam : scene.script.seams) {
-        if (seam.contact || !seam.closes_after(time)) continue;
-        any = true;
+        if (!waits(seam)) continue;
         // All its stitches join the same two.
         join(cloth_of(model, seam.stitches.front().vertex), cloth_of(model, seam.stitches.front().from));
     }
-    return any ? group : std::vector<int>();
+    return group;
 }
 
 bool meet_now(const World& world, int first, int second) {
