@@ -81,7 +81,6 @@ Direction newton_direction(const StageEquations& equations, const SolveTarget& t
     NewtonSpace& space = equations.space();
     const StagePoint& point = space.current;
     set_prescribed(equations, space.direction);
-    space.first_direction.resize(stage.scene.model.vertex_count());
     if (!stage.options.jacobians) {
         divide_by_mass(stage.scene, point.residual, space.direction);
         return {};

@@ -171,6 +171,7 @@ void leave(const StageEquations& equations, StageEnd end) {
 NewtonReport solve_stage(const ImplicitStage& stage, NewtonSpace& space, StageEnd end, StageTimes& times) {
     StageEquations equations(stage, end.contact, space, times);
     const TimeError error = time_error_of(stage);
+    space.first_direction.resize(stage.scene.model.vertex_count());
     if (stage.options.predict) equations.predict();
     equations.evaluate(space.current);
 
