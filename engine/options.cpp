@@ -233,7 +233,7 @@ constexpr Option<StepSettings> step_list[] = {
      .unit = "",
      .sentence = "Whether all cloth is stopped after each step in which its potential energy has risen, so that what swings "
                  "comes to rest "
-                 "sooner, on a path that means nothing; not while pins or obstacles move or seams close.",
+                 "sooner, on a path that means nothing; not while pins or obstacles move, seams close or wind blows.",
      .flag = [](StepSettings& s) { return &s.kinetic_damping; }},
     {.key = "rest_speed",
      .unit = "m/s",

@@ -171,11 +171,19 @@ constexpr double default_tolerances[] = {1e-2, 1e-3, 1e-4};
 /// Share of a rate of steps that it may be off a whole number and be written as 1/number.
 constexpr double whole_rate_rounding = 1e-9;
 
+// ---- pattern/
+
+/// m. Panels that lie nearer to one plane lie in it. 0: rounding decides to which side they move apart.
+constexpr double same_plane = 1e-6;
+
 // ---- program/
 
 /// m. `drape` calls a seam with a wider gap not sewn. Smaller: tight gathers fail. Larger: seams closed on the wrong side of a
 /// limb pass.
 constexpr double widest_sewn_gap = 0.01;
+
+/// m. How much farther out than the one below it the panels of a garment start. Smaller: panels start through those below.
+constexpr double layer_offset = 0.04;
 
 // ---- run/
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "tolerances.h"
@@ -10,19 +11,13 @@
 namespace percale {
 namespace {
 
-/// m, of the vertices and of what is said of pairs.
-double largest_of(std::span<const double> vertex_thickness, const ClothPairs& pairs) {
-    double largest = 0.0;
-    for (const double thickness : vertex_thickness) largest = std::max(largest, thickness);
-    for (const auto& [cloths, pair] : pairs.said()) largest = std::max(largest, pair.thickness.value_or(0.0));
-    return largest;
-}
+double largest(std::span<const double> list) { return list.empty() ? 0.0 : *std::max_element(list.begin(), list.end()); }
 
-/// m, that is said of a pair of the cloth; 0 where nothing is.
-double largest_thickness(const ClothPairs& pairs, int cloth) {
+/// m, largest thickness that is said of a pair of the cloth, or of any without one; 0 where nothing is.
+double largest_said(const ClothPairs& pairs, std::optional<int> cloth = {}) {
     double thickness = 0.0;
     for (const auto& [cloths, pair] : pairs.said()) {
-        if (cloths[0] == cloth || cloths[1] == cloth) thickness = std::max(thickness, pair.thickness.value_or(0.0));
+        if (!cloth || cloths[0] == *cloth || cloths[1] == *cloth) thickness = std::max(thickness, pair.thickness.value_or(0.0));
     }
     return thickness;
 }
@@ -38,7 +33,8 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
       cloth_pairs_(cloth.pairs),
       rest_(cloth.rest.begin(), cloth.rest.end()),
       surface_(make_cloth_surface(triangles, vertex_thickness.size())),
-      sewn_(surface_, cloth.stitches, rest_, largest_of(vertex_thickness, cloth.pairs) / tolerances::contact_of_seam),
+      sewn_(surface_, cloth.stitches, rest_,
+            std::max(largest(vertex_thickness), largest_said(cloth.pairs)) / tolerances::contact_of_seam),
       memory_{.start = rest_,
               .displacement = std::vector<Vec3>(rest_.size(), Vec3::Zero()),
               .seen = rest_,
@@ -64,7 +60,7 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
 }
 
 void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles, std::span<const Vec3> rest) {
-    const double said = largest_thickness(cloth_pairs_, cloth);
+    const double said = largest_said(cloth_pairs_, cloth);
     std::vector<Triangle> corners;
     for (const int t : triangles) corners.push_back(surface_.triangles[t]);
     for (const ClothCluster& made : make_clusters(corners, rest).clusters) {

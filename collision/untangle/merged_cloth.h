@@ -14,7 +14,7 @@ struct CrossedCloth {
     std::span<const Triangle> triangles;
     std::span<const double> free;      // 0: stays
     std::span<const Stitch> stitches;  // also of vertices that no triangle has, and those that are still open
-    MeetingCloth meeting = {};
+    MeetingCloth meeting = {};         // by the triangles
 };
 
 /// Crossed cloth in which closed stitches are gone: what they join is one vertex.

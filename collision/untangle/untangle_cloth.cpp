@@ -94,7 +94,9 @@ private:
         TriangleMesh part{.vertices = places(false), .triangles = {}};
         std::vector<int> cloth;
         for (const int t : triangles) part.triangles.push_back(cloth_.triangles[t]);
-        for (const int t : triangles) cloth.push_back(cloth_.meeting.cloth_of(t));
+        for (const int t : triangles) {
+            if (!cloth_.meeting.cloth.empty()) cloth.push_back(cloth_.meeting.cloth[t]);
+        }
         ClothCertificate certificate = certify_cloth(part, cloth_.stitches, {cloth, cloth_.meeting.pairs});
         std::vector<IntersectingPair>& pairs = certificate.crossing;
         pairs.insert(pairs.end(), certificate.touching.begin(), certificate.touching.end());

@@ -66,7 +66,7 @@ struct NewtonSpace {
     StagePoint current, trial;
     FrictionStart friction;
     Vectors direction, right_side;
-    Vectors first_direction;           // before rows were foreseen
+    Vectors first_direction;           // m/s, before rows were foreseen
     std::vector<NetLimit> net_limits;  // of the last direction
     ForeseenRows foreseen;             // of the last move that a line search refused
 

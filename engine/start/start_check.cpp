@@ -67,10 +67,8 @@ private:
 
     /// The cloth that owns a vertex of the whole system; null if there is no such vertex.
     const ClothRange* owner(int index) const {
-        for (const ClothRange& range : world_.scene.model.cloths) {
-            if (index >= range.first && index < range.first + range.count) return &range;
-        }
-        return nullptr;
+        const ClothModel& model = world_.scene.model;
+        return index >= 0 && index < model.vertex_count() ? &model.cloths[cloth_of(model, index)] : nullptr;
     }
 
     const World& world_;

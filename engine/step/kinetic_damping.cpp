@@ -8,9 +8,10 @@ namespace percale {
 
 void damp_kinetic_energy(const StepScene& scene, StepState& state, RestState& rest, StepReport& report) {
     if (!scene.settings.kinetic_damping) return;
-    const StepEnergy energy = energy_of(scene, state);
+    const StepEnergy energy = scene.plan.measures ? report.energy : energy_of(scene, state);
     const double potential = energy.gravity + energy.elastic;
-    const bool rises = rest.potential && potential > *rest.potential && !scene.plan.something_moves();
+    const bool driven = scene.plan.something_moves() || scene.settings.wind.value_or(Vec3::Zero()) != Vec3::Zero();
+    const bool rises = rest.potential && potential > *rest.potential && !driven;
     rest.potential = potential;
     if (!rises) return;
     for (auto* axis : {&state.cloth.velocities.x, &state.cloth.velocities.y, &state.cloth.velocities.z})

@@ -90,35 +90,34 @@ Field<ClothSpec> pattern_field() {
     return field;
 }
 
-Field<ClothSpec> edge_length_field() {
-    Field<ClothSpec> field = value_field<ClothSpec>({.path = "edge_length",
-                                                     .sentence = "How long the edges of a pattern's mesh are.",
-                                                     .unit = "m",
-                                                     .lowest = 1e-4,
-                                                     .highest = 1.0,
-                                                     .needs = "pattern",
-                                                     .needs_why = "edge_length is that of a pattern's mesh"},
-                                                    &ClothSpec::edge_length);
-    field.write = [](const ClothSpec& spec) {
-        return spec.pattern.empty() ? std::nullopt : std::optional(value_node(spec.edge_length));
+/// A length that says how panels are made; written with a pattern alone.
+Field<ClothSpec> panel_field(SceneKey key, double ClothSpec::*length) {
+    key.unit = "m";
+    key.needs = "pattern";
+    Field<ClothSpec> field = value_field<ClothSpec>(std::move(key), length);
+    field.write = [length](const ClothSpec& spec) {
+        return spec.pattern.empty() ? std::nullopt : std::optional(value_node(spec.*length));
     };
     return field;
 }
 
+Field<ClothSpec> edge_length_field() {
+    return panel_field({.path = "edge_length",
+                        .sentence = "How long the edges of a pattern's mesh are.",
+                        .lowest = 1e-4,
+                        .highest = 1.0,
+                        .needs_why = "edge_length is that of a pattern's mesh"},
+                       &ClothSpec::edge_length);
+}
+
 Field<ClothSpec> panel_offset_field() {
-    Field<ClothSpec> field = value_field<ClothSpec>({.path = "panel_offset",
-                                                     .sentence = "How much farther out the panels of a pattern start, each "
-                                                                 "along its normal: room for what is worn below.",
-                                                     .unit = "m",
-                                                     .lowest = 0.0,
-                                                     .highest = 10.0,
-                                                     .needs = "pattern",
-                                                     .needs_why = "panel_offset moves a pattern's panels"},
-                                                    &ClothSpec::panel_offset);
-    field.write = [](const ClothSpec& spec) {
-        return spec.pattern.empty() ? std::nullopt : std::optional(value_node(spec.panel_offset));
-    };
-    return field;
+    return panel_field({.path = "panel_offset",
+                        .sentence = "How much farther out the panels of a pattern start, each along its normal: room for what is "
+                                    "worn below.",
+                        .lowest = 0.0,
+                        .highest = 10.0,
+                        .needs_why = "panel_offset moves a pattern's panels"},
+                       &ClothSpec::panel_offset);
 }
 
 Field<ClothSpec> rest_field() {

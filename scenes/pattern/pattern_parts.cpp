@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tolerances.h"
+
 namespace percale::scenes {
 namespace {
 
@@ -39,13 +41,6 @@ Vec3 placed_point(const Panel& panel, const Point2& point) {
     }
     return transform(panel.pose, x);
 }
-
-namespace {
-
-/// m. Panels that are nearer to one plane lie in it.
-constexpr double same_plane = 1e-6;
-
-}  // namespace
 
 void move_apart(Pattern& pattern, double distance) {
     std::vector<Vec3> middles;

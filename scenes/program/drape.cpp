@@ -69,8 +69,6 @@ constexpr double sewing_stiffness = 3000.0;  // N/m
 constexpr double sewing_damping = 0.02;  // s
 /// A preset's moduli hold on patterns; on meshes that do not say where warp is they are made isotropic, which is warned of.
 constexpr const char *mesh_fabric = "mesh", *pattern_fabric = "pattern";
-/// How much farther out than the one below it the panels of a pattern start.
-constexpr double layer_offset = 0.04;  // m
 
 bool is_pattern(const std::string& garment) {
     const std::string extension = extension_of(garment);
@@ -233,7 +231,7 @@ FrameCheck write_and_certify(const BuiltScene& built, const DrapeOptions& option
 struct WidestGap {
     std::size_t stitches = 0;  // of all seams
     double width = 0.0;        // m
-    std::string seam = {};
+    std::string seam = {}, garment = {};
     Vec3 place = Vec3::Zero();  // m, of its vertex
 };
 
@@ -246,6 +244,7 @@ WidestGap widest_gap(const BuiltScene& built) {
         if (*found < widest.width) continue;
         widest.width = *found;
         widest.seam = seam.name;
+        widest.garment = built.scene.cloths[seam.sewn.cloths[0]].name;
         const int vertex = seam.sewn.stitches[static_cast<std::size_t>(found - gaps.begin())].vertex;
         widest.place = built.simulation.positions(built.cloths[seam.sewn.cloths[0]])[vertex];
     }
@@ -258,16 +257,16 @@ int verdict(const DrapeOptions& options, const Drape& drape, const FrameCheck& c
     if (!check.clean()) {
         std::fprintf(stderr,
                      "percale: %s: not clean: %d intersecting pairs (with the body, themselves or each other), %d vertices "
-                     "inside the body, "
-                     "deepest %.3g m\n",
+                     "inside the body, deepest %.3g m\n",
                      out, check.intersections, check.vertices_inside, check.deepest_penetration);
         return not_as_expected;
     }
     if (gap.width > widest_sewn_gap) {
-        std::fprintf(stderr,
-                     "percale: %s: not sewn: seam '%s' is open by %.3g m at (%.3g, %.3g, %.3g); does its way lie around or "
-                     "through the body?\n",
-                     out, gap.seam.c_str(), gap.width, gap.place.x(), gap.place.y(), gap.place.z());
+        std::fprintf(
+            stderr,
+            "percale: %s: not sewn: seam '%s' of '%s' is open by %.3g m at (%.3g, %.3g, %.3g); does its way lie around or "
+            "through the body?\n",
+            out, gap.seam.c_str(), gap.garment.c_str(), gap.width, gap.place.x(), gap.place.y(), gap.place.z());
         return not_as_expected;
     }
     if (drape.end == DrapeEnd::settled) return all_well;
@@ -351,12 +350,11 @@ void add_options(CLI::App& command, DrapeOptions& options) {
         ->type_name("UNIT");
     command.add_option("--body-unit", options.body_unit, "Unit of the body's file: mm, cm, m (default m)")->type_name("UNIT");
     command.add_option("--move", options.move, "Move garments before they start, m")->type_name("X Y Z")->allow_extra_args(false);
-    CLI::Option* preset =
-        command
-            .add_option(
-                "--fabric", options.preset,
-                "Fabric preset, its moduli the same in all directions (percale explain presets; default: a felt of springs)")
-            ->type_name("NAME");
+    CLI::Option* preset = command
+                              .add_option("--fabric", options.preset,
+                                          "Fabric preset, its moduli the same in all directions on meshes (percale explain "
+                                          "presets; default: a felt of springs)")
+                              ->type_name("NAME");
     command.add_option("--thickness", options.fabric.thickness, "Gap kept from the body, m (default 0.005)")->type_name("M");
     command.add_option("--area-density", options.fabric.area_density, "kg/m^2 (default 0.2)")->type_name("D");
     command.add_option("--structural", options.fabric.springs.structural, "Spring constant of edges, N/m (default 1000)")

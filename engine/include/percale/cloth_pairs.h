@@ -41,9 +41,8 @@ struct MeetingCloth {
     std::span<const int> cloth = {};    // of each triangle
     const ClothPairs* pairs = nullptr;  // null: nothing is said
 
-    int cloth_of(int triangle) const { return cloth.empty() ? 0 : cloth[triangle]; }
     bool meet(int first_triangle, int second_triangle) const {
-        return cloth.empty() || pairs == nullptr || pairs->of(cloth_of(first_triangle), cloth_of(second_triangle)).contact;
+        return cloth.empty() || pairs == nullptr || pairs->of(cloth[first_triangle], cloth[second_triangle]).contact;
     }
 };
 

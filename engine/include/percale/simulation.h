@@ -133,8 +133,8 @@ public:
     /// out as on this machine. Throws SceneError where the detector cannot save its state.
     std::vector<std::byte> save() const;
     /// Throws SceneError, and leaves the simulation as it was, where the bytes are cut off, damaged, of another version of this
-    /// format, or of a simulation with other cloth, seams, obstacles or settings (`threads`, `start` and `check_derivatives` may
-    /// differ).
+    /// format, or of a simulation with other cloth, pairs, seams, obstacles or settings (`threads`, `start` and
+    /// `check_derivatives` may differ).
     void restore(std::span<const std::byte> saved);
 
 private:

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "percale/certify.h"
 #include "percale/detectors.h"
-#include "percale/error.h"
 #include "percale/simulation.h"
 #include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
 #include "tests/support/collision/shapes.h"
 
 // What is said of pairs of cloths, through the whole of a simulation.
@@ -59,15 +58,6 @@ struct ThreeSheets {
         return mesh;
     }
 };
-
-std::string error_of(const auto& call) {
-    try {
-        call();
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "";
-}
 
 }  // namespace
 
@@ -128,16 +118,16 @@ TEST_CASE("A pair keeps the distance that is said, nearer or farther than the cl
 
 TEST_CASE("What is said of a pair is checked, and taken back by saying nothing") {
     ThreeSheets scene;
-    CHECK(error_of([&] { scene.simulation.set_pair(scene.table, {7}, {}); }).find("no cloth 7") != std::string::npos);
-    const std::string range = error_of([&] { scene.simulation.set_pair(scene.table, scene.napkin, {.thickness = 2.0}); });
+    CHECK(scene_error([&] { scene.simulation.set_pair(scene.table, {7}, {}); }).find("no cloth 7") != std::string::npos);
+    const std::string range = scene_error([&] { scene.simulation.set_pair(scene.table, scene.napkin, {.thickness = 2.0}); });
     CHECK(range.find("table and napkin: thickness = 2 m is outside the allowed range 1e-06 ... 1") != std::string::npos);
     const std::string both =
-        error_of([&] { scene.simulation.set_pair(scene.table, scene.napkin, {.contact = false, .thickness = 0.003}); });
+        scene_error([&] { scene.simulation.set_pair(scene.table, scene.napkin, {.contact = false, .thickness = 0.003}); });
     CHECK(both.find("without contact a thickness says nothing") != std::string::npos);
     Fabric alone = sheet_cloth;
     alone.self_contact = false;
     const ClothId other = scene.simulation.add_cloth(make_grid(0.2, 0.2, 3, 3), alone, {.translation = {0, 1, 0}}, "veil");
-    const std::string meets_none = error_of([&] { scene.simulation.set_pair(scene.table, other, {.contact = false}); });
+    const std::string meets_none = scene_error([&] { scene.simulation.set_pair(scene.table, other, {.contact = false}); });
     CHECK(meets_none.find("veil meets no cloth") != std::string::npos);
     scene.simulation.set_pair(scene.table, scene.napkin, {.contact = false});
     scene.simulation.set_pair(scene.napkin, scene.table, {});
@@ -160,7 +150,7 @@ TEST_CASE("All backends see pairs alike, and a saved state is not one of a simul
     Simulation resumed = run(make_brute_force_detector(), 0.003), different = run(make_fcl_detector(), 0.0031);
     for (int n = 0; n < 60; ++n) {
         if (n == 30) resumed.restore(one.save());
-        if (n == 30) CHECK(error_of([&] { different.restore(one.save()); }).find("pairs of cloths") != std::string::npos);
+        if (n == 30) CHECK(scene_error([&] { different.restore(one.save()); }).find("pairs of cloths") != std::string::npos);
         REQUIRE(one.step().ok());
         REQUIRE(other.step().ok());
         if (n >= 30) REQUIRE(resumed.step().ok());
@@ -288,5 +278,7 @@ TEST_CASE("The certificate leaves out triangles of cloths that do not meet, and 
     pairs.set(1, 0, {.thickness = 0.01});
     CHECK_FALSE(certify_cloth(all, {}, {cloth, &pairs}).crossing.empty());
     cloth.pop_back();
-    CHECK(error_of([&] { certify_cloth(all, {}, {cloth, &pairs}); }).find("certify_cloth: the cloths of") != std::string::npos);
+    CHECK(scene_error([&] {
+              certify_cloth(all, {}, {cloth, &pairs});
+          }).find("certify_cloth: the cloths of") != std::string::npos);
 }

@@ -1,7 +1,5 @@
 #include "engine/step/kinetic_damping.h"
 
-#include <cmath>
-
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
@@ -90,6 +88,15 @@ TEST_CASE("Cloth is not stopped while a pin lifts it") {
         banner.simulation.step();
         CHECK(banner.simulation.largest_speed() > 0.1);
     }
+}
+
+TEST_CASE("Cloth is not stopped while wind lifts it") {
+    Banner banner = make_banner({.kinetic_damping = true});
+    REQUIRE(steps_to_sleep(banner.simulation, 1200) < 1200);
+    banner.simulation.set_wind({0, 0, 20});
+    bool stopped = false;
+    for (int n = 0; n < 60; ++n) stopped = banner.simulation.step().stopped || stopped;
+    CHECK_FALSE(stopped);
 }
 
 TEST_CASE("Resumed between two steps, kinetic damping stops cloth in the same ones") {

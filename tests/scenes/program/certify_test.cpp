@@ -168,3 +168,22 @@ TEST_CASE("cloth that meets cloth is certified against it, in a folder because i
                                 .at("intersections")
                                 .get<int>());
 }
+
+TEST_CASE("a folder is certified by the pairs of cloths that its report lists, and refused where it lists other cloths") {
+    const TestFolder folder;
+    const std::string cloth = "fabric = \"f\"\ngrid = { size = [0.3, 0.3], vertices = [4, 4] }\n";
+    const std::string turned = "pose = { translation = [0.01, 0.02, 0.013], rotation = [0.6, 0.8, 0, 0] }\n";
+    folder.write("two.toml",
+                 "duration = 0.05\n[fabric.f]\nself_contact = true\nthickness = 0.002\n"
+                 "springs = { structural = 100.0 }\n[[cloth]]\nname = \"a\"\n" +
+                     cloth + "[[cloth]]\nname = \"b\"\n" + cloth + turned +
+                     "[[pair]]\ncloths = [\"a\", \"b\"]\ncontact = false\n");
+    REQUIRE(run_program({"run", "two.toml", "-o", "out"}, folder.path()).exit_code == 0);
+    CHECK(run_program({"certify", "out"}, folder.path()).exit_code == 0);
+    CHECK(run_program({"certify", "out", "--self"}, folder.path()).exit_code == 1);
+    nlohmann::json report = nlohmann::json::parse(folder.read("out/report.json"));
+    CHECK(report.at("frames")[0].at("self_contact") == nlohmann::json::parse("[[0, 0], [1, 1]]"));
+    report.at("frames")[0].at("self_contact") = nlohmann::json::parse("[[0, 2]]");
+    folder.write("out/report.json", report.dump());
+    CHECK(refused(run_program({"certify", "out"}, folder.path()), "contact of no cloth"));
+}
