@@ -25,6 +25,15 @@ void divide_by_mass(const StepScene& scene, const Vectors& residual, Vectors& di
     }
 }
 
+/// Bodies that are settled stay where they are: 0 is their part of the solution, and the solver never leaves it.
+void leave_settled(const ClothModel& model, NewtonSpace& space) {
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+        if (!space.bodies.settled(b)) continue;
+        const Body& body = model.bodies[b];
+        for (int i = body.first; i < body.first + body.count; ++i) space.right_side.set(i, Vec3::Zero());
+    }
+}
+
 void fill_system(const StageEquations& equations, const ForeseenRows* foreseen) {
     const ImplicitStage& stage = equations.stage();
     NewtonSpace& space = equations.space();
@@ -35,23 +44,28 @@ void fill_system(const StageEquations& equations, const ForeseenRows* foreseen) 
     space.right_side.resize(stage.scene.model.vertex_count());
     add_scaled(space.right_side, -1.0, point.residual);
     if (foreseen) foreseen->add_to(stage.scene.script.free, space.right_side);
+    leave_settled(stage.scene.model, space);
     if (!stage.scene.plan.obstacles_move || equations.arrived()) return;
     const double rate = (stage.span.to - point.fraction) / stage.base.h;
     add_obstacle_advance(point.rows, point.contact, rate, stage.scene.script.free, space.right_side);
 }
 
-bool is_held(const StepScene& scene, const Body& body) {
+/// Whether a body that is solved for is held by nothing.
+bool drifts(const StepScene& scene, const BodyStates& states, std::size_t number) {
+    if (states.settled(number)) return false;
+    const Body& body = scene.model.bodies[number];
     for (int i = body.first; i < body.first + body.count; ++i) {
-        if (!scene.is_free(i)) return true;
+        if (!scene.is_free(i)) return false;
     }
-    return false;
+    return true;
 }
 
 /// Springs do not resist a translation, so the one left over by an unfinished linear solve is known exactly: with it, a cloth
 /// that nothing holds keeps its momentum whatever the tolerance.
-void correct_translation(const StepScene& scene, const Vectors& residual, Vectors& direction) {
-    for (const Body& body : scene.model.bodies) {
-        if (is_held(scene, body)) continue;
+void correct_translation(const StepScene& scene, const BodyStates& states, const Vectors& residual, Vectors& direction) {
+    for (std::size_t number = 0; number < scene.model.bodies.size(); ++number) {
+        if (!drifts(scene, states, number)) continue;
+        const Body& body = scene.model.bodies[number];
         Vec3 missing = Vec3::Zero();
         for (int i = body.first; i < body.first + body.count; ++i) {
             missing -= residual.at(i) + scene.model.mass[i] * direction.at(i);
@@ -64,8 +78,9 @@ void correct_translation(const StepScene& scene, const Vectors& residual, Vector
 /// momentum that the right side or gravity gives, or that moves it by no more than means nothing (change_is_small).
 void set_net_limits(const StepScene& scene, double dt, NewtonSpace& space) {
     space.net_limits.clear();
-    for (const Body& body : scene.model.bodies) {
-        if (is_held(scene, body)) continue;
+    for (std::size_t number = 0; number < scene.model.bodies.size(); ++number) {
+        if (!drifts(scene, space.bodies, number)) continue;
+        const Body& body = scene.model.bodies[number];
         Vec3 sum = Vec3::Zero();
         for (int i = body.first; i < body.first + body.count; ++i) sum += space.right_side.at(i);
         const double negligible = contact_accuracy * scene.model.thickness[body.first] / dt;  // m/s
@@ -91,13 +106,13 @@ Direction newton_direction(const StageEquations& equations, const SolveTarget& t
     SolveTarget wanted = target;
     if (springs_alone) {
         // As the start, too: what is left to solve for, and to be exact about, is how the cloth deforms.
-        correct_translation(stage.scene, point.residual, space.direction);
+        correct_translation(stage.scene, space.bodies, point.residual, space.direction);
     } else {
         set_net_limits(stage.scene, stage.base.h, space);
         wanted.net = space.net_limits;
     }
     const SolveReport solved = space.solver.solve(space.right_side, wanted, space.direction);
-    if (springs_alone) correct_translation(stage.scene, point.residual, space.direction);
+    if (springs_alone) correct_translation(stage.scene, space.bodies, point.residual, space.direction);
     return {solved.iterations, solved.converged};
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "body_states.h"
 #include "contact/foreseen_rows.h"
 #include "contact/friction.h"
 #include "contact/penalty.h"
@@ -68,7 +69,8 @@ struct NewtonSpace {
     Vectors direction, right_side;
     Vectors first_direction;           // m/s, before rows were foreseen
     std::vector<NetLimit> net_limits;  // of the last direction
-    ForeseenRows foreseen;             // of the last move that a line search refused
+    BodyStates bodies;
+    ForeseenRows foreseen;  // of the last move that a line search refused
 
     ContactLaw& law(ContactResponse response) {
         if (response == ContactResponse::projection) return projection;

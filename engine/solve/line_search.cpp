@@ -94,7 +94,10 @@ LineResult search_line(StageEquations& equations, const TimeError& error, bool s
     const bool was_arrived = equations.arrived();
     LineResult result;
     equations.aim(1.0);
-    result.small = change_is_small(error, change_to(equations, space.trial.velocities), allowed_share(stage.scene.settings));
+    const NewtonChange change = change_to(equations, space.trial.velocities);
+    const double share = allowed_share(stage.scene.settings);
+    result.small =
+        space.bodies.mark(stage.scene.model, [&](const Body& body) { return change_is_small(error, change, share, body); });
     const bool rounding = result.small && was_arrived && moves_nothing(equations);
     LineTrial line = line_from(equations, result.small);
     double fraction = 1.0, kept = 1.0;

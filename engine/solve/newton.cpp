@@ -50,8 +50,14 @@ bool next_change_is_small(const StageEquations& equations, const TimeError& erro
     const bool by_residual = equations.stage().scene.settings.newton_tolerance.has_value();
     if (report.newton_iterations == 0 || by_residual || !equations.arrived() || search.matrix_is_old) return false;
     if (!estimate_direction(equations)) return false;
-    return change_is_small(error, change_to(equations, equations.space().current.velocities),
-                           estimate_safety * allowed_share(equations.stage().scene.settings));
+    const NewtonChange change = change_to(equations, equations.space().current.velocities);
+    const double share = estimate_safety * allowed_share(equations.stage().scene.settings);
+    const ClothModel& model = equations.stage().scene.model;
+    const BodyStates& states = equations.space().bodies;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+        if (!states.settled(b) && !change_is_small(error, change, share, model.bodies[b])) return false;
+    }
+    return true;
 }
 
 bool meets_tolerance(const StageEquations& equations, const NewtonReport& report) {
@@ -60,11 +66,12 @@ bool meets_tolerance(const StageEquations& equations, const NewtonReport& report
 }
 
 /// Whether the line just searched ended at the solution: it changed little, but not in the first iteration, whose matrix may be
-/// far off; or it can gain nothing but rounding.
+/// far off; or it can gain nothing but rounding. Of some bodies it may be the solution while others go on.
 bool is_solution(const StageEquations& equations, const Direction& direction, const LineResult& line, int iterations) {
     const bool by_residual = equations.stage().scene.settings.newton_tolerance.has_value();
-    const bool by_change = line.small && line.whole && direction.exact && !by_residual && iterations > 1;
-    return by_change || line.stuck;
+    const bool may_settle = line.whole && !line.went_on && direction.exact && !by_residual && iterations > 1;
+    if (may_settle) equations.space().bodies.settle_small();
+    return (may_settle && line.small) || line.stuck;
 }
 
 bool descends(const StageEquations& equations) {
@@ -77,8 +84,11 @@ bool descends(const StageEquations& equations) {
 /// is solved for; false where it is given up, and at a residual of exactly 0.
 bool find_motion(StageEquations& equations, const TimeError& error, Search& search, NewtonReport& report) {
     const StepSettings& settings = equations.stage().scene.settings;
+    NewtonSpace& space = equations.space();
     search.line_solved = false;
+    space.bodies.start(equations.stage().scene.model);
     for (;;) {
+        space.bodies.release_joined(equations.stage().scene.model, space.current.rows);
         measure_residual(equations, search, report);
         if (search.norm == 0.0 || !std::isfinite(search.norm)) return false;
         if (meets_tolerance(equations, report)) return true;
@@ -87,7 +97,7 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
 
         const double ratio = report.newton_iterations > 0 ? search.norm / search.last_norm : 1.0;
         const NewtonProgress progress{report.newton_iterations, ratio, report.residual};
-        const Vectors& velocities = equations.space().current.velocities;
+        const Vectors& velocities = space.current.velocities;
         const SolveTarget target = solve_target(error, progress, settings, velocities);
         Direction direction = newton_direction(equations, target);
         const bool may_stop = equations.arrived() && report.newton_iterations + 1 < settings.newton_iterations;
@@ -95,7 +105,6 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
         if (line.met_rows) {
             ++report.newton_iterations;
             report.linear_iterations += direction.linear_iterations;
-            NewtonSpace& space = equations.space();
             space.first_direction = space.direction;
             const Direction to_rows = newton_direction(equations, target, &space.foreseen);
             // Rows out of reach have no part in the residual yet: the way to where they hold the cloth may lead uphill at first.

@@ -55,9 +55,10 @@ NewtonChange change_to(const StageEquations& equations, const Vectors& ahead) {
     return {point.residual, equations.space().direction, ahead, point.rows.size() > 0};
 }
 
-bool change_is_small(const TimeError& error, const NewtonChange& change, double share) {
+bool change_is_small(const TimeError& error, const NewtonChange& change, double share, const Body& body) {
     const ClothModel& model = *error.model;
     return std::all_of(model.cloths.begin(), model.cloths.end(), [&](const ClothRange& cloth) {
+        if (cloth.first < body.first || cloth.first >= body.first + body.count) return true;
         const Vectors &residual = change.residual, &direction = change.direction;
         const double gain = -sum_terms(cloth.first, cloth.count, [&](int i) {
             return residual.x[i] * direction.x[i] + residual.y[i] * direction.y[i] + residual.z[i] * direction.z[i];

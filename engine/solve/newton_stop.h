@@ -40,10 +40,10 @@ struct NewtonChange {
 /// The direction in the work space, which leads from space.current to the velocities `ahead`.
 NewtonChange change_to(const StageEquations& equations, const Vectors& ahead);
 
-/// Whether the direction changes every cloth by less than a share of the time error, in the mean and at its worst vertex by less
-/// than twice that; in metres, dt sqrt(-r . dv/m). What is below a share of the thickness (2e-5, in contact 2e-4) or a tenth of
-/// the allowance, if that is less, means nothing.
-bool change_is_small(const TimeError& error, const NewtonChange& change, double share);
+/// Whether the direction changes every cloth of a body by less than a share of the time error, in the mean and at its worst
+/// vertex by less than twice that; in metres, dt sqrt(-r . dv/m). What is below a share of the thickness (2e-5, in contact 2e-4)
+/// or a tenth of the allowance, if that is less, means nothing.
+bool change_is_small(const TimeError& error, const NewtonChange& change, double share, const Body& body);
 
 /// The time error itself, m, in the mean of the worst cloth.
 double time_error(const TimeError& error, const Vectors& velocities);

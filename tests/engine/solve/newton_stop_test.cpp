@@ -32,7 +32,7 @@ bool small(const Pair& pair, double change, bool foresees, double share, double 
     const Vec3 dv(change / error.dt, 0, 0);
     const Vectors direction = to_vectors({dv, dv}), residual = to_vectors({-0.2 * dv, -0.3 * dv});
     const Vectors ahead = to_vectors({Vec3(1, 0, 2), Vec3(0, 2, 0)});
-    return change_is_small(error, {residual, direction, ahead}, share);
+    return change_is_small(error, {residual, direction, ahead}, share, pair.model.bodies[0]);
 }
 
 }  // namespace

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "model/cloth_model.h"
+#include "percale/contact.h"
+
+namespace percale {
+
+/// What Newton's method has come to with a body.
+enum class BodyState : char {
+    moving,   // the last direction changed it by more than is small
+    small,    // it did not
+    settled,  // it is solved for: it stays where it is while others are solved for
+};
+
+/// The bodies of a stage. They share one linear system, whose solver sees the large changes: without this one body's long solve
+/// stirs up, or is as long for, another that has long been solved for.
+class BodyStates {
+public:
+    /// A solve begins: nothing is known.
+    void start(const ClothModel& model) { states_.assign(model.bodies.size(), BodyState::moving); }
+
+    bool settled(std::size_t body) const { return body < states_.size() && states_[body] == BodyState::settled; }
+
+    /// Calls `is_small(body)` for those that are not settled; whether it was true for each.
+    template <typename IsSmall>
+    bool mark(const ClothModel& model, const IsSmall& is_small) {
+        bool all = true;
+        for (std::size_t b = 0; b < states_.size(); ++b) {
+            if (states_[b] == BodyState::settled) continue;
+            states_[b] = is_small(model.bodies[b]) ? BodyState::small : BodyState::moving;
+            all = all && states_[b] == BodyState::small;
+        }
+        return all;
+    }
+
+    /// The change that was small has been made: these bodies are settled.
+    void settle_small();
+
+    /// Bodies that rows join with others are solved for together with them.
+    void release_joined(const ClothModel& model, const ContactRows& rows);
+
+private:
+    std::vector<BodyState> states_;
+};
+
+}  // namespace percale

@@ -1,0 +1,107 @@
+#include "engine/solve/body_states.h"
+
+#include "percale/simulation.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+#include "tests/support/random.h"
+
+namespace percale::test {
+namespace {
+
+/// Three cloths of two masses each, the last two of which a seam joins.
+ClothModel two_bodies() {
+    ClothModel model = linked_masses(std::vector<double>(6, 0.1), {{0, 1, 1.0, 10.0, 0.0}, {3, 4, 1.0, 10.0, 0.0}});
+    model.springs.kind[1] = SpringKind::seam;
+    model.cloths.clear();
+    for (const int first : {0, 2, 4}) model.cloths.push_back({.name = "pair", .first = first, .count = 2, .mass = 0.2});
+    finish_model(model);
+    return model;
+}
+
+ContactRows row_between(int first, int second, int obstacle) {
+    ContactRows rows;
+    rows.vertex.push_back({first, second, -1, -1});
+    rows.weight.push_back({1.0, -1.0, 0.0, 0.0});
+    rows.direction.push_back(Vec3::UnitY());
+    rows.obstacle_point.push_back(Vec3::Zero());
+    rows.obstacle_displacement.push_back(Vec3::Zero());
+    rows.distance.push_back(0.001);
+    rows.thickness.push_back(0.005);
+    rows.friction.push_back(0.0);
+    rows.share.push_back(1.0);
+    rows.obstacle.push_back(obstacle);
+    rows.feature.push_back(1);
+    return rows;
+}
+
+}  // namespace
+
+TEST_CASE("A body is settled once a small change of it was made, and asked no more") {
+    const ClothModel model = two_bodies();
+    REQUIRE(model.bodies.size() == 2);
+    BodyStates states;
+    CHECK_FALSE(states.settled(0));
+    states.start(model);
+    int asked = 0;
+    const auto first_is_small = [&](const Body& body) { return ++asked, body.first == 0; };
+    CHECK_FALSE(states.mark(model, first_is_small));
+    CHECK(asked == 2);
+    CHECK_FALSE(states.settled(0));
+    states.settle_small();
+    CHECK(states.settled(0));
+    CHECK_FALSE(states.settled(1));
+    CHECK_FALSE(states.mark(model, first_is_small));
+    CHECK(asked == 3);
+    CHECK(states.mark(model, [](const Body&) { return true; }));
+    states.start(model);
+    CHECK_FALSE(states.settled(0));
+}
+
+TEST_CASE("Bodies that a row joins are released, others are not") {
+    const ClothModel model = two_bodies();
+    const auto settled_after = [&](const ContactRows& rows) {
+        BodyStates states;
+        states.start(model);
+        states.mark(model, [](const Body&) { return true; });
+        states.settle_small();
+        states.release_joined(model, rows);
+        return std::array{states.settled(0), states.settled(1)};
+    };
+    CHECK(settled_after({}) == std::array{true, true});
+    CHECK(settled_after(row_between(0, 1, -1)) == std::array{true, true});
+    CHECK(settled_after(row_between(2, 5, -1)) == std::array{true, true});
+    CHECK(settled_after(row_between(1, 4, 0)) == std::array{true, true});
+    CHECK(settled_after(row_between(1, 4, -1)) == std::array{false, false});
+}
+
+TEST_CASE("A sheet that floats at rest hardly adds an iteration to one that is shaken, and stays where it is", "[law]") {
+    const auto shaken = [](bool floating) {
+        Simulation simulation({.time_step = 1.0 / 60.0, .gravity = Vec3::Zero()});
+        const ClothId sheet = simulation.add_cloth(make_grid(1.0, 1.0, 30, 30), sheet_fabric());
+        Random random(5);
+        std::vector<Vec3> velocities(900);
+        for (Vec3& v : velocities) v = random.point(3.0);
+        simulation.set_velocities(sheet, velocities);
+        // Its coordinates have rounding errors, and so do its forces.
+        const Pose away{.translation = Vec3(0.1, 2.0, 0.3), .rotation = {0.6, 0.48, 0.64, 0.0}};
+        std::vector<Vec3> start;
+        ClothId other = sheet;
+        if (floating) {
+            other = simulation.add_cloth(make_grid(1.0, 1.0, 30, 30), sheet_fabric(), away);
+            start = copy(simulation.positions(other));
+        }
+        int iterations = 0;
+        for (int n = 0; n < 20; ++n) {
+            const StepReport report = simulation.step();
+            REQUIRE(report.ok());
+            iterations += report.newton_iterations;
+        }
+        for (std::size_t i = 0; i < start.size(); ++i) REQUIRE((simulation.positions(other)[i] - start[i]).norm() < 1e-9);
+        return iterations;
+    };
+    const int alone = shaken(false);
+    CAPTURE(alone);
+    CHECK(shaken(true) <= 1.2 * alone);
+}
+
+}  // namespace percale::test
