@@ -152,7 +152,8 @@ constexpr double least_stiffness = 1e-12;
 
 // ---- detector
 
-/// Fraction of h. A vertex that has moved farther since its contacts were last forgotten forgets them at the next refresh. 0:
+/// Fraction of h. A vertex that has moved farther since its contacts were last forgotten forgets them at the next refresh; so do
+/// two features of cloth that have moved so far against each other since their contact began. 0:
 /// cloth at rest trembles between two sets of contacts. Large: contacts of places that cloth has left stay until it is h away.
 constexpr double forgetting_displacement = 0.1;
 

@@ -5,6 +5,7 @@
 
 #include "geometry/cut_floor.h"
 #include "percale/certify.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
@@ -16,11 +17,24 @@ bool stays_clear(double distance, double thickness, double shrink) {
     return distance - floor_below(distance, thickness) > shrink;
 }
 
+/// m, from the middle of a pair's second feature to that of its first.
+Vec3 apart(const SelfPair& pair, std::span<const Vec3> x) {
+    const auto& [a, b, c, d] = pair.vertex;
+    if (pair.shape == PairShape::edge_edge) return 0.5 * (x[a] + x[b] - x[c] - x[d]);
+    return x[a] - (x[b] + x[c] + x[d]) / 3.0;
+}
+
+/// Whether a contact is elsewhere than where it began.
+bool has_moved(const SelfPair& pair, std::span<const Vec3> positions) {
+    return (apart(pair, positions) - pair.began_apart).norm() > tolerances::forgetting_displacement * pair.thickness;
+}
+
 }  // namespace
 
 SelfContactDetection::SelfContactDetection(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
                                            const SelfContact& cloth)
     : lists_(triangles, vertex_thickness, cloth),
+      start_(vertex_thickness.size(), Vec3::Zero()),
       friction_(cloth.friction.begin(), cloth.friction.end()),
       stitches_(cloth.stitches.begin(), cloth.stitches.end()) {
     for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
@@ -51,9 +65,13 @@ StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) co
 
 void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) {
     for (const SelfList& list : lists_.lists()) {
-        for (SelfPair& pair : lists_.pairs(list)) pair.zone = 0.0;
+        for (SelfPair& pair : lists_.pairs(list)) {
+            if (pair.zone > 0.0 && has_moved(pair, start)) pair.zone = 0.0;
+        }
     }
     lists_.cover(start, predicted);
+    start_.assign(start.begin(), start.end());
+    is_first_ = true;
 }
 
 double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRows& rows) {
@@ -67,17 +85,22 @@ double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRo
             list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         }
     }
+    is_first_ = false;
     return smallest;
 }
 
 /// Measures a pair and adds its row; returns its distance, or infinity if it has none.
-double SelfContactDetection::measure(const SelfList& list, SelfPair& pair, std::span<const Vec3> positions,
-                                     ContactRows& rows) const {
+double SelfContactDetection::measure(const SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows) {
     const SelfPairContact contact = self_contact(pair, positions, lists_.surface());
     pair.reach = contact.distance + list.travel;
-    const double zone = contact.relative_zone * pair.thickness;
-    // As with obstacles, a contact stays one until the next refresh.
-    if (pair.zone == 0.0 && contact.distance < zone) pair.zone = zone;
+    const double zone = contact.relative_zone * thickness_at(pair, contact.weight);
+    // As with obstacles, a contact stays one while a step is solved, and in the next ones until its cloth has moved: contacts
+    // that come and go while cloth lies still would keep it moving. So would edges that are now flat, now a ridge.
+    if (is_first_ && zone > 0.0 && pair.shape == PairShape::point_triangle) pair.zone = 0.0;
+    if (pair.zone == 0.0 && contact.distance < zone) {
+        pair.zone = zone;
+        pair.began_apart = apart(pair, start_);
+    }
     if (contact.distance >= pair.zone) return infinity;
     add_row(pair, contact, rows);
     return contact.distance;

@@ -251,6 +251,18 @@ double SelfContactLists::sewn_distance(const SelfPair& pair) const {
     return sewn_.distance(vertices.first(of_first), vertices.subspan(of_first));
 }
 
+/// Sets the thickness of a pair near a seam, by the paths through it between vertices.
+void SelfContactLists::set_of_seam(SelfPair& pair) const {
+    const bool edges = pair.shape == PairShape::edge_edge;
+    double largest = 0.0;
+    for (int k = 0; k < (edges ? 4 : 3); ++k) {
+        const std::array first{pair.vertex[edges ? k / 2 : 0]}, second{pair.vertex[edges ? 2 + k % 2 : 1 + k]};
+        pair.of_seam[k] = std::min(pair.thickness, tolerances::contact_of_seam * sewn_.distance(first, second));
+        largest = std::max(largest, pair.of_seam[k]);
+    }
+    pair.thickness = largest;
+}
+
 /// Keeps a pair that may come into contact if its distance can shrink by `room`.
 void SelfContactLists::consider(SelfPair pair, double room, std::span<const Vec3> from) {
     ++considered_;
@@ -260,7 +272,7 @@ void SelfContactLists::consider(SelfPair pair, double room, std::span<const Vec3
     const bool one_cloth = cloth_[pair.vertex[0]] == cloth_[pair.vertex[3]];
     const double through_seam = sewn_distance(pair);
     if (through_seam == 0.0) return;
-    pair.thickness = std::min(pair.thickness, tolerances::contact_of_seam * through_seam);
+    if (tolerances::contact_of_seam * through_seam < pair.thickness) set_of_seam(pair);
     if (one_cloth) pair.thickness = std::min(pair.thickness, tolerances::contact_of_rest * self_distance(pair, rest_));
     if (pair.reach < pair.thickness + room) memory_.pairs.push_back(pair);
 }
@@ -272,7 +284,10 @@ void SelfContactLists::take_over_zones() {
     std::sort(old.begin(), old.end(), comes_before);
     for (SelfPair& pair : memory_.pairs) {
         const auto found = std::lower_bound(old.begin(), old.end(), pair, comes_before);
-        if (found != old.end() && !comes_before(pair, *found)) pair.zone = found->zone;
+        if (found != old.end() && !comes_before(pair, *found)) {
+            pair.zone = found->zone;
+            pair.began_apart = found->began_apart;
+        }
     }
 }
 

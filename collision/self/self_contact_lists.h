@@ -84,6 +84,7 @@ private:
     void find_near(const Cluster& cluster, const Box& other, Near& near) const;
     void pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from);
     void pair_edges(bool one, Reach reach, std::span<const Vec3> from);
+    void set_of_seam(SelfPair& pair) const;
     double sewn_distance(const SelfPair& pair) const;
     void consider(SelfPair pair, double room, std::span<const Vec3> from);
     void take_over_zones();

@@ -12,7 +12,7 @@ void exchange(Archive& archive, Value& list) {
 template <class Archive, OfType<SelfPair> Value>
 void exchange(Archive& archive, Value& pair) {
     archive.choice(pair.shape, 2);
-    archive(pair.vertex, pair.feature, pair.thickness, pair.zone, pair.reach);
+    archive(pair.vertex, pair.feature, pair.thickness, pair.of_seam, pair.zone, pair.began_apart, pair.reach);
 }
 
 namespace {

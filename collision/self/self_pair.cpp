@@ -91,6 +91,15 @@ SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const C
 
 }  // namespace
 
+double thickness_at(const SelfPair& pair, const std::array<double, 4>& weight) {
+    const std::array<double, 4>&w = weight, &at = pair.of_seam;
+    if (at[0] == no_seam) return pair.thickness;
+    const double between = pair.shape == PairShape::edge_edge
+                               ? -w[0] * (w[2] * at[0] + w[3] * at[1]) - w[1] * (w[2] * at[2] + w[3] * at[3])
+                               : -w[1] * at[0] - w[2] * at[1] - w[3] * at[2];
+    return std::min(pair.thickness, between);
+}
+
 double self_distance(const SelfPair& pair, std::span<const Vec3> positions) {
     const bool edges = pair.shape == PairShape::edge_edge;
     return std::sqrt(edges ? edge_on_edge(pair, positions).distance_squared : vertex_on_face(pair, positions).distance_squared);

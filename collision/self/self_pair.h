@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 
 #include "geometry/cloth_surface.h"
@@ -8,14 +9,21 @@
 
 namespace percale {
 
+constexpr double no_seam = std::numeric_limits<double>::infinity();
+constexpr std::array away_from_seams{no_seam, no_seam, no_seam, no_seam};
+
 /// Two features of cloth that share no vertex: a vertex and a face, or two edges.
 struct SelfPair {
     PairShape shape = PairShape::point_triangle;
     std::array<int, 4> vertex{-1, -1, -1, -1};  // the vertex and the face's corners; the ends of both edges
     std::array<int, 2> feature{-1, -1};         // vertex and triangle; two edges
     double thickness = 0.0;                     // m, below it they may be in contact
-    double zone = 0.0;                          // m, where its contact began since the last refresh; 0: it is none
-    double reach = 0.0;  // distance + travel when last measured: reach - travel bounds the distance from below
+    /// m, near a seam: below what they are in contact where the vertex and corner k are closest, or the ends (0, 2), (0, 3),
+    /// (1, 2) and (1, 3) of the edges.
+    std::array<double, 4> of_seam = away_from_seams;
+    double zone = 0.0;                // m, below what its contact began; 0: it is none
+    Vec3 began_apart = Vec3::Zero();  // m, between the middles of its features then
+    double reach = 0.0;               // distance + travel when last measured: reach - travel bounds the distance from below
 };
 
 /// The exact closest points of a pair.
@@ -29,6 +37,10 @@ struct SelfPairContact {
     /// several pairs share one pair has them. Not filled in for edges farther apart than the pair's thickness.
     double relative_zone = 0.0;
 };
+
+/// m, below which a pair is in contact where these weights say: between corners it passes from the one's to the other's, so that
+/// closest points that go from one face to the next meet no other thickness there.
+double thickness_at(const SelfPair& pair, const std::array<double, 4>& weight);
 
 /// m.
 double self_distance(const SelfPair& pair, std::span<const Vec3> positions);

@@ -15,7 +15,7 @@
 
 namespace percale {
 
-constexpr SealKind state_seal{.name = "PERCALES", .version = 7, .words = "saved state"};
+constexpr SealKind state_seal{.name = "PERCALES", .version = 8, .words = "saved state"};
 
 /// What an obstacle's name is not needed for.
 struct SavedObstacle {

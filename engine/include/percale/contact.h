@@ -165,7 +165,8 @@ public:
 
     /// Every contact closer than the thickness, with obstacles at `fraction` of the step. A pair of features that was a contact
     /// since the last refresh stays one while it is that near, unless a nearer one of the same vertex in nearly the same
-    /// direction has taken its place: within one solve forces change continuously.
+    /// direction has taken its place: within one solve forces change continuously. One between cloths stays one over
+    /// refreshes, too, until they have moved against each other.
     virtual void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) = 0;
 
     /// The largest f in [0, 1] such that moving all vertices along from + f (to - from), while the obstacles move over

@@ -1,9 +1,7 @@
 #include "engine/solve/body_states.h"
 
-#include "percale/simulation.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
-#include "tests/support/random.h"
 
 namespace percale::test {
 namespace {
@@ -72,36 +70,6 @@ TEST_CASE("Bodies that a row joins are released, others are not") {
     CHECK(settled_after(row_between(2, 5, -1)) == std::array{true, true});
     CHECK(settled_after(row_between(1, 4, 0)) == std::array{true, true});
     CHECK(settled_after(row_between(1, 4, -1)) == std::array{false, false});
-}
-
-TEST_CASE("A sheet that floats at rest hardly adds an iteration to one that is shaken, and stays where it is", "[law]") {
-    const auto shaken = [](bool floating) {
-        Simulation simulation({.time_step = 1.0 / 60.0, .gravity = Vec3::Zero()});
-        const ClothId sheet = simulation.add_cloth(make_grid(1.0, 1.0, 30, 30), sheet_fabric());
-        Random random(5);
-        std::vector<Vec3> velocities(900);
-        for (Vec3& v : velocities) v = random.point(3.0);
-        simulation.set_velocities(sheet, velocities);
-        // Its coordinates have rounding errors, and so do its forces.
-        const Pose away{.translation = Vec3(0.1, 2.0, 0.3), .rotation = {0.6, 0.48, 0.64, 0.0}};
-        std::vector<Vec3> start;
-        ClothId other = sheet;
-        if (floating) {
-            other = simulation.add_cloth(make_grid(1.0, 1.0, 30, 30), sheet_fabric(), away);
-            start = copy(simulation.positions(other));
-        }
-        int iterations = 0;
-        for (int n = 0; n < 20; ++n) {
-            const StepReport report = simulation.step();
-            REQUIRE(report.ok());
-            iterations += report.newton_iterations;
-        }
-        for (std::size_t i = 0; i < start.size(); ++i) REQUIRE((simulation.positions(other)[i] - start[i]).norm() < 1e-9);
-        return iterations;
-    };
-    const int alone = shaken(false);
-    CAPTURE(alone);
-    CHECK(shaken(true) <= 1.2 * alone);
 }
 
 }  // namespace percale::test

@@ -241,7 +241,7 @@ TEST_CASE("Damaged states are refused and change nothing") {
 TEST_CASE("No content of a well sealed state does harm") {
     Simulation simulation = on_plane({.measure = StepMeasures::ledger}, 0.0);
     for (int n = 0; n < 10; ++n) simulation.step();
-    const SealKind kind{.name = "PERCALES", .version = 7, .words = "saved state"};
+    const SealKind kind{.name = "PERCALES", .version = 8, .words = "saved state"};
     const Saved good = simulation.save();
     const std::span<const std::byte> view = unsealed(kind, good);
     Random random(7);
