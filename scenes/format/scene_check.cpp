@@ -23,7 +23,9 @@ struct Spot {
 
 [[noreturn]] void fail_kind(const TomlNode& node, const SceneKey& key, const std::string& shown) {
     const std::string unit = key.unit.empty() ? "" : " (" + key.unit + ")";
-    fail_at(node.place, shown + " must be " + kind_text(key) + unit + ", not " + described(node));
+    const bool one_table = key.kind == KeyKind::table_list && node.kind == TomlKind::table;
+    const std::string advice = one_table ? "; write [[" + shown + "]]" : "";
+    fail_at(node.place, shown + " must be " + kind_text(key) + unit + ", not " + described(node) + advice);
 }
 
 void check_number(const TomlNode& node, const SceneKey& key, const std::string& shown, bool whole = false) {

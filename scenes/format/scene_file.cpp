@@ -1,6 +1,7 @@
 #include "format/scene_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -85,7 +86,16 @@ void sort_events(std::vector<EventSpec>& events) {
     std::stable_sort(events.begin(), events.end(), [](const EventSpec& a, const EventSpec& b) { return a.time < b.time; });
 }
 
+bool is_mesh_file(const std::string& file) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    constexpr std::array endings{".obj", ".off", ".ply", ".stl", ".glb", ".gltf", ".fbx", ".dae"};
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
 std::string file_text(const std::string& file) {
+    if (is_mesh_file(file)) {
+        throw SceneError(file + ": is a mesh, not a scene file: a scene names it as mesh, percale drape needs no scene");
+    }
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) throw SceneError(file + ": is a folder, not a scene file");
     std::ifstream in(file, std::ios::binary);

@@ -349,7 +349,10 @@ void add_options(CLI::App& command, DrapeOptions& options) {
     command.add_option("--garment-unit", options.garment_unit, "Unit of the garment's file: mm, cm, m (default m)")
         ->type_name("UNIT");
     command.add_option("--body-unit", options.body_unit, "Unit of the body's file: mm, cm, m (default m)")->type_name("UNIT");
-    command.add_option("--move", options.move, "Move garments before they start, m")->type_name("X Y Z")->allow_extra_args(false);
+    command.add_option("--move", options.move, "Move garments before they start, m")
+        ->type_name("X Y Z")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     CLI::Option* preset = command
                               .add_option("--fabric", options.preset,
                                           "Fabric preset, its moduli the same in all directions on meshes (percale explain "

@@ -73,6 +73,7 @@ TEST_CASE("a wrong kind of value says what was expected and what was there") {
     CHECK(fault("title = 3\n") == "t:1:9: title must be a text, not the number 3");
     CHECK(fault("step = 3\n") == "t:1:8: step must be a table, not the number 3");
     CHECK(fault("cloth = 3\n") == "t:1:9: cloth must be a list of tables, not the number 3");
+    CHECK(fault("[obstacle]\nname = \"ball\"\n") == "t:1:1: obstacle must be a list of tables, not a table; write [[obstacle]]");
     CHECK(fault("cloth = [3]\n") == "t:1:10: cloth.0 must be a list of tables, not the number 3");
     CHECK(fault("fabric = 3\n") == "t:1:10: fabric must be a table of named tables, not the number 3");
     CHECK(fault("[fabric]\nthickness = 3\n") == "t:2:13: fabric.thickness must be a table [fabric.NAME], not the number 3");

@@ -115,7 +115,7 @@ TEST_CASE("a garment that is not on the body at the end is told to be moved") {
     const TestFolder folder;
     write_pair(folder, 1.0);
     const ProgramRun run = run_program(
-        {"drape", "sheet.obj", "block.obj", "-o", "draped.obj", "--seconds", "0.2", "--move", "2", "0", "0"}, folder.path());
+        {"drape", "sheet.obj", "block.obj", "-o", "draped.obj", "--seconds", "0.2", "--move", "2,0,0"}, folder.path());
     CHECK(run.exit_code == 1);
     CHECK(run.error == "percale: draped.obj: the garment never met the body; use --move to start it where it can catch\n");
     CHECK(folder.holds("draped.obj"));
