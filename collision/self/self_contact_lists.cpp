@@ -254,13 +254,13 @@ double SelfContactLists::sewn_distance(const SelfPair& pair) const {
 /// Sets the thickness of a pair near a seam, by the paths through it between vertices.
 void SelfContactLists::set_of_seam(SelfPair& pair) const {
     const bool edges = pair.shape == PairShape::edge_edge;
-    double largest = 0.0;
+    double most = 0.0;
     for (int k = 0; k < (edges ? 4 : 3); ++k) {
         const std::array first{pair.vertex[edges ? k / 2 : 0]}, second{pair.vertex[edges ? 2 + k % 2 : 1 + k]};
         pair.of_seam[k] = std::min(pair.thickness, tolerances::contact_of_seam * sewn_.distance(first, second));
-        largest = std::max(largest, pair.of_seam[k]);
+        most = std::max(most, pair.of_seam[k]);
     }
-    pair.thickness = largest;
+    pair.thickness = most;
 }
 
 /// Keeps a pair that may come into contact if its distance can shrink by `room`.

@@ -93,8 +93,8 @@ private:
     std::vector<IntersectingPair> pairs_among(const std::vector<int>& triangles) const {
         TriangleMesh part{.vertices = places(false), .triangles = {}};
         std::vector<int> cloth;
-        for (const int t : triangles) part.triangles.push_back(cloth_.triangles[t]);
         for (const int t : triangles) {
+            part.triangles.push_back(cloth_.triangles[t]);
             if (!cloth_.meeting.cloth.empty()) cloth.push_back(cloth_.meeting.cloth[t]);
         }
         ClothCertificate certificate = certify_cloth(part, cloth_.stitches, {cloth, cloth_.meeting.pairs});

@@ -25,12 +25,10 @@ int first_spring_of(const ClothModel& model, const ClothRange& cloth) {
 std::vector<Body> make_bodies(const ClothModel& model) {
     std::vector<Body> bodies;
     for (const ClothRange& cloth : model.cloths) bodies.push_back({cloth.first, cloth.count, cloth.mass});
-    const auto body_of = [&](int vertex) {
-        return std::partition_point(bodies.begin(), bodies.end(), [&](const Body& b) { return b.first + b.count <= vertex; });
-    };
     for (int k = 0; k < model.springs.size(); ++k) {
         if (model.springs.kind[k] != SpringKind::seam) continue;
-        const auto low = body_of(model.springs.first[k]), high = body_of(model.springs.second[k]);
+        const auto low = bodies.begin() + body_of(bodies, model.springs.first[k]);
+        const auto high = bodies.begin() + body_of(bodies, model.springs.second[k]);
         for (auto next = low + 1; low != high && next <= high; ++next) {
             low->count += next->count;
             low->mass += next->mass;
@@ -118,6 +116,11 @@ void set_model_clamps(std::span<const double> free, ClothModel& model) {
     set_clamps(free, model.hinges);
     set_bending(model);
     copy_bending(model.springs, model.adjacency);
+}
+
+int body_of(std::span<const Body> bodies, int vertex) {
+    const auto ends_before = [&](const Body& body) { return body.first + body.count <= vertex; };
+    return static_cast<int>(std::partition_point(bodies.begin(), bodies.end(), ends_before) - bodies.begin());
 }
 
 int cloth_of(const ClothModel& model, int vertex) {

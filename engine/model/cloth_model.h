@@ -72,6 +72,8 @@ void set_model_clamps(std::span<const double> free, ClothModel& model);
 
 /// The number of the cloth that a vertex belongs to.
 int cloth_of(const ClothModel& model, int vertex);
+/// The number of the body that a vertex belongs to.
+int body_of(std::span<const Body> bodies, int vertex);
 
 /// Longest edge of a triangle over its height there at rest, largest of a cloth of moduli on a free mesh: its stiffness across is
 /// by as much larger than along. 0 for other cloth.

@@ -14,14 +14,23 @@ enum class BodyState : char {
     settled,  // it is solved for: it stays where it is while others are solved for
 };
 
-/// The bodies of a stage. They share one linear system, whose solver sees the large changes: without this one body's long solve
-/// stirs up, or is as long for, another that has long been solved for.
+/// The bodies of a stage. They share linear systems, whose solver is as exact as the largest changes ask. A body that is solved
+/// for already would be stirred up by what that leaves of it.
 class BodyStates {
 public:
     /// A solve begins: nothing is known.
     void start(const ClothModel& model) { states_.assign(model.bodies.size(), BodyState::moving); }
 
     bool settled(std::size_t body) const { return body < states_.size() && states_[body] == BodyState::settled; }
+
+    /// Whether `is_small(body)` is true for each that is not settled; marks none.
+    template <typename IsSmall>
+    bool all_small(const ClothModel& model, const IsSmall& is_small) const {
+        for (std::size_t b = 0; b < states_.size(); ++b) {
+            if (states_[b] != BodyState::settled && !is_small(model.bodies[b])) return false;
+        }
+        return true;
+    }
 
     /// Calls `is_small(body)` for those that are not settled; whether it was true for each.
     template <typename IsSmall>

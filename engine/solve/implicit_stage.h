@@ -69,8 +69,8 @@ struct NewtonSpace {
     Vectors direction, right_side;
     Vectors first_direction;           // m/s, before rows were foreseen
     std::vector<NetLimit> net_limits;  // of the last direction
-    BodyStates bodies;
-    ForeseenRows foreseen;  // of the last move that a line search refused
+    BodyStates bodies;                 // in the rounds of find_motion
+    ForeseenRows foreseen;             // of the last move that a line search refused
 
     ContactLaw& law(ContactResponse response) {
         if (response == ContactResponse::projection) return projection;

@@ -52,12 +52,8 @@ bool next_change_is_small(const StageEquations& equations, const TimeError& erro
     if (!estimate_direction(equations)) return false;
     const NewtonChange change = change_to(equations, equations.space().current.velocities);
     const double share = estimate_safety * allowed_share(equations.stage().scene.settings);
-    const ClothModel& model = equations.stage().scene.model;
-    const BodyStates& states = equations.space().bodies;
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-        if (!states.settled(b) && !change_is_small(error, change, share, model.bodies[b])) return false;
-    }
-    return true;
+    return equations.space().bodies.all_small(equations.stage().scene.model,
+                                              [&](const Body& body) { return change_is_small(error, change, share, body); });
 }
 
 bool meets_tolerance(const StageEquations& equations, const NewtonReport& report) {

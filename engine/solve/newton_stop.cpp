@@ -57,8 +57,9 @@ NewtonChange change_to(const StageEquations& equations, const Vectors& ahead) {
 
 bool change_is_small(const TimeError& error, const NewtonChange& change, double share, const Body& body) {
     const ClothModel& model = *error.model;
-    return std::all_of(model.cloths.begin(), model.cloths.end(), [&](const ClothRange& cloth) {
-        if (cloth.first < body.first || cloth.first >= body.first + body.count) return true;
+    const auto first = model.cloths.begin() + cloth_of(model, body.first);
+    const auto last = model.cloths.begin() + cloth_of(model, body.first + body.count - 1);
+    return std::all_of(first, last + 1, [&](const ClothRange& cloth) {
         const Vectors &residual = change.residual, &direction = change.direction;
         const double gain = -sum_terms(cloth.first, cloth.count, [&](int i) {
             return residual.x[i] * direction.x[i] + residual.y[i] * direction.y[i] + residual.z[i] * direction.z[i];

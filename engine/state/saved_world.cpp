@@ -10,12 +10,11 @@
 #include "plan/planning.h"
 #include "plan/scheme_choice.h"
 #include "saved_loads.h"
+#include "state_seal.h"
 #include "support/hash.h"
 #include "tolerances.h"
 
 namespace percale {
-
-constexpr SealKind state_seal{.name = "PERCALES", .version = 8, .words = "saved state"};
 
 /// What an obstacle's name is not needed for.
 struct SavedObstacle {

@@ -1,7 +1,6 @@
 #include "format/scene_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "format/overrides.h"
 #include "format/scene_check.h"
 #include "format/scene_table.h"
+#include "meshes/mesh_import.h"
 #include "percale/error.h"
 
 namespace percale::scenes {
@@ -84,12 +84,6 @@ Scene scene_of(const TomlNode& document, const std::string& name, FaultList& fau
 
 void sort_events(std::vector<EventSpec>& events) {
     std::stable_sort(events.begin(), events.end(), [](const EventSpec& a, const EventSpec& b) { return a.time < b.time; });
-}
-
-bool is_mesh_file(const std::string& file) {
-    const std::string ending = std::filesystem::path(file).extension().string();
-    constexpr std::array endings{".obj", ".off", ".ply", ".stl", ".glb", ".gltf", ".fbx", ".dae"};
-    return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
 std::string file_text(const std::string& file) {

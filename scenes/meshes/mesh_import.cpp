@@ -40,11 +40,18 @@ std::string format_of(const std::string& file) {
 
 /// Our own formats and those of meshes that assimp reads in proportion to the file. Not those of scenes that it tessellates or
 /// unpacks to any size, nor raw triangles, on which its reader crashes.
-void check_format(const std::string& file, const std::string& format) {
+const std::vector<std::string>& read_formats() {
     static const std::vector<std::string> read = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".dae", ".fbx",
                                                   ".3ds", ".amf", ".x3d", ".dxf", ".lwo",  ".ase", ".x"};
-    if (std::find(read.begin(), read.end(), format) != read.end()) return;
-    throw SceneError(file, "is of no format that is read: " + joined(read));
+    return read;
+}
+
+bool is_read(const std::string& format) {
+    return std::find(read_formats().begin(), read_formats().end(), format) != read_formats().end();
+}
+
+void check_format(const std::string& file, const std::string& format) {
+    if (!is_read(format)) throw SceneError(file, "is of no format that is read: " + joined(read_formats()));
 }
 
 void check_mesh_file(const std::string& file) {
@@ -168,6 +175,8 @@ std::string extension_of(const std::string& file) {
     for (char& letter : extension) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
     return extension;
 }
+
+bool is_mesh_file(const std::string& file) { return is_read(extension_of(file)); }
 
 TriangleMesh import_mesh(const std::string& file, double unit) {
     if (!std::isfinite(unit) || unit <= 0.0) throw SceneError(file, "unit is " + std::to_string(unit) + ", must be above 0");

@@ -9,6 +9,8 @@ namespace percale::scenes {
 
 /// The extension of a file's name in lower case, with its dot.
 std::string extension_of(const std::string& file);
+/// Whether a file is a mesh by the ending of its name.
+bool is_mesh_file(const std::string& file);
 
 /// Reads a mesh file. OBJ, OFF and PLY by our own readers (vertices exactly the file's, in its order; polygons fanned), STL, glTF
 /// and GLB, Collada (DAE), FBX, 3DS, AMF, X3D, DXF, LWO, ASE and X through assimp (float precision; polygons fanned, too; all

@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "engine/state/state_seal.h"
 #include "fuzz_entry.h"
 #include "percale/detectors.h"
 #include "percale/percale.h"
@@ -45,6 +46,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::byte* first = reinterpret_cast<const std::byte*>(data);
     const fuzz::Bytes bytes(first, first + size);
     fuzz::try_state(bytes);
-    fuzz::try_state(sealed({.name = "PERCALES", .version = 8, .words = "saved state"}, bytes));
+    fuzz::try_state(sealed(state_seal, bytes));
     return 0;
 }

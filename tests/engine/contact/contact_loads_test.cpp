@@ -1,6 +1,7 @@
 #include "engine/contact/contact_loads.h"
 
 #include "tests/support/catch.h"
+#include "tests/support/contact_rows.h"
 
 namespace percale::test {
 namespace {
@@ -11,17 +12,7 @@ struct Rows {
     std::vector<RowForce> forces;
 
     void add(const std::array<int, 4>& vertex, const std::array<double, 4>& weight, int obstacle, const RowForce& force) {
-        rows.vertex.push_back(vertex);
-        rows.weight.push_back(weight);
-        rows.direction.push_back(Vec3::UnitY());
-        rows.obstacle_point.push_back(Vec3::Zero());
-        rows.obstacle_displacement.push_back(Vec3::Zero());
-        rows.distance.push_back(0.004);
-        rows.thickness.push_back(0.005);
-        rows.friction.push_back(0.3);
-        rows.share.push_back(1.0);
-        rows.obstacle.push_back(obstacle);
-        rows.feature.push_back(0);
+        add_row(vertex, weight, obstacle, rows);
         forces.push_back(force);
     }
     std::vector<ContactLoad> loads() const { return contact_loads(rows, terms, forces); }

@@ -2,6 +2,7 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
+#include "tests/support/contact_rows.h"
 
 namespace percale::test {
 namespace {
@@ -18,17 +19,7 @@ ClothModel two_bodies() {
 
 ContactRows row_between(int first, int second, int obstacle) {
     ContactRows rows;
-    rows.vertex.push_back({first, second, -1, -1});
-    rows.weight.push_back({1.0, -1.0, 0.0, 0.0});
-    rows.direction.push_back(Vec3::UnitY());
-    rows.obstacle_point.push_back(Vec3::Zero());
-    rows.obstacle_displacement.push_back(Vec3::Zero());
-    rows.distance.push_back(0.001);
-    rows.thickness.push_back(0.005);
-    rows.friction.push_back(0.0);
-    rows.share.push_back(1.0);
-    rows.obstacle.push_back(obstacle);
-    rows.feature.push_back(1);
+    add_row({first, second, -1, -1}, {1, -1, 0, 0}, obstacle, rows);
     return rows;
 }
 

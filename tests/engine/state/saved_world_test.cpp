@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/schemes/schemes.h"
+#include "engine/state/state_seal.h"
 #include "engine/step/step.h"
 
 #include "tests/support/bench_meshes.h"
@@ -241,9 +242,8 @@ TEST_CASE("Damaged states are refused and change nothing") {
 TEST_CASE("No content of a well sealed state does harm") {
     Simulation simulation = on_plane({.measure = StepMeasures::ledger}, 0.0);
     for (int n = 0; n < 10; ++n) simulation.step();
-    const SealKind kind{.name = "PERCALES", .version = 8, .words = "saved state"};
     const Saved good = simulation.save();
-    const std::span<const std::byte> view = unsealed(kind, good);
+    const std::span<const std::byte> view = unsealed(state_seal, good);
     Random random(7);
     int taken = 0;
     for (int round = 0; round < 2000; ++round) {
@@ -253,7 +253,7 @@ TEST_CASE("No content of a well sealed state does harm") {
             content[static_cast<std::size_t>(at)] = static_cast<std::byte>(random.index(256));
         }
         Simulation other = on_plane({.measure = StepMeasures::ledger}, 0.0);
-        if (!scene_error([&] { other.restore(sealed(kind, content)); }).empty()) continue;
+        if (!scene_error([&] { other.restore(sealed(state_seal, content)); }).empty()) continue;
         ++taken;
         if (taken % 20 == 0) other.step();
     }

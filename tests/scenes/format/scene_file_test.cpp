@@ -247,7 +247,7 @@ TEST_CASE("a missing file, a folder and a file of rubbish are errors that name t
     CHECK(error_of([] { load_scene("no/such/scene.toml"); }) == "no/such/scene.toml: cannot be read: No such file or directory");
     const test::TestFolder folder;
     CHECK(error_of([&] { load_scene(folder.path()); }) == folder.path() + ": is a folder, not a scene file");
-    const std::string mesh = folder.write("sheet.obj", "v 0 0 0\n");
+    const std::string mesh = folder.write("sheet.OBJ", "v 0 0 0\n");
     CHECK(error_of([&] { load_scene(mesh); }) ==
           mesh + ": is a mesh, not a scene file: a scene names it as mesh, percale drape needs no scene");
     const std::string rubbish = folder.write("rubbish.toml", std::string("\x7f\x45LF\x02\x01\0\0\xff\xfe", 10));
