@@ -90,10 +90,12 @@ private:
     /// The smallest angle of the ear at a corner; 0 where it is none.
     double judge(int k) const {
         const Point2 &a = x_[before_[k]], &b = x_[k], &c = x_[after_[k]];
-        if (turn(k) <= least_turn * longest_square(a, b, c)) return 0.0;
+        const double none = least_turn * longest_square(a, b, c);
+        if (turn(k) <= none) return 0.0;
+        // Points on a side count as inside, also where they are rounded off it: else what is left may lie on one line.
         for (int other = after_[after_[k]]; other != before_[k]; other = after_[other]) {
             const Point2& p = x_[other];
-            if (turn_left(a, b, p) >= 0.0 && turn_left(b, c, p) >= 0.0 && turn_left(c, a, p) >= 0.0) return 0.0;
+            if (turn_left(a, b, p) >= -none && turn_left(b, c, p) >= -none && turn_left(c, a, p) >= -none) return 0.0;
         }
         return smallest_angle_of(a, b, c);
     }

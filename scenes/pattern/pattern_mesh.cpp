@@ -64,7 +64,7 @@ private:
         const bool clockwise = area < 0.0;
         const int outline_size = static_cast<int>(outline.points.size());
         if (clockwise) std::reverse(outline.points.begin(), outline.points.end());
-        const PanelMesh flat = mesh_panel(outline.points, edge_length_);
+        const PanelMesh flat = triangulated(panel, outline.points);
         PanelPart part{.name = panel.name,
                        .first_vertex = static_cast<int>(result_.mesh.vertices.size()),
                        .vertices = static_cast<int>(flat.vertices.size()),
@@ -84,6 +84,14 @@ private:
         outlines_.push_back(std::move(outline));
         outline_sizes_.push_back(outline_size);
         result_.panels.push_back(part);
+    }
+
+    PanelMesh triangulated(const Panel& panel, const std::vector<Point2>& outline) const {
+        try {
+            return mesh_panel(outline, edge_length_);
+        } catch (const SceneError& error) {
+            throw SceneError(pattern_.file, "panel '" + panel.name + "': " + error.reason());
+        }
     }
 
     void refuse_size(const Panel& panel, double area) const {

@@ -1,5 +1,6 @@
 #include "scenes/pattern/panel_mesh.h"
 
+#include <Eigen/Geometry>
 #include <set>
 
 #include "scenes/pattern/delaunay.h"
@@ -50,6 +51,19 @@ TEST_CASE("straight panels, combs and waistbands have no sliver either") {
         check_mesh_of(divided({{0, 0}, {0.7, 0}, {0.7, width}, {0, width}}, 0.02), 0.02, 20.0);
     }
     check_mesh_of({{0, 0}, {1, 0}, {0, 1}}, 2.0, 40.0);
+}
+
+TEST_CASE("straight sides whose points are rounded off their line have none either") {
+    Random random(5);
+    for (int round = 0; round < 60; ++round) {
+        const double hem = random.number(0.3, 0.5), waist = random.number(0.2, 0.5), top = random.number(0.2, 0.6);
+        const double edge_length = random.number(0.02, 0.035), angle = random.number(0.0, 0.1);
+        const Eigen::Rotation2Dd turned(angle);
+        check_mesh_of(divided({turned * Point2(-hem, 0.5), turned * Point2(hem, 0.5), turned * Point2(waist, 0.5 + top),
+                               turned * Point2(-waist, 0.5 + top)},
+                              edge_length),
+                      edge_length, 20.0);
+    }
 }
 
 TEST_CASE("edges are about as long as asked, and the same outline gives the same bits") {
