@@ -144,6 +144,22 @@ constexpr double far_start_move = 2.0;
 /// s, bytes, bytes: what a long run, much memory and much output are.
 constexpr double much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
 
+// ---- drape/
+
+/// m. `drape` calls a seam with a wider gap not sewn. Smaller: tight gathers fail. Larger: seams closed on the wrong side of a
+/// limb pass.
+constexpr double widest_sewn_gap = 0.01;
+
+/// m. How much farther out than the one below it the panels of a garment start. Smaller: panels start through those below.
+constexpr double layer_offset = 0.04;
+
+/// A body that is by this factor taller along z than along y stands along z. Smaller: spheres and beds do. Larger: people do not.
+constexpr double standing_ratio = 1.5;
+
+/// m. A garment from a pattern that hangs lower than this since it was sewn, in the mean, has slid down. Smaller: what the cloth
+/// gives by its own weight is told of.
+constexpr double far_slid = 0.1;
+
 // ---- compare/
 
 /// m, how far each free vertex is moved at the start to see how disturbances grow, and the growth from which a scene is chaotic:
@@ -175,15 +191,6 @@ constexpr double whole_rate_rounding = 1e-9;
 
 /// m. Panels that lie nearer to one plane lie in it. 0: rounding decides to which side they move apart.
 constexpr double same_plane = 1e-6;
-
-// ---- program/
-
-/// m. `drape` calls a seam with a wider gap not sewn. Smaller: tight gathers fail. Larger: seams closed on the wrong side of a
-/// limb pass.
-constexpr double widest_sewn_gap = 0.01;
-
-/// m. How much farther out than the one below it the panels of a garment start. Smaller: panels start through those below.
-constexpr double layer_offset = 0.04;
 
 // ---- run/
 

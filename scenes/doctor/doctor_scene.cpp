@@ -306,6 +306,12 @@ std::vector<Finding> examine_scene(const Scene& scene) {
 
 }  // namespace
 
+std::vector<Finding> examine_scene_meshes(const Scene& scene) {
+    std::vector<Finding> found;
+    examine_meshes(scene, read_meshes(scene, found), found);
+    return found;
+}
+
 std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan) {
     std::vector<Finding> found;
     constexpr double seconds_a_spring = 5e-9, bytes_a_vertex = 60.0, bytes_a_triangle = 20.0;

@@ -16,6 +16,9 @@ namespace percale::scenes {
 /// of it.
 std::vector<Finding> examine_scene_file(const std::string& file, std::span<const Override> overrides);
 
+/// What is wrong with the meshes of a scene alone: errors of those that cannot be read, and what percale doctor says of the rest.
+std::vector<Finding> examine_scene_meshes(const Scene& scene);
+
 /// Warnings of what a run takes beyond an hour, 8 GB of memory or 10 GB of frames.
 std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan);
 

@@ -10,8 +10,6 @@
 
 namespace percale::scenes {
 
-using nlohmann::json;
-
 constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 4, .words = "checkpoint"};
 
 template <class Archive, OfType<RunTotals> Value>
@@ -82,16 +80,16 @@ std::string key_of(const std::string& pointer) {
     return key;
 }
 
-std::string value_text(const json& settings, const std::string& pointer) {
-    const json::json_pointer place(pointer);
+std::string value_text(const nlohmann::json& settings, const std::string& pointer) {
+    const nlohmann::json::json_pointer place(pointer);
     return settings.contains(place) ? settings.at(place).dump() : "nothing";
 }
 
 /// The first settings that differ, at most three; empty where all are equal.
-std::string differences(const json& here, const json& saved) {
+std::string differences(const nlohmann::json& here, const nlohmann::json& saved) {
     std::string text;
     int count = 0;
-    for (const json& change : json::diff(here, saved)) {
+    for (const nlohmann::json& change : nlohmann::json::diff(here, saved)) {
         const std::string path = change.at("path");
         if (path == "/step/threads") continue;
         if (++count > 3) return text + "; and more";
@@ -123,14 +121,14 @@ Checkpoint read_checkpoint(const std::string& file) {
         reader(checkpoint);
         reader.demand(reader.at_end(), "there is more than belongs to it");
         reader.demand(checkpoint.run.steps_made > 0 && checkpoint.run.next_frame >= 0, "a run that has not begun");
-        reader.demand(json::accept(checkpoint.settings), "settings that are none");
+        reader.demand(nlohmann::json::accept(checkpoint.settings), "settings that are none");
         return checkpoint;
     });
 }
 
 void check_same_run(const std::string& file, const Checkpoint& checkpoint, const Scene& scene, bool certify_steps,
                     bool replay_hash) {
-    const std::string what = differences(json::parse(settings_text(scene)), json::parse(checkpoint.settings));
+    const std::string what = differences(nlohmann::json::parse(settings_text(scene)), nlohmann::json::parse(checkpoint.settings));
     if (!what.empty()) throw SceneError(file + ": is of another run and cannot be resumed: " + what);
     check_option(file, "--certify-steps", certify_steps, checkpoint.certify_steps);
     check_option(file, "--replay-hash", replay_hash, checkpoint.replay_hash);

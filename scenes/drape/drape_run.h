@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "drape/drape_scene.h"
+#include "percale/report.h"
+#include "run/measures.h"
+#include "run/scene_build.h"
+
+namespace percale::scenes {
+
+enum class DrapeEnd { settled, time_up, fell, failed, stopped };
+
+/// How a drape went.
+struct Drape {
+    DrapeEnd end = DrapeEnd::time_up;
+    StepReport last = {};
+    std::string failure = {};
+    RestFigures rest = {};
+    bool met = false;                 // whether a garment ever had contact with the body
+    std::vector<double> height = {};  // m: of each garment in the mean, when it was sewn and got its weight
+};
+
+/// Steps until all garments are at rest, the time is up, or all have fallen below the body; when the seams have closed there is
+/// weight. `stop` is asked after each step, with the simulated time in s.
+Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function<bool(double)>& stop);
+
+/// m: of the vertices of a cloth in the mean.
+double mean_height(const Simulation& simulation, ClothId cloth);
+
+}  // namespace percale::scenes

@@ -1,0 +1,217 @@
+#include "drape/drape_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "common/text.h"
+#include "common/whole_file.h"
+#include "doctor/doctor_scene.h"
+#include "meshes/mesh_import.h"
+#include "percale/error.h"
+#include "tolerances.h"
+
+namespace percale::scenes {
+namespace {
+
+/// How a pattern is sewn.
+constexpr double sewing_time = 0.6;          // s
+constexpr double sewing_stiffness = 3000.0;  // N/m
+/// Of a preset, so that hems come to rest within seconds.
+constexpr double sewing_damping = 0.02;  // s
+/// A preset's moduli hold on patterns; on meshes that do not say where warp is they are made isotropic, which is warned of.
+constexpr const char *mesh_fabric = "mesh", *pattern_fabric = "pattern";
+
+const std::map<std::string, double> metres = {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}};
+
+bool is_pattern(const std::string& garment) {
+    const std::string extension = extension_of(garment);
+    return extension == ".toml" || extension == ".json";
+}
+
+/// Its file's name, with a number where another garment has it.
+std::string garment_name(const std::string& file, const Scene& scene) {
+    const std::string stem = std::filesystem::path(file).stem().string();
+    const auto known = [&](const std::string& name) {
+        return std::ranges::any_of(scene.cloths, [&](const ClothSpec& cloth) { return cloth.name == name; });
+    };
+    std::string name = stem;
+    for (int number = 2; known(name); ++number) name = stem + " " + std::to_string(number);
+    return name;
+}
+
+/// Largest edges of a mesh's bounding box, in its unit; 0 where it cannot be read, which building the scene refuses.
+Vec3 extent_of(const std::string& file) {
+    Vec3 lowest = Vec3::Zero(), highest = Vec3::Zero();
+    try {
+        const TriangleMesh mesh = import_mesh(file);
+        if (!mesh.vertices.empty()) lowest = highest = mesh.vertices.front();
+        for (const Vec3& x : mesh.vertices) {
+            lowest = lowest.cwiseMin(x);
+            highest = highest.cwiseMax(x);
+        }
+    } catch (const SceneError&) {
+        return Vec3::Zero();
+    }
+    return highest - lowest;
+}
+
+class DrapeScenes {
+public:
+    explicit DrapeScenes(const DrapeOptions& options) : options_(options) {}
+
+    DrapeScene make() {
+        set_up();
+        add_fabrics();
+        const Vec3 body = extent_of(options_.body());
+        guess_up(body);
+        for (const std::string& file : options_.garments()) add_garment(file);
+        add_body(body);
+        ask_doctor();
+        return std::move(made_);
+    }
+
+private:
+    void note(const std::string& text) { made_.notes.push_back(text); }
+
+    void set_up() {
+        Scene& scene = made_.scene;
+        scene.file = "drape";
+        scene.until_rest = true;
+        scene.longest = options_.seconds;
+        scene.step.kinetic_damping = true;
+        scene.step.rest_speed = options_.still;
+    }
+
+    void add_fabrics() {
+        Fabric fabric = options_.fabric;
+        fabric.self_contact = !options_.no_self_contact;
+        made_.scene.fabrics[mesh_fabric] = fabric;
+        if (options_.damps_patterns) {
+            fabric.damping_time = sewing_damping;
+            fabric.spring_damping = 0.0;
+        }
+        made_.scene.fabrics[pattern_fabric] = fabric;
+        if (!options_.preset.empty()) made_.scene.preset_moduli = {mesh_fabric};
+    }
+
+    void guess_up(const Vec3& body) {
+        made_.z_up = options_.up.empty() ? stands_along_z(body) : options_.up == "z";
+        if (made_.z_up && options_.up.empty())
+            note(options_.body() + " stands along z, so z is taken as up in the meshes (--up y, if y is)");
+        // From z up to y up: a quarter turn about x.
+        if (made_.z_up) turn_ = {.w = std::sqrt(0.5), .x = -std::sqrt(0.5)};
+    }
+
+    double unit_of(const std::string& file, const std::string& said, const char* option, const Vec3& extent) {
+        if (!said.empty()) return metres.at(said);
+        const std::string unit = guessed_unit(extent.maxCoeff());
+        if (unit != "m")
+            note(file + " is " + short_number(extent.maxCoeff()) + " units large, so its unit is taken as " + unit + " (" +
+                 option + " m, if it is m)");
+        return metres.at(unit);
+    }
+
+    void add_garment(const std::string& file) {
+        ClothSpec cloth;
+        cloth.name = garment_name(file, made_.scene);
+        cloth.place = {.file = file};
+        const auto& [x, y, z] = options_.move;
+        cloth.pose.translation = made_.z_up ? Vec3(x, z, -y) : Vec3(x, y, z);
+        cloth.pose.scale = options_.scale;
+        if (is_pattern(file)) {
+            add_pattern(cloth);
+        } else {
+            cloth.fabric = mesh_fabric;
+            cloth.mesh = file;
+            cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file));
+            cloth.pose.rotation = turn_;
+            made_.scene.cloths.push_back(cloth);
+        }
+    }
+
+    /// It is sewn when those of the garments below it are, without weight.
+    void add_pattern(ClothSpec& cloth) {
+        if (!options_.garment_unit.empty()) throw SceneError("--garment-unit: a pattern says its own unit");
+        Scene& scene = made_.scene;
+        cloth.fabric = pattern_fabric;
+        cloth.pattern = cloth.place.file;
+        cloth.edge_length = options_.edge_length;
+        cloth.panel_offset = layer_offset * static_cast<double>(scene.seams.size());
+        scene.step.gravity = Vec3::Zero();
+        SeamSpec seam;
+        seam.cloths = {cloth.name, cloth.name};
+        seam.file = "mesh";
+        seam.from = sewing_time * static_cast<double>(scene.seams.size());
+        seam.over = sewing_time;
+        seam.stiffness = sewing_stiffness;
+        seam.contact_while_closing = false;
+        seam.place = cloth.place;
+        scene.seams.push_back(seam);
+        scene.cloths.push_back(cloth);
+    }
+
+    void add_body(const Vec3& extent) {
+        ObstacleSpec body;
+        body.name = "body";
+        body.mesh = options_.body();
+        body.unit = unit_of(options_.body(), options_.body_unit, "--body-unit", extent);
+        body.pose.rotation = turn_;
+        body.friction = options_.friction;
+        body.place = {.file = options_.body()};
+        made_.scene.obstacles.push_back(body);
+    }
+
+    /// What is an error building the scene refuses.
+    void ask_doctor() {
+        for (const Finding& finding : examine_scene_meshes(made_.scene)) {
+            if (finding.severity == Severity::warning) note("warning: " + finding.what);
+        }
+    }
+
+    const DrapeOptions& options_;
+    DrapeScene made_;
+    Rotation turn_ = {};
+};
+
+}  // namespace
+
+void check_drape(const DrapeOptions& options) {
+    for (const auto& [option, unit] : {std::pair("--garment-unit", options.garment_unit), {"--body-unit", options.body_unit}}) {
+        if (!unit.empty() && !metres.contains(unit)) throw SceneError(std::string(option) + " " + unit + ": must be mm, cm or m");
+    }
+    if (!options.up.empty() && options.up != "y" && options.up != "z")
+        throw SceneError("--up " + options.up + ": must be y or z");
+    if (!(options.scale >= 0.01 && options.scale <= 100.0))
+        throw SceneError("--scale: is outside the allowed range 0.01 ... 100");
+    if (!(options.seconds > 0.0 && options.seconds <= 3600.0))
+        throw SceneError("--seconds: is outside the allowed range 0 ... 3600 s (0 excluded)");
+    if (!(options.still >= 1e-9 && options.still <= 1.0))
+        throw SceneError("--still: is outside the allowed range 1e-9 ... 1 m/s");
+    if (options.outs.size() != options.garments().size())
+        throw SceneError("-o: " + std::to_string(options.garments().size()) + " garments and a body are given, but " +
+                         std::to_string(options.outs.size()) + " files to write; it takes one for each garment");
+    for (const std::string& out : options.outs) {
+        if (std::filesystem::path(out).extension() != ".obj")
+            throw SceneError("-o " + out + ": its name must end in .obj, which is what is written");
+        const auto same = [&](const std::string& other) {
+            return std::filesystem::path(other).lexically_normal() == std::filesystem::path(out).lexically_normal();
+        };
+        if (std::ranges::count_if(options.outs, same) > 1) throw SceneError("-o " + out + ": is said twice");
+        const WholeFile probe(out);  // an output that cannot be written is found before the work, not after it
+    }
+}
+
+std::string guessed_unit(double extent) {
+    if (extent >= millimetre_extent) return "mm";
+    return extent >= centimetre_extent ? "cm" : "m";
+}
+
+bool stands_along_z(const Vec3& extent) { return extent.z() > standing_ratio * extent.y(); }
+
+DrapeScene drape_scene(const DrapeOptions& options) { return DrapeScenes(options).make(); }
+
+double sewing_end(const Scene& scene) { return sewing_time * static_cast<double>(scene.seams.size()); }
+
+}  // namespace percale::scenes

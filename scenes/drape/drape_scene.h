@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "format/scene.h"
+#include "percale/fabric.h"
+
+namespace percale::scenes {
+
+/// What garments are to be draped over what body, and how. Files are told from each other by their endings.
+struct DrapeOptions {
+    std::vector<std::string> files;                // garments from the inside out, then the body
+    std::vector<std::string> outs;                 // one a garment
+    std::string garment_unit, body_unit;           // mm, cm or m; "": guessed by the size (guessed_unit)
+    std::string up;                                // "y" or "z" of the meshes; "": guessed by the body's shape (stands_along_z)
+    double scale = 1.0;                            // of garments
+    std::array<double, 3> move = {0.0, 0.0, 0.0};  // m
+    // A felt with enough bending springs and damping that free hems come to rest within the limit.
+    Fabric fabric{.springs = {.structural = 1000.0, .bend = 5.0}, .spring_damping = 2.0};
+    std::string preset;  // "" for the felt
+    double friction = 0.4;
+    double seconds = 20.0;      // s, limit
+    double still = 2e-4;        // m/s, what rest is
+    double edge_length = 0.02;  // m, of a pattern's mesh
+    bool no_self_contact = false;
+    bool damps_patterns = false;  // a preset whose damping nothing else is said of
+
+    std::span<const std::string> garments() const { return std::span(files).first(files.size() - 1); }
+    const std::string& body() const { return files.back(); }
+};
+
+/// Throws SceneError for a value out of range, or outputs that do not go with the garments or cannot be written.
+void check_drape(const DrapeOptions& options);
+
+/// "mm", "cm" or "m": in which unit garments and bodies of that many units are 0.1 to some 10 m large.
+std::string guessed_unit(double extent);
+
+/// Whether a body with this bounding box is much taller along z than along y.
+bool stands_along_z(const Vec3& extent);
+
+/// The scene that the options describe, and what was guessed or is doubtful, a sentence each.
+struct DrapeScene {
+    Scene scene;
+    std::vector<std::string> notes;
+    bool z_up = false;  // of the files
+};
+
+/// Meshes where they are, garments moved as asked, y up. Throws SceneError for options that do not go together.
+DrapeScene drape_scene(const DrapeOptions& options);
+
+/// s: how long each pattern is sewn, one after the other, and until when there is no weight.
+double sewing_end(const Scene& scene);
+
+}  // namespace percale::scenes

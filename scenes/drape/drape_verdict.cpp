@@ -1,0 +1,124 @@
+#include "drape/drape_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/text.h"
+#include "meshes/obj_file.h"
+#include "percale/certify.h"
+#include "run/frame_fields.h"
+#include "tolerances.h"
+
+namespace percale::scenes {
+namespace {
+
+std::string place_of(const Vec3& x) {
+    return "(" + short_number(x.x()) + ", " + short_number(x.y()) + ", " + short_number(x.z()) + ")";
+}
+
+std::string unclean_text(const FrameCheck& check) {
+    return "not clean: " + std::to_string(check.intersections) +
+           " intersecting pairs (with the body, themselves or each other), " + std::to_string(check.vertices_inside) +
+           " vertices inside the body, deepest " + short_number(check.deepest_penetration) + " m";
+}
+
+std::string unsewn_text(const WidestGap& gap) {
+    return "not sewn: seam '" + gap.seam + "' of '" + gap.garment + "' is open by " + short_number(gap.width) + " m at " +
+           place_of(gap.place) + "; does its way lie around or through the body?";
+}
+
+std::string restless_text(const Drape& drape) {
+    return std::string("not at rest when ") + (drape.end == DrapeEnd::stopped ? "stopped" : "the time was up") + " after " +
+           short_number(drape.last.time) + " s: the fastest vertex moves at " + short_number(drape.rest.largest_speed) +
+           " m/s, all at " + short_number(drape.rest.rms_speed) + " m/s rms";
+}
+
+std::string fault_of(const Drape& drape, const FrameCheck& check, const WidestGap& gap) {
+    if (!check.clean()) return unclean_text(check);
+    if (gap.width > widest_sewn_gap) return unsewn_text(gap);
+    if (drape.end == DrapeEnd::settled) return {};
+    const bool away = drape.end == DrapeEnd::time_up && std::isinf(check.smallest_distance);
+    if (drape.end == DrapeEnd::fell || away) {
+        return std::string(drape.met ? "fell off the body" : "never met the body") +
+               "; use --move to start it where it can catch, or a size that holds";
+    }
+    return restless_text(drape);
+}
+
+std::string seam_text(const WidestGap& gap, const FrameCheck& check) {
+    std::string text = std::to_string(gap.stitches) + " stitches, largest gap " + short_number(gap.width) + " m";
+    if (check.at_seams > 0) text += "; " + std::to_string(check.at_seams) + " pairs of triangles at one stitch cross within it";
+    return text;
+}
+
+/// Patterns are drawn where they are worn: one that hangs much lower at the end did not hold.
+void tell_of_sliding(const BuiltScene& built, const Drape& drape, DrapeVerdict& verdict) {
+    for (std::size_t k = 0; k < built.cloths.size(); ++k) {
+        if (built.pattern_seams[k].empty()) continue;
+        const double drop = drape.height[k] - mean_height(built.simulation, built.cloths[k]);
+        if (drop < far_slid) continue;
+        verdict.lines.push_back("warning: '" + built.scene.cloths[k].name + "' slid down by " + short_number(drop) +
+                                " m in the mean since it was sewn: it does not hold where it was drawn");
+    }
+}
+
+}  // namespace
+
+WidestGap widest_gap(const BuiltScene& built) {
+    WidestGap widest;
+    for (const BuiltSeam& seam : built.seams) {
+        const std::vector<double> gaps = built.simulation.seam_gaps(seam.id);
+        widest.stitches += gaps.size();
+        const auto found = std::max_element(gaps.begin(), gaps.end());
+        if (*found < widest.width) continue;
+        widest.width = *found;
+        widest.seam = seam.name;
+        widest.garment = built.scene.cloths[seam.sewn.cloths[0]].name;
+        const int vertex = seam.sewn.stitches[static_cast<std::size_t>(found - gaps.begin())].vertex;
+        widest.place = built.simulation.positions(built.cloths[seam.sewn.cloths[0]])[vertex];
+    }
+    return widest;
+}
+
+DrapedFiles write_draped(const BuiltScene& built, const DrapeOptions& options, bool z_up) {
+    std::vector<TriangleMesh> cloths = built.cloth_meshes;
+    TriangleMesh body = built.obstacle_meshes[0];
+    place_shapes(built, cloths, {&body, 1});
+    DrapedFiles files;
+    for (std::size_t k = 0; k < cloths.size(); ++k) {
+        std::vector<Vec3> own_axes = cloths[k].vertices;
+        if (z_up) {
+            for (Vec3& x : own_axes) x = Vec3(x.x(), -x.z(), x.y());
+        }
+        write_obj(options.outs[k], own_axes, cloths[k].triangles);
+        add_certificate(files.check, certify(cloths[k], body, 4.0 * options.fabric.thickness));
+    }
+    FrameCheck own;
+    add_cloth_certificate(own, cloths, sewn_stitches(built), all_pairs(static_cast<int>(cloths.size())));
+    files.check.at_seams = own.at_seams;
+    files.own_crossings = own.intersections;
+    if (!options.no_self_contact) files.check.intersections += own.intersections;
+    return files;
+}
+
+DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, const Drape& drape, const DrapedFiles& files) {
+    DrapeVerdict verdict;
+    const FrameCheck& check = files.check;
+    if (options.no_self_contact && files.own_crossings > 0) {
+        verdict.lines.push_back("without self-contact: cloth crosses cloth in " + std::to_string(files.own_crossings) +
+                                " triangle pairs");
+    }
+    verdict.lines.push_back(joined(options.outs) + ": " + (drape.end == DrapeEnd::settled ? "at rest, " : "") +
+                            short_number(drape.last.time) + " s simulated, fastest vertex " +
+                            short_number(drape.rest.largest_speed) + " m/s, " + std::to_string(check.intersections) +
+                            " intersecting pairs" + (options.no_self_contact ? " with the body, " : ", ") +
+                            nearness_text(check.smallest_distance));
+    const WidestGap gap = widest_gap(built);
+    if (gap.stitches > 0) verdict.lines.push_back(seam_text(gap, check));
+    tell_of_sliding(built, drape, verdict);
+    const std::string fault = fault_of(drape, check, gap);
+    if (!fault.empty()) verdict.wrong = joined(options.outs) + ": " + fault;
+    return verdict;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drape/drape_run.h"
+#include "drape/drape_scene.h"
+
+namespace percale::scenes {
+
+/// The stitch that is farthest open.
+struct WidestGap {
+    std::size_t stitches = 0;  // of all seams
+    double width = 0.0;        // m
+    std::string seam = {}, garment = {};
+    Vec3 place = Vec3::Zero();  // m, of its vertex
+};
+WidestGap widest_gap(const BuiltScene& built);
+
+/// Writes the garments as they are now, in m, with the axes of the files, and certifies them. `own_crossings`: pairs of triangles
+/// of garments that cross; they count as intersections where garments meet.
+struct DrapedFiles {
+    FrameCheck check;
+    int own_crossings = 0;
+};
+DrapedFiles write_draped(const BuiltScene& built, const DrapeOptions& options, bool z_up);
+
+/// What a drape came to, in lines for its user. `wrong` is empty where all garments lie sewn, at rest and clean on the body.
+struct DrapeVerdict {
+    std::vector<std::string> lines = {};
+    std::string wrong = {};
+};
+DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, const Drape& drape, const DrapedFiles& files);
+
+}  // namespace percale::scenes

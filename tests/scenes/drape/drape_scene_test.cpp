@@ -1,0 +1,101 @@
+#include "scenes/drape/drape_scene.h"
+
+#include "scenes/meshes/obj_file.h"
+#include "scenes/run/scene_build.h"
+#include "tests/scenes/message_of.h"
+#include "tests/scenes/test_folder.h"
+#include "tests/support/catch.h"
+
+namespace percale::scenes::test {
+namespace {
+
+/// A sheet above a tall box, each point written as `own` says.
+template <class Own>
+DrapeOptions write_files(const TestFolder& folder, Own own) {
+    TriangleMesh sheet = make_grid(0.4, 0.4, 5, 5), box = make_box(Vec3(0.3, 1.7, 0.2));
+    for (Vec3& x : sheet.vertices) x = own(x + Vec3(0.1, 0.9, 0.2));
+    for (Vec3& x : box.vertices) x = own(x);
+    write_obj(folder.path("sheet.obj"), sheet.vertices, sheet.triangles);
+    write_obj(folder.path("box.obj"), box.vertices, box.triangles);
+    DrapeOptions options;
+    options.files = {folder.path("sheet.obj"), folder.path("box.obj")};
+    options.outs = {folder.path("out.obj")};
+    return options;
+}
+
+double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    REQUIRE(a.size() == b.size());
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
+    return largest;
+}
+
+}  // namespace
+
+TEST_CASE("meshes in centimetres with z up make the scene that they make in metres with y up, and it is said") {
+    const TestFolder folder;
+    DrapeOptions options = write_files(folder, [](const Vec3& x) { return x; });
+    options.move = {0.0, 0.1, 0.02};
+    const DrapeScene plain = drape_scene(options);
+    CHECK(plain.notes.empty());
+    CHECK_FALSE(plain.z_up);
+    const BuiltScene built = build_scene(plain.scene);
+
+    options = write_files(folder, [](const Vec3& x) { return Vec3(100.0 * Vec3(x.x(), -x.z(), x.y())); });
+    options.move = {0.0, -0.02, 0.1};
+    const DrapeScene turned = drape_scene(options);
+    CHECK(turned.z_up);
+    REQUIRE(turned.notes.size() > 2);  // the sheet of 40 units may be one of 40 m, which doctor doubts
+    CHECK(turned.notes[0].find("stands along z") != std::string::npos);
+    CHECK(turned.notes[1].find("170 units large, so its unit is taken as cm (--body-unit m") != std::string::npos);
+    options.garment_unit = "cm";
+    const BuiltScene again = build_scene(drape_scene(options).scene);
+    CHECK(farthest(built.cloth_meshes[0].vertices, again.cloth_meshes[0].vertices) < 1e-6);
+    std::vector<Vec3> box = again.obstacle_meshes[0].vertices;
+    for (Vec3& x : box) x = transform(again.scene.obstacles[0].pose, x);
+    CHECK(farthest(built.obstacle_meshes[0].vertices, box) < 1e-6);
+}
+
+TEST_CASE("what is said is not guessed, and garments grow by the scale") {
+    const TestFolder folder;
+    DrapeOptions options = write_files(folder, [](const Vec3& x) { return Vec3(x.x(), -x.z(), x.y()); });
+    options.up = "y";
+    options.scale = 1.5;
+    options.garment_unit = options.body_unit = "m";
+    const DrapeScene made = drape_scene(options);
+    CHECK_FALSE(made.z_up);
+    for (const std::string& note : made.notes) CHECK(note.find("taken as") == std::string::npos);
+    CHECK(made.scene.cloths[0].pose.scale == 1.5);
+    CHECK(made.scene.cloths[0].pose.rotation.w == 1.0);
+}
+
+TEST_CASE("units are guessed so that things are 0.1 to some 10 m large") {
+    CHECK(guessed_unit(1.8) == "m");
+    CHECK(guessed_unit(180.0) == "cm");
+    CHECK(guessed_unit(1800.0) == "mm");
+    CHECK(stands_along_z({0.5, 0.3, 1.8}));
+    CHECK_FALSE(stands_along_z({0.5, 1.8, 0.3}));
+    CHECK_FALSE(stands_along_z({1.0, 1.0, 1.0}));
+}
+
+TEST_CASE("what doctor warns of is told, and options that are wrong are refused") {
+    const TestFolder folder;
+    DrapeOptions options = write_files(folder, [](const Vec3& x) { return x; });
+    options.fabric.thickness = 0.5;
+    const DrapeScene made = drape_scene(options);
+    REQUIRE_FALSE(made.notes.empty());
+    CHECK(made.notes[0].find("warning: cloth 'sheet': ") == 0);
+
+    const auto refusal = [&](auto change) {
+        DrapeOptions wrong = options;
+        change(wrong);
+        return message_of([&] { check_drape(wrong); });
+    };
+    CHECK(refusal([](DrapeOptions&) {}).empty());
+    CHECK(refusal([](DrapeOptions& o) { o.up = "x"; }) == "--up x: must be y or z");
+    CHECK(refusal([](DrapeOptions& o) { o.scale = 0.0; }).find("--scale: ") == 0);
+    CHECK(refusal([](DrapeOptions& o) { o.body_unit = "inch"; }) == "--body-unit inch: must be mm, cm or m");
+    CHECK(refusal([](DrapeOptions& o) { o.outs.clear(); }).find("it takes one for each garment") != std::string::npos);
+}
+
+}  // namespace percale::scenes::test

@@ -1,0 +1,69 @@
+#include "scenes/drape/drape_verdict.h"
+
+#include <fstream>
+
+#include "scenes/meshes/obj_file.h"
+#include "tests/scenes/test_folder.h"
+#include "tests/support/catch.h"
+
+namespace percale::scenes::test {
+namespace {
+
+/// A wide ring of two panels around a thin post on a foot.
+DrapeOptions ring_around_post(const TestFolder& folder, double half_width) {
+    const std::string w = std::to_string(half_width);
+    const std::string strip = "points = [[-" + w + ", 60], [" + w + ", 60], [" + w + ", 70], [-" + w + ", 70]]\n";
+    folder.write("ring.toml", "unit = \"cm\"\n[[panel]]\nname = \"a\"\n" + strip + "at = [0, 0, 8]\n[[panel]]\nname = \"b\"\n" +
+                                  strip + "at = [0, 0, -8]\nturn = [0, 180, 0]\n[[seam]]\nname = \"left\"\n" +
+                                  "sides = [[\"a.1\"], [\"b.3\"]]\n[[seam]]\nname = \"right\"\nsides = [[\"a.3\"], [\"b.1\"]]\n");
+    const TriangleMesh post = make_box(Vec3(0.1, 2.0, 0.1));
+    write_obj(folder.path("post.obj"), post.vertices, post.triangles);
+    DrapeOptions options;
+    options.files = {folder.path("ring.toml"), folder.path("post.obj")};
+    options.outs = {folder.path("out.obj")};
+    options.seconds = 0.95;
+    return options;
+}
+
+bool tells_of_sliding(const DrapeVerdict& verdict) {
+    return std::ranges::any_of(verdict.lines,
+                               [](const std::string& line) { return line.find("slid down by ") != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("a garment that slides down is told of, one that holds is not") {
+    const TestFolder folder;
+    for (const double half_width : {14.0, 9.0}) {
+        const DrapeOptions options = ring_around_post(folder, half_width);
+        BuiltScene built = build_scene(drape_scene(options).scene);
+        const Drape drape = settle(built, options, [](double) { return false; });
+        const DrapeVerdict verdict = verdict_of(built, options, drape, write_draped(built, options, false));
+        CAPTURE(half_width, verdict.lines, verdict.wrong);
+        CHECK(tells_of_sliding(verdict) == (half_width > 10.0));
+        CHECK(widest_gap(built).stitches > 0);
+    }
+}
+
+TEST_CASE(
+    "draped meshes are written with the axes of the files, and what crosses is said to be the body's where garments do not "
+    "meet") {
+    const TestFolder folder;
+    DrapeOptions options = ring_around_post(folder, 9.0);
+    options.seconds = 0.65;
+    options.no_self_contact = true;
+    BuiltScene built = build_scene(drape_scene(options).scene);
+    const Drape drape = settle(built, options, [](double) { return false; });
+    const DrapeVerdict verdict = verdict_of(built, options, drape, write_draped(built, options, true));
+    CAPTURE(verdict.lines);
+    CHECK(verdict.lines[0].find(" 0 intersecting pairs with the body, ") != std::string::npos);
+    CHECK(verdict.wrong.find("not at rest when the time was up") != std::string::npos);
+    std::ifstream in(folder.path("out.obj"));
+    const TriangleMesh written = read_obj(in, "out.obj");
+    const std::span<const Vec3> now = built.simulation.positions(built.cloths[0]);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        CHECK((written.vertices[i] - Vec3(now[i].x(), -now[i].z(), now[i].y())).norm() < 1e-6);
+    }
+}
+
+}  // namespace percale::scenes::test
