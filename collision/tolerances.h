@@ -228,6 +228,20 @@ constexpr int bond_sweeps = 4;
 /// together at once. Smaller: cloth is taken for torn where a seam gapes a little, and crosses itself there without an end.
 constexpr double closed_stitch = 0.25;
 
+/// Of the mean edge: how far from a lower layer cloth is moved outside of it, and to which gap. Larger reach: cloth is taken for
+/// that of the other side of a limb. Larger gap: cloth is stretched more.
+constexpr double layer_reach = 2.0, layer_gap = 0.05;
+
+/// Of that gap: with so much a place is left as it is, so that rounds end.
+constexpr double enough_gap = 0.8;
+
+/// Rounds in which layers are ordered. Cost, and how deep layers may lie in each other.
+constexpr int most_layer_rounds = 60;
+
+/// Of area to the power 3/2: a cloth whose normals enclose less than three times that volume is a flat sheet. A tube ten times as
+/// long as wide encloses 0.1.
+constexpr double least_enclosing = 0.02;
+
 /// Rounds without fewer crossings after which what is near the last ones is smoothed, and how many rings of vertices around them
 /// are. Fewer rounds: folds are ironed that would have come apart. More rings: more cloth is moved.
 constexpr int idle_rounds_before_smoothing = 20, smoothed_rings = 2;

@@ -94,6 +94,16 @@ void Simulation::set_pair(ClothId first, ClothId second, const ClothPair& pair) 
     scene_changed(world);
 }
 
+void Simulation::set_layer(ClothId cloth, int layer) {
+    World& world = implementation_->world;
+    const ClothRange& range = implementation_->cloth(cloth);
+    check_range(range.name, "layer", "", layer, -1000.0, 1000.0);
+    if (!range.fabric.self_contact) throw SceneError(range.name, "a layer says nothing where it meets no cloth (self_contact)");
+    world.scene.script.pairs.set_layer(cloth.index, layer);
+    pass_cloth_to_detector(world);
+    world.changed = true;
+}
+
 bool Simulation::meets(ClothId first, ClothId second) const {
     static_cast<void>(implementation_->cloth(first)), static_cast<void>(implementation_->cloth(second));
     return meet_now(implementation_->world, first.index, second.index);

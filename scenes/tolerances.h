@@ -71,6 +71,11 @@ constexpr int sphere_level = 4, shape_segments_around = 48;
 /// Dots of a key. Each takes a call inside a call: without a limit a hostile file would exhaust the stack.
 constexpr int deepest_key = 256;
 
+// ---- garment/
+
+/// m. How much farther out than the one below it the panels of a garment start. Smaller: panels start through those below.
+constexpr double layer_offset = 0.04;
+
 // ---- run/
 
 /// Radians, and times the thickness: what an obstacle turns and moves by in one part of a step. Larger: parts that the path of
@@ -149,9 +154,6 @@ constexpr double much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
 /// m. `drape` calls a seam with a wider gap not sewn. Smaller: tight gathers fail. Larger: seams closed on the wrong side of a
 /// limb pass.
 constexpr double widest_sewn_gap = 0.01;
-
-/// m. How much farther out than the one below it the panels of a garment start. Smaller: panels start through those below.
-constexpr double layer_offset = 0.04;
 
 /// A body that is by this factor taller along z than along y stands along z. Smaller: spheres and beds do. Larger: people do not.
 constexpr double standing_ratio = 1.5;

@@ -8,6 +8,7 @@
 #include "percale/certify.h"
 #include "tolerances.h"
 #include "untangle/edge_crossings.h"
+#include "untangle/layer_order.h"
 
 namespace percale {
 namespace {
@@ -47,6 +48,7 @@ public:
         for (int round = 0; round < tolerances::most_untangle_rounds; ++round) {
             const std::vector<IntersectingPair> pairs = find_pairs(round);
             if (pairs.empty()) return clear_places();
+            if (round == 0 && order_layers()) continue;
             ++since_fewest;
             if (pairs.size() < fewest) {
                 fewest = pairs.size();
@@ -54,13 +56,47 @@ public:
             }
             if (since_fewest > tolerances::most_idle_rounds) return std::nullopt;
             move_back(crossings_of(pairs));
-            if (since_fewest > tolerances::idle_rounds_before_smoothing) smooth(pairs);
+            if (since_fewest > tolerances::idle_rounds_before_smoothing) smooth(of_one_layer(pairs));
             for (int sweep = 0; sweep < tolerances::bond_sweeps; ++sweep) keep_lengths();
         }
         return std::nullopt;
     }
 
 private:
+    /// Cloth of higher layers goes outside of lower ones; false where all is of one layer.
+    bool order_layers() {
+        if (cloth_.meeting.pairs == nullptr || cloth_.meeting.pairs->layers().empty()) return false;
+        std::vector<int> cloth(mesh_.triangles.size());
+        layer_.resize(cloth.size());
+        for (std::size_t t = 0; t < merged_.triangle.size(); ++t) {
+            if (merged_.triangle[t] < 0) continue;
+            cloth[merged_.triangle[t]] = cloth_.meeting.cloth[t];
+            layer_[merged_.triangle[t]] = cloth_.meeting.pairs->layer(cloth_.meeting.cloth[t]);
+        }
+        const std::vector<double> outwards = outward_signs(mesh_.triangles, cloth, mesh_.vertices);
+        for (const int c : cloth) outwards_.push_back(outwards[c]);
+        const double edge = merged_.mean_edge();
+        const LayeredCloth layered{
+            surface_, cloth, layer_, outwards, free_, tolerances::layer_reach * edge, tolerances::layer_gap * edge};
+        for (int round = 0; round < tolerances::most_layer_rounds && push_outside(layered, mesh_.vertices); ++round) {
+            for (int sweep = 0; sweep < tolerances::bond_sweeps; ++sweep) keep_lengths();
+        }
+        return true;
+    }
+
+    /// Between layers it is known to which side to go.
+    void turn_by_layers(std::vector<EdgeCrossing>& crossings) const {
+        if (layer_.empty()) return;
+        for (EdgeCrossing& crossing : crossings) {
+            const int own = surface_.vertex_owner[crossing.edge[0]], other = surface_.vertex_owner[crossing.triangle[0]];
+            if (layer_[own] == layer_[other]) continue;
+            const auto& [a, b, c] = crossing.triangle;
+            const std::vector<Vec3>& x = mesh_.vertices;
+            const double side = layer_[own] > layer_[other] ? outwards_[other] : -outwards_[other];
+            crossing.retreat = side * (x[b] - x[a]).cross(x[c] - x[a]).normalized();
+        }
+    }
+
     std::vector<Vec3> places(bool gaps) const { return merged_.places(given_, gaps); }
 
     /// What has not moved keeps the gaps that it had, unless something crosses by that.
@@ -113,7 +149,9 @@ private:
             const int one = merged_.triangle[first], other = merged_.triangle[second];
             if (one >= 0 && other >= 0) merged.push_back({one, other});
         }
-        return edge_crossings(surface_, merged, mesh_.vertices);
+        std::vector<EdgeCrossing> crossings = edge_crossings(surface_, merged, mesh_.vertices);
+        turn_by_layers(crossings);
+        return crossings;
     }
 
     /// Whether a vertex is one of the pairs', or at most so many edges from one.
@@ -153,6 +191,12 @@ private:
         for (std::size_t v = 0; v < moves.size(); ++v) {
             if (weights[v] > 0.0 && free_[v] > 0.0) mesh_.vertices[v] += reach_ / std::max(weights[v], 1.0) * moves[v];
         }
+    }
+
+    std::vector<IntersectingPair> of_one_layer(std::vector<IntersectingPair> pairs) const {
+        const auto layer = [&](int triangle) { return cloth_.meeting.pairs->layer(cloth_.meeting.cloth[triangle]); };
+        if (!layer_.empty()) std::erase_if(pairs, [&](const IntersectingPair& p) { return layer(p.first) != layer(p.second); });
+        return pairs;
     }
 
     /// Draws what crosses, and what is near it, half way to the middle of its neighbours: folds that hang on one vertex, or
@@ -203,7 +247,9 @@ private:
     TriangleMesh& mesh_ = merged_.mesh;
     const std::vector<int>& number_ = merged_.number;
     const std::vector<double>& free_ = merged_.free;
-    ClothSurface surface_;  // of an edge with more than two triangles it knows two, which are enough for a direction
+    ClothSurface surface_;          // of an edge with more than two triangles it knows two, which are enough for a direction
+    std::vector<int> layer_;        // of each triangle of the mesh, where there are layers
+    std::vector<double> outwards_;  // likewise: 1 or -1, whether it faces outside as it is wound
     std::vector<Bond> bonds_;
     std::vector<Tie> ties_;
     std::vector<int> near_;  // triangles as given near the crossings of the last search of all cloth

@@ -165,6 +165,9 @@ std::uint64_t cloth_hash(const ClothModel& model, const ClothPairs& pairs) {
         for (const int number : {cloths[0], cloths[1], static_cast<int>(pair.contact)}) hash.add(number);
         hash.add(pair.thickness.value_or(0.0));
     }
+    for (const auto& [cloth, layer] : pairs.layers()) {
+        for (const int number : {cloth, layer}) hash.add(number);
+    }
     for (const ForceTerm* term : force_terms()) term->identify(model, hash);
     return hash.value();
 }

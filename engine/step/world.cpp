@@ -58,6 +58,7 @@ namespace {
 /// What the detector is told of pairs: what is said, and that those which wait do not meet. `zone`: times the thickness.
 ClothPairs pairs_now(const World& world, double zone) {
     ClothPairs pairs;
+    for (const auto& [cloth, layer] : world.scene.script.pairs.layers()) pairs.set_layer(cloth, layer);
     const int count = static_cast<int>(world.scene.model.cloths.size());
     for (const auto& [cloths, said] : world.scene.script.pairs.said()) {
         ClothPair pair = said;

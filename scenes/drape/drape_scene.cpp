@@ -120,6 +120,7 @@ private:
         const auto& [x, y, z] = options_.move;
         cloth.pose.translation = made_.z_up ? Vec3(x, z, -y) : Vec3(x, y, z);
         cloth.pose.scale = options_.scale;
+        cloth.layer = static_cast<int>(made_.scene.cloths.size());
         if (is_pattern(file)) {
             add_pattern(cloth);
         } else {
@@ -138,7 +139,6 @@ private:
         cloth.fabric = pattern_fabric;
         cloth.pattern = cloth.place.file;
         cloth.edge_length = options_.edge_length;
-        cloth.panel_offset = layer_offset * static_cast<double>(scene.seams.size());
         scene.step.gravity = Vec3::Zero();
         SeamSpec seam;
         seam.cloths = {cloth.name, cloth.name};

@@ -112,8 +112,8 @@ Field<ClothSpec> edge_length_field() {
 
 Field<ClothSpec> panel_offset_field() {
     return panel_field({.path = "panel_offset",
-                        .sentence = "How much farther out the panels of a pattern start, each along its normal: room for what is "
-                                    "worn below.",
+                        .sentence = "How much farther out the panels of a pattern start than its layer has them, each along its "
+                                    "normal: room for what is worn below.",
                         .lowest = 0.0,
                         .highest = 10.0,
                         .needs_why = "panel_offset moves a pattern's panels"},
@@ -382,6 +382,13 @@ const FieldTable<ClothSpec>& cloth_table() {
                                            .needs = "mesh",
                                            .needs_why = "warp of a grid runs along x"},
                                           &ClothSpec::warp),
+                   value_field<ClothSpec>({.path = "layer",
+                                           .sentence = "Where it is worn, from the inside out: panels of a pattern start 0.04 m "
+                                                       "farther out for each layer above 0; of cloths with self_contact that "
+                                                       "start through each other the one of the higher layer is moved outside.",
+                                           .lowest = -1000.0,
+                                           .highest = 1000.0},
+                                          &ClothSpec::layer),
                    pose_field<ClothSpec>(), pin_field()},
         .rules = {.shown = cloth_shown},
         .finish = finish_cloth};

@@ -54,7 +54,8 @@ struct ClothSpec {
     VertexSelection pin = VertexIndices{};
     std::string pattern;        // path of a sewing pattern
     double edge_length = 0.02;  // m, of its mesh
-    double panel_offset = 0.0;  // m, by which its panels start farther out
+    double panel_offset = 0.0;  // m, by which its panels start farther out than their layer does
+    int layer = 0;              // where it is worn, from the inside out
     SourcePlace pin_place;      // of `pin`; of the cloth where that is not said
     SourcePlace place;
 };

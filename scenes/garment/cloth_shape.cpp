@@ -1,5 +1,6 @@
 #include "garment/cloth_shape.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common/text.h"
@@ -25,7 +26,7 @@ RestShape uv_shape(const std::string& file, const ClothSpec& cloth, const Triang
 
 PatternMesh pattern_mesh(const Scene& scene, const ClothSpec& cloth) {
     Pattern pattern = read_pattern(path_beside(scene, cloth.pattern));
-    move_apart(pattern, cloth.panel_offset);
+    move_apart(pattern, cloth.panel_offset + layer_offset * std::max(cloth.layer, 0));
     return mesh_pattern(pattern, cloth.edge_length);
 }
 

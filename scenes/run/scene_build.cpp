@@ -92,6 +92,7 @@ void add_cloth(BuiltScene& built, const ClothSpec& cloth) {
     const Fabric fabric = fabric_on(built, cloth, shape.start, shape.rest);
     check_shear(cloth, shape.start, fabric.springs.shear);
     const ClothId id = built.simulation.add_cloth(shape.start, fabric, {}, cloth.name, shape.rest);
+    if (cloth.layer != 0 && built.scene.meets_cloth(cloth)) built.simulation.set_layer(id, cloth.layer);
     built.cloths.push_back(id);
     built.cloth_meshes.push_back(std::move(shape.start));
     built.rest_shapes.push_back(std::move(shape.rest));

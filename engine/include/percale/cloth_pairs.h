@@ -16,7 +16,8 @@ struct ClothPair {
     bool operator==(const ClothPair&) const = default;
 };
 
-/// What is said of pairs of cloths, by the numbers of the cloths, in either order; of all others ClothPair{} holds.
+/// What is said of pairs of cloths, by the numbers of the cloths, in either order; of all others ClothPair{} holds. And the order
+/// of layers.
 class ClothPairs {
 public:
     void set(int first, int second, const ClothPair& pair) {
@@ -30,10 +31,24 @@ public:
     /// Only what differs from ClothPair{}, the lower number first, in ascending order.
     const std::map<std::array<int, 2>, ClothPair>& said() const { return said_; }
 
+    /// How far out a cloth is worn, 0 where nothing is said: of cloths that start through each other the one of the higher layer
+    /// goes outside.
+    void set_layer(int cloth, int layer) {
+        layers_[cloth] = layer;
+        if (layer == 0) layers_.erase(cloth);
+    }
+    int layer(int cloth) const {
+        const auto found = layers_.find(cloth);
+        return found == layers_.end() ? 0 : found->second;
+    }
+    /// Only those that are not 0.
+    const std::map<int, int>& layers() const { return layers_; }
+
 private:
     static std::array<int, 2> key(int first, int second) { return {std::min(first, second), std::max(first, second)}; }
 
     std::map<std::array<int, 2>, ClothPair> said_;
+    std::map<int, int> layers_;
 };
 
 /// Which cloth each of a list of triangles belongs to, and what cloths are to each other. Without `cloth` all meet all.

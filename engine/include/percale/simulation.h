@@ -77,6 +77,9 @@ public:
     /// Cloths that come to meet by that and cross are untangled by the next step, as at a start. Throws SceneError for cloth
     /// without self_contact, and for a thickness without contact.
     void set_pair(ClothId first, ClothId second, const ClothPair& pair);
+    /// Where self_contact cloth is worn, -1000 ... 1000, from the inside out, 0 before the first call: of cloths that start
+    /// through each other, or do when seams have closed, that of the higher layer is moved outside of the other (`prepare`).
+    void set_layer(ClothId cloth, int layer);
     void set_time_step(double time_step);  // s, > 0
     /// All vertices of a cloth; m and m/s. For starts that are not at rest.
     void set_positions(ClothId cloth, std::span<const Vec3> positions);

@@ -282,3 +282,36 @@ TEST_CASE("The certificate leaves out triangles of cloths that do not meet, and 
               certify_cloth(all, {}, {cloth, &pairs});
           }).find("certify_cloth: the cloths of") != std::string::npos);
 }
+
+TEST_CASE("The order of layers says which of two interleaved cloths goes above the other, and is one of a saved state's marks") {
+    const int upper = GENERATE(0, 1);
+    const auto made = [&](int layer) {
+        auto simulation = std::make_unique<Simulation>(StepSettings{}, make_brute_force_detector());
+        for (int k = 0; k < 2; ++k) {
+            TriangleMesh sheet = make_grid(0.6, 0.6, 25 - k, 25 - k);
+            for (Vec3& x : sheet.vertices) x.y() = k == 0 ? 0.0 : 0.004 * std::sin(20.0 * x.x()) * std::cos(15.0 * x.z());
+            const ClothId id = simulation->add_cloth(sheet, sheet_cloth, {}, k == 0 ? "flat" : "wavy");
+            if (k == upper && layer != 0) simulation->set_layer(id, layer);
+        }
+        return simulation;
+    };
+    auto simulation = made(3);
+    simulation->prepare();
+    CHECK_FALSE(simulation->start_repair().empty());
+    REQUIRE(simulation->step().ok());
+    double height[2] = {};
+    for (int k = 0; k < 2; ++k) {
+        const auto positions = simulation->positions({k});
+        for (const Vec3& x : positions) height[k] += x.y() / static_cast<double>(positions.size());
+    }
+    CHECK(height[upper] > height[1 - upper] + 0.0005);
+
+    const std::vector<std::byte> saved = simulation->save();
+    CHECK(scene_error([&] { made(3)->restore(saved); }).empty());
+    CHECK(scene_error([&] { made(2)->restore(saved); }).find("pairs of cloths") != std::string::npos);
+    CHECK(scene_error([&] { simulation->set_layer({upper}, 1001); }).find("layer = 1001 ") != std::string::npos);
+    Fabric single = sheet_cloth;
+    single.self_contact = false;
+    const ClothId alone = simulation->add_cloth(make_grid(0.1, 0.1, 3, 3), single, {.translation = {0, 1, 0}}, "alone");
+    CHECK(scene_error([&] { simulation->set_layer(alone, 1); }).find("alone: a layer says nothing") != std::string::npos);
+}

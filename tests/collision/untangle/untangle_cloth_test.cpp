@@ -141,3 +141,39 @@ TEST_CASE("cloth that nothing may move is given up") {
     cloth.solve();
     CHECK_FALSE(cloth.out);
 }
+
+TEST_CASE("of sheets interleaved at random the order of layers decides which lies on which, of three as of two") {
+    const int sheets = GENERATE(2, 3);
+    CAPTURE(sheets);
+    TriangleMesh mesh;
+    std::vector<int> cloth;
+    std::vector<std::size_t> first;
+    ClothPairs pairs;
+    for (int k = 0; k < sheets; ++k) {
+        first.push_back(mesh.vertices.size());
+        TriangleMesh sheet = make_grid(1, 1, 37 - 2 * k, 37 - 2 * k);
+        for (Vec3& x : sheet.vertices) x.y() = 0.004 * std::sin((9.0 + k) * x.x() + k) * std::cos((7.0 - k) * x.z()) - 0.001 * k;
+        mesh = joined(mesh, sheet);
+        cloth.resize(mesh.triangles.size(), k);
+        pairs.set_layer(k, sheets - k);  // the last one lowest
+    }
+    const std::vector<double> free(mesh.vertices.size(), 1.0);
+    const MeetingCloth meeting{cloth, &pairs};
+    REQUIRE(certify_cloth(mesh, {}, meeting).crossing.size() > 300);
+    const auto out = untangle_cloth({mesh.triangles, free, {}, meeting}, mesh.vertices);
+    REQUIRE(out);
+    const ClothCertificate found = certify_cloth({.vertices = *out, .triangles = mesh.triangles}, {}, meeting);
+    CHECK(found.crossing.size() + found.touching.size() == 0);
+    // In the middle each is above the next.
+    std::vector<double> height;
+    for (int k = 0; k < sheets; ++k) {
+        const auto count = static_cast<std::size_t>((37 - 2 * k) * (37 - 2 * k));
+        double sum = 0.0;
+        for (std::size_t v = first[k]; v < first[k] + count; ++v) {
+            CHECK(((*out)[v] - mesh.vertices[v]).norm() < 0.02);
+            sum += (*out)[v].y();
+        }
+        height.push_back(sum / static_cast<double>(count));
+    }
+    for (int k = 1; k < sheets; ++k) CHECK(height[k - 1] > height[k] + 0.0005);
+}
