@@ -396,6 +396,10 @@ constexpr double rest_force_share = 0.02;
 /// converge. More: a step that cannot converge costs twice as much with each before it says so.
 constexpr int most_halvings = 6;
 
+/// s, m. Time in which a weld takes up its gap, and the gap of which its spring's force is the most that it holds with. Shorter:
+/// stitches swing. Wider: a seam that something keeps open pulls harder and harder.
+constexpr double weld_time = 0.05, widest_weld = 0.01;
+
 // ---- checks/: derivatives against differences, for settings.check_derivatives. Smaller: right forces are found wrong. Larger:
 // wrong ones pass.
 

@@ -13,6 +13,7 @@
 #include "sewn_points.h"
 #include "spring_network.h"
 #include "vectors.h"
+#include "weld.h"
 
 namespace percale {
 
@@ -48,6 +49,7 @@ struct ClothModel {
     SpringNetwork springs;
     Hinges hinges;
     std::vector<SewnPoint> sewn_points;
+    std::vector<Weld> welds;
     std::vector<MembraneTriangle> membrane;
     Adjacency adjacency;
     std::vector<Body> bodies;

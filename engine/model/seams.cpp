@@ -33,6 +33,9 @@ void append_seam(std::span<const Stitch> stitches, double stiffness, const Vecto
         // The spring of a point has no stiffness of its own: it joins, and tells the length.
         append_pair_of(stitch, stitch.joins_vertices() ? stiffness : 0.0, length, network);
     }
+    if (seam.first_weld >= 0) {
+        for (const Stitch& stitch : stitches) model.welds.push_back({stitch, stiffness});
+    }
     for (std::size_t k = 0; k < stitches.size(); ++k) {
         const Stitch& stitch = stitches[k];
         if (stitch.joins_vertices()) continue;
@@ -64,6 +67,11 @@ double seam_energy(const Seam& seam, double time, const ClothModel& model, const
         energy += sewn_energy(point, left * seam.length[point.spring - seam.first_spring], positions);
     }
     return energy;
+}
+
+std::span<Weld> welds_of(const Seam& seam, ClothModel& model) {
+    if (seam.first_weld < 0) return {};
+    return std::span(model.welds).subspan(seam.first_weld, seam.length.size());
 }
 
 Vec3 stitch_gap(const Stitch& stitch, const Vectors& positions) {

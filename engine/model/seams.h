@@ -18,13 +18,14 @@ struct Seam {
     std::vector<Stitch> stitches = {};  // in the numbers of the system
     double from = 0.0;                  // s
     double over = 0.0;                  // s, how long closing takes
+    int first_weld = -1;                // of its stitches, in their order; -1: it is not welded
     bool contact = true;                // whether the cloths that it joins meet before it has closed
 
     bool closes_after(double time) const { return time < from + over; }
 };
 
-/// Appends the springs of a seam between vertices of the system; closing begins at the time seam.from. finish_model has to
-/// follow.
+/// Appends the springs of a seam between vertices of the system, and its welds, if seam.first_weld says the number of the first;
+/// closing begins at the time seam.from. finish_model has to follow.
 void append_seam(std::span<const Stitch> stitches, double stiffness, const Vectors& positions, Seam& seam, ClothModel& model);
 
 /// Sets the rest lengths that the springs of a seam have at a time, s, in the list of those of all springs, m.
@@ -32,6 +33,9 @@ void set_seam_lengths(const Seam& seam, double time, std::vector<double>& rest_l
 
 /// Energy of a seam with the lengths that it has at a time, s, J.
 double seam_energy(const Seam& seam, double time, const ClothModel& model, const Vectors& positions);
+
+/// The welds of a seam; none where it is not welded.
+std::span<Weld> welds_of(const Seam& seam, ClothModel& model);
 
 /// From the point of a stitch to its vertex, m.
 Vec3 stitch_gap(const Stitch& stitch, const Vectors& positions);

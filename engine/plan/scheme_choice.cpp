@@ -121,6 +121,7 @@ SchemeChoice choose_scheme(const StepScene& scene, const ClothState& state, cons
     const bool adaptive = scene.settings.adaptive;
     const Scheme implicit = implicit_choice(scene), short_steps = explicit_choice(scene);
     if (has_contact(scene)) return {implicit, 1, "explicit schemes take no contact"};
+    if (!scene.model.welds.empty()) return {implicit, 1, "explicit schemes take no welded seams"};
     const double stable = stable_step_share * stable_step(scene, state, short_steps), dt = scene.settings.time_step;
     const double parts = adaptive ? 1.0 : std::max(1.0, std::ceil(dt / stable));
     const double tries = adaptive ? 3.0 : 1.0;  // a whole step and two halves
@@ -137,7 +138,7 @@ SchemeChoice choose_scheme(const StepScene& scene, const ClothState& state, cons
 bool can_be_chosen(const StepScene& scene, Scheme scheme, int parts) {
     const Scheme wish = scene.settings.scheme;
     if (wish != Scheme::automatic) return scheme == wish && parts == 1;
-    if (scheme == explicit_choice(scene) && !has_contact(scene))
+    if (scheme == explicit_choice(scene) && !has_contact(scene) && scene.model.welds.empty())
         return parts >= 1 && parts <= (scene.settings.adaptive ? 1 : most_explicit_parts);
     return scheme == implicit_choice(scene) && parts == 1;
 }

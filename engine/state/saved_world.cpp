@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forces/total_force.h"
 #include "percale/error.h"
 #include "percale/options.h"
 #include "percale/saved_report.h"
 #include "plan/planning.h"
 #include "plan/scheme_choice.h"
+#include "saved_identity.h"
 #include "saved_loads.h"
 #include "state_seal.h"
 #include "support/hash.h"
@@ -40,6 +40,7 @@ struct SavedWorld {
     std::vector<SavedObstacle> obstacles;
     std::vector<Seam> seams;            // without their stitches, which are the cloth's
     std::vector<Vec3> sewn_directions;  // of the points sewn to
+    std::vector<Vec3> holds;            // of the welds
     std::vector<double> clamps;         // of the hinges
     StepPlan plan;
     RestState rest;
@@ -77,7 +78,7 @@ void exchange(Archive& archive, Value& obstacle) {
 
 template <class Archive, OfType<Seam> Value>
 void exchange(Archive& archive, Value& seam) {
-    archive(seam.first_spring, seam.length, seam.from, seam.over, seam.contact);
+    archive(seam.first_spring, seam.length, seam.from, seam.over, seam.first_weld, seam.contact);
 }
 
 /// What plan_again takes over.
@@ -136,7 +137,7 @@ void exchange(Archive& archive, Value& saved) {
     archive(saved.changed, saved.plan_outdated, saved.waiting);
     archive(saved.settings.time_step, saved.settings.gravity, saved.settings.wind);
     archive(saved.state, saved.contact, saved.free, saved.pin_targets, saved.obstacles, saved.seams, saved.sewn_directions,
-            saved.clamps);
+            saved.holds, saved.clamps);
     archive(saved.plan, saved.rest, saved.solver_is_set);
     archive.choice(saved.solver.first, 4);
     archive.choice(saved.solver.in_use, 4);
@@ -144,45 +145,6 @@ void exchange(Archive& archive, Value& saved) {
 }
 
 namespace {
-
-/// What a world is made of. It does not change from step to step.
-struct Identity {
-    std::uint64_t cloth = 0, obstacles = 0, settings = 0;
-};
-
-std::uint64_t cloth_hash(const ClothModel& model, const ClothPairs& pairs) {
-    ListHash hash;
-    for (const ClothRange& cloth : model.cloths) {
-        for (const int number : {cloth.first, cloth.count, cloth.columns, static_cast<int>(cloth.fabric.self_contact)}) {
-            hash.add(number);
-        }
-        for (const double drag : {cloth.fabric.drag_normal, cloth.fabric.drag_tangential}) hash.add(drag);
-    }
-    for (const auto* numbers : {&model.mass, &model.thickness}) hash.add_all(*numbers);
-    hash.add_all(model.rest);
-    hash.add_all(model.triangles);
-    for (const auto& [cloths, pair] : pairs.said()) {
-        for (const int number : {cloths[0], cloths[1], static_cast<int>(pair.contact)}) hash.add(number);
-        hash.add(pair.thickness.value_or(0.0));
-    }
-    for (const auto& [cloth, layer] : pairs.layers()) {
-        for (const int number : {cloth, layer}) hash.add(number);
-    }
-    for (const ForceTerm* term : force_terms()) term->identify(model, hash);
-    return hash.value();
-}
-
-std::uint64_t obstacles_hash(const World& world) {
-    StateWriter writer;
-    writer(world.scene.detector != nullptr);
-    for (const ObstacleState& obstacle : world.scene.script.obstacles)
-        writer(obstacle.triangles, obstacle.start.scale, obstacle.restitution);
-    return checksum(writer.take());
-}
-
-Identity identity_of(const World& world) {
-    return {cloth_hash(world.scene.model, world.scene.script.pairs), obstacles_hash(world), options_hash(world.scene.settings)};
-}
 
 SavedWorld state_of(const World& world) {
     const StepScene& scene = world.scene;
@@ -199,6 +161,7 @@ SavedWorld state_of(const World& world) {
     for (const ObstacleState& o : scene.script.obstacles) saved.obstacles.push_back({o.start, o.end, o.settled});
     saved.seams = scene.script.seams;
     for (const SewnPoint& point : scene.model.sewn_points) saved.sewn_directions.push_back(point.direction);
+    for (const Weld& weld : scene.model.welds) saved.holds.push_back(weld.hold);
     for (const Hinge& hinge : scene.model.hinges.all) saved.clamps.push_back(hinge.clamp);
     saved.loads = {world.load_source != LoadSource::nowhere, contact_loads(world)};
     saved.plan = scene.plan;
@@ -293,13 +256,16 @@ private:
         bool same = saved_.seams.size() == world_.scene.script.seams.size();
         for (std::size_t k = 0; same && k < saved_.seams.size(); ++k) {
             const Seam &seam = saved_.seams[k], &own = world_.scene.script.seams[k];
-            same =
-                seam.first_spring == own.first_spring && seam.length.size() == own.length.size() && seam.contact == own.contact;
+            same = seam.first_spring == own.first_spring && seam.length.size() == own.length.size() &&
+                   seam.contact == own.contact && seam.first_weld == own.first_weld;
         }
         const std::vector<double>& lengths = saved_.state.cloth.rest_length;
         const auto springs = static_cast<std::size_t>(world_.scene.model.springs.size());
         reader_.demand(same && (lengths.empty() || (lengths.size() == springs && !saved_.seams.empty())), "other seams");
         reader_.demand(saved_.sewn_directions.size() == world_.scene.model.sewn_points.size(), "a wrong number of sewn points");
+        reader_.demand(saved_.holds.size() == world_.scene.model.welds.size(), "a wrong number of welds");
+        reader_.demand(std::ranges::all_of(saved_.holds, [](const Vec3& h) { return h.norm() < 1e300; }),
+                       "a weld without a force");
         reader_.demand(std::ranges::all_of(saved_.sewn_directions, [](const Vec3& d) { return d.allFinite(); }),
                        "a seam that closes in no direction");
         reader_.demand(std::all_of(lengths.begin(), lengths.end(), [](double length) { return length >= 0.0 && length < 1e300; }),
@@ -360,6 +326,7 @@ void put_script(SavedWorld& saved, Script& script) {
 void put_model(const SavedWorld& saved, ClothModel& model) {
     for (std::size_t k = 0; k < saved.clamps.size(); ++k) model.hinges.all[k].clamp = saved.clamps[k];
     for (std::size_t k = 0; k < saved.sewn_directions.size(); ++k) model.sewn_points[k].direction = saved.sewn_directions[k];
+    for (std::size_t k = 0; k < saved.holds.size(); ++k) model.welds[k].hold = saved.holds[k];
     set_bending(model);
     copy_bending(model.springs, model.adjacency);
 }

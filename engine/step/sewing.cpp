@@ -1,5 +1,9 @@
 #include "sewing.h"
 
+#include <algorithm>
+
+#include "tolerances.h"
+
 namespace percale {
 
 void add_rest_lengths(const SpringNetwork& network, std::vector<double>& rest_length) {
@@ -13,11 +17,31 @@ bool joins_itself(const Stitch& stitch) {
     return stitch.vertex == stitch.from || stitch.vertex == stitch.to;
 }
 
+double tighten_welds(World& world) {
+    StepScene& scene = world.scene;
+    if (scene.model.welds.empty()) return 0.0;
+    world.holds_before.clear();
+    for (const Weld& weld : scene.model.welds) world.holds_before.push_back(weld.hold);
+    const double share = std::min(1.0, scene.settings.time_step / weld_time);
+    double work = 0.0;
+    for (const Seam& seam : scene.script.seams) {
+        if (seam.closes_after(world.state.time)) continue;
+        work += tighten(welds_of(seam, scene.model), world.state.cloth.positions, share, widest_weld);
+    }
+    if (world.rest.potential) *world.rest.potential += work;
+    return work;
+}
+
+void loosen_welds(World& world) {
+    for (std::size_t k = 0; k < world.scene.model.welds.size(); ++k) world.scene.model.welds[k].hold = world.holds_before[k];
+}
+
 int sew(World& world, std::span<const Stitch> stitches, const SeamSettings& settings) {
     ClothModel model = world.scene.model;
     Seam seam{.length = {},
               .from = world.state.time + settings.after,
               .over = settings.over,
+              .first_weld = settings.weld ? static_cast<int>(model.welds.size()) : -1,
               .contact = settings.contact_while_closing};
     append_seam(stitches, settings.stiffness, world.state.cloth.positions, seam, model);
     finish_model(model);
@@ -27,6 +51,7 @@ int sew(World& world, std::span<const Stitch> stitches, const SeamSettings& sett
     world.work.newton.solver.forget_model();
     scene_changed(world);
     world.waiting = waiting_cloth(world.scene, world.state.time);
+    world.changed = world.changed || settings.weld;  // the scheme has to take them
     if (meets_cloth(world.scene)) {
         pass_cloth_to_detector(world);
         world.changed = true;

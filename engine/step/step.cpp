@@ -7,6 +7,7 @@
 #include "measure.h"
 #include "motion.h"
 #include "plan/planning.h"
+#include "sewing.h"
 #include "solve_step.h"
 #include "tolerances.h"
 
@@ -28,15 +29,15 @@ void advance_time(double time_step, StepState& state) {
 }
 
 /// Renews an outdated plan and sets what moves in this step. contact_dt, which sets the stiffness of contact, grows at once with
-/// the time step and falls gradually. Returns the work of pins that came or went, J.
+/// the time step and falls gradually. Returns the work of pins that came or went and of welds, J.
 double plan_step(World& world) {
     StepScene& scene = world.scene;
-    const double work = world.plan_outdated ? renew_plan(scene, world.state.cloth) : 0.0;
+    const double pins = world.plan_outdated ? renew_plan(scene, world.state.cloth) : 0.0;
     world.plan_outdated = false;
     set_motion_of_step(scene, world.state.cloth, world.state.time);
     const double dt = scene.settings.time_step;
     if (scene.plan.solve) world.state.contact_dt = std::max(dt, world.state.contact_dt - fastest_contact_shortening * dt);
-    return work;
+    return pins + tighten_welds(world);
 }
 
 /// Whether the end that was found is one: nothing infinite, no force that contradicts its energy.
@@ -84,6 +85,7 @@ StepReport step(World& world) {
         damp_kinetic_energy(scene, state, rest, report);
         update_rest(scene, work.newton.current.forces.total, state.cloth, rest, report);
     } else {
+        loosen_welds(world);
         state.past.forget();
         wake(rest);
         measure.kept(state, report);

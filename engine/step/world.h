@@ -33,6 +33,7 @@ struct World {
     bool changed = true;        // cloth or obstacles were added since the last preparation
     LoadSource load_source = LoadSource::nowhere;
     std::vector<ContactLoad> saved_loads;  // of a state that was restored
+    std::vector<Vec3> holds_before;        // N: of the welds, before the step that is being made
     /// Of each cloth that waits for seams to close: cloths with the same number are joined by such seams and do not meet each
     /// other, nor themselves, before; -1: it waits for none. Empty where none waits.
     std::vector<int> waiting;
@@ -53,7 +54,8 @@ bool cloth_meets_now(const World& world);
 /// Tells the detector all cloth anew, and what of it meets cloth now.
 void pass_cloth_to_detector(World& world);
 
-/// Throws SceneError where the scheme takes no contact and the scene has some, or takes none by projection.
+/// Throws SceneError where the scheme takes no contact and the scene has some, or takes none by projection, or takes no welded
+/// seams.
 void check_scheme(const StepScene& scene);
 
 /// Forces of obstacles on vertices at the end of the last step that was solved, sorted by vertex and obstacle; none where they

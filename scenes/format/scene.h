@@ -97,6 +97,7 @@ struct SeamSpec {
     double over = 1.0;                                        // s
     double stiffness = 1000.0;                                // N/m
     bool contact_while_closing = true;
+    bool weld = false;
     SourcePlace place;
 };
 

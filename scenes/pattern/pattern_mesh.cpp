@@ -121,13 +121,17 @@ private:
 
     void add_seam(std::size_t number) {
         const PatternSeam& seam = pattern_.seams[number];
-        SewnSeam sewn{.name = seam.name, .length = 0.0, .stitches = {}};
-        for (const auto& side : seam.sides) {
-            for (const EdgeUse& use : side) {
+        std::array<double, 2> length = {};
+        for (int k = 0; k < 2; ++k) {
+            for (const EdgeUse& use : seam.sides[k]) {
                 const Panel& panel = pattern_.panels[use.panel];
-                sewn.length += 0.5 * scenes::edge_length(panel, panel.edges[use.edge]);
+                length[k] += scenes::edge_length(panel, panel.edges[use.edge]);
             }
         }
+        SewnSeam sewn{.name = seam.name,
+                      .length = 0.5 * (length[0] + length[1]),
+                      .gather = std::max(length[0], length[1]) / std::min(length[0], length[1]),
+                      .stitches = {}};
         for (const auto& [first, second] : stations_.sewn[number]) {
             const int i = vertex_at(first), j = vertex_at(second);
             // At the tip of a dart both sides have one vertex.

@@ -19,6 +19,7 @@ struct PanelPart {
 struct SewnSeam {
     std::string name;
     double length = 0.0;           // m, mean of its sides
+    double gather = 1.0;           // length of the longer side over that of the shorter one
     std::vector<Stitch> stitches;  // vertex to vertex
 };
 

@@ -121,14 +121,18 @@ void sew(BuiltScene& built, const SeamSpec& seam, BuiltSeam made) {
                                          .over = seam.over,
                                          .stiffness = seam.stiffness,
                                          .contact_while_closing = seam.contact_while_closing,
+                                         .weld = seam.weld,
                                          .name = made.name});
     built.seams.push_back(std::move(made));
 }
 
-/// All seams of a pattern, each with its name there.
+/// All seams of a pattern, each with its name there. Gathers are not welded: the longer side does not fit onto the shorter one.
 void sew_pattern(BuiltScene& built, int cloth, const SeamSpec& seam) {
     for (const SewnSeam& own : built.pattern_seams[cloth]) {
-        if (!own.stitches.empty()) sew(built, seam, {.name = own.name, .sewn = {{cloth, cloth}, own.stitches}});
+        if (own.stitches.empty()) continue;
+        SeamSpec as_said = seam;
+        as_said.weld = seam.weld && own.gather < gathered_ratio;
+        sew(built, as_said, {.name = own.name, .sewn = {{cloth, cloth}, own.stitches}});
     }
 }
 

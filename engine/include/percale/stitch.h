@@ -24,6 +24,9 @@ struct SeamSettings {
     /// Whether the cloths that it joins meet each other, and themselves, before it has closed. If not, nor do cloths that such
     /// seams join with them; what crosses then is untangled (Simulation::prepare). For panels that start over each other.
     bool contact_while_closing = true;
+    /// Whether no gap is left at rest: each step adds to what a closed stitch holds with, up to `stiffness` times 1 cm, until its
+    /// sides meet. Needs backward Euler or TR-BDF2: without numerical damping stitches would swing.
+    bool weld = false;
     std::string name = "seam";  // for messages
 };
 
