@@ -9,4 +9,8 @@ namespace percale {
 /// its own in space, so that a closing point may turn the cloth.
 const ForceTerm& sewing_term();
 
+/// Forces of welded stitches (model/weld.h). They do not change within a step, so the matrix has no part of them: the stiffness
+/// is that of their springs.
+const ForceTerm& welding_term();
+
 }  // namespace percale

@@ -8,7 +8,6 @@
 #include "pressure.h"
 #include "sewing.h"
 #include "springs.h"
-#include "welding.h"
 #include "wind.h"
 
 namespace percale {

@@ -74,10 +74,4 @@ std::span<Weld> welds_of(const Seam& seam, ClothModel& model) {
     return std::span(model.welds).subspan(seam.first_weld, seam.length.size());
 }
 
-Vec3 stitch_gap(const Stitch& stitch, const Vectors& positions) {
-    if (stitch.joins_vertices()) return positions.at(stitch.vertex) - positions.at(stitch.other());
-    return positions.at(stitch.vertex) -
-           ((1.0 - stitch.share) * positions.at(stitch.from) + stitch.share * positions.at(stitch.to));
-}
-
 }  // namespace percale

@@ -37,7 +37,4 @@ double seam_energy(const Seam& seam, double time, const ClothModel& model, const
 /// The welds of a seam; none where it is not welded.
 std::span<Weld> welds_of(const Seam& seam, ClothModel& model);
 
-/// From the point of a stitch to its vertex, m.
-Vec3 stitch_gap(const Stitch& stitch, const Vectors& positions);
-
 }  // namespace percale

@@ -2,6 +2,12 @@
 
 namespace percale {
 
+Vec3 stitch_gap(const Stitch& stitch, const Vectors& positions) {
+    if (stitch.joins_vertices()) return positions.at(stitch.vertex) - positions.at(stitch.other());
+    return positions.at(stitch.vertex) -
+           ((1.0 - stitch.share) * positions.at(stitch.from) + stitch.share * positions.at(stitch.to));
+}
+
 Vec3 sewn_gap(const SewnPoint& point, const Vectors& positions) {
     const auto& [vertex, from, to, share] = point.stitch;
     return positions.at(vertex) - ((1.0 - share) * positions.at(from) + share * positions.at(to));

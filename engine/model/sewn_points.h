@@ -20,6 +20,9 @@ struct SewnPoint {
     int pair = -1;                  // pair (i, k); (j, k) is the next
 };
 
+/// From the point of a stitch to its vertex, m.
+Vec3 stitch_gap(const Stitch& stitch, const Vectors& positions);
+
 /// u of a point, m.
 Vec3 sewn_gap(const SewnPoint& point, const Vectors& positions);
 

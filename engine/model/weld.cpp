@@ -1,6 +1,6 @@
 #include "weld.h"
 
-#include "seams.h"
+#include "sewn_points.h"
 
 namespace percale {
 

@@ -147,7 +147,7 @@ private:
         seam.over = sewing_time;
         seam.stiffness = sewing_stiffness;
         seam.contact_while_closing = false;
-        seam.weld = true;
+        seam.weld = options_.weld;
         seam.place = cloth.place;
         scene.seams.push_back(seam);
         scene.cloths.push_back(cloth);

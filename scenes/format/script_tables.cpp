@@ -111,6 +111,20 @@ std::vector<SceneKey> expect_keys() {
 
 }  // namespace
 
+namespace {
+
+Field<SeamSpec> weld_field() {
+    return value_field<SeamSpec>(
+        {.path = "weld",
+         .sentence =
+             "true: no gap is left at rest, as if the sides were one; once closed, stitches pull harder step by step until "
+             "they meet, with at most stiffness times 1 cm. Gathers of patterns, sides that differ by a tenth, are left as "
+             "they are."},
+        &SeamSpec::weld);
+}
+
+}  // namespace
+
 const FieldTable<SeamSpec>& seam_table() {
     static const FieldTable<SeamSpec> table = {
         .fields =
@@ -160,12 +174,7 @@ const FieldTable<SeamSpec>& seam_table() {
                      .sentence = "false: until this seam has closed the cloths that it joins meet neither each other nor "
                                  "themselves; what then crosses is untangled. For panels that start over each other."},
                     &SeamSpec::contact_while_closing),
-                value_field<SeamSpec>(
-                    {.path = "weld",
-                     .sentence = "true: no gap is left at rest, as if the sides were one; once closed, stitches "
-                                 "pull harder step by step until they meet, with at most stiffness times 1 cm. "
-                                 "Gathers of patterns, sides that differ by a tenth, are left as they are."},
-                    &SeamSpec::weld),
+                weld_field(),
             },
         .rules = {.shown = [](const TomlNode&) -> std::string { return "seam"; },
                   .at_least_one = {"vertices", "points", "file"},
