@@ -76,8 +76,8 @@ constexpr int deepest_key = 256;
 /// m. How much farther out than the one below it the panels of a garment start. Smaller: panels start through those below.
 constexpr double layer_offset = 0.04;
 
-/// Ratio of a seam's sides from which on it is a gather, and is not welded. Larger: edges of the longer side that have no room are
-/// pressed together without end. Smaller: eased seams stay open a little.
+/// Ratio of a seam's sides from which on it is a gather, and is not welded. Larger: edges of the longer side that have no room
+/// are pressed together without end. Smaller: eased seams stay open a little.
 constexpr double gathered_ratio = 1.1;
 
 // ---- run/
