@@ -16,6 +16,7 @@
 #include "run/event_script.h"
 #include "run/obstacle_motion.h"
 #include "run/start_fault.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
