@@ -181,6 +181,15 @@ constexpr double flat_sine = 0.05;
 /// first: at 1 one contact would count several times.
 constexpr double flat_crossing = 0.5;
 
+/// Fraction of h below which every pair of the lists is in contact, a local minimum or not: near a seam the features that lie
+/// closer may be no pairs, as they share a stitched point. 0: nothing holds such a pair apart until the cut stops it, and Newton
+/// gets no farther (3,000 iterations a step, distances of 1e-17 m). Large: one contact counts several times.
+constexpr double least_zone = 0.1;
+
+/// A contact that began in a smaller zone passes on to one this many times as large: from least_zone to that of a local minimum.
+/// 1: edges that are now flat, now a ridge tremble.
+constexpr double widened_zone = 3.0;
+
 /// Sine (2 degrees). Edges at smaller angles have no contact of their own, their ends have. 0: closest points jump from end to
 /// end of parallel threads.
 constexpr double least_crossing_sine = 0.03;

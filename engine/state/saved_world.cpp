@@ -103,7 +103,7 @@ void exchange(Archive& archive, Value& rest) {
 
 template <class Archive, OfType<RestState> Value>
 void exchange(Archive& archive, Value& rest) {
-    archive(rest.cloths, rest.anchor, rest.potential, rest.asleep, rest.figures);
+    archive(rest.cloths, rest.anchor, rest.potential, rest.unrest, rest.asleep, rest.figures);
 }
 
 template <class Archive, OfType<SchemeMemory> Value>

@@ -3,17 +3,34 @@
 #include <algorithm>
 
 #include "measure.h"
+#include "tolerances.h"
 
 namespace percale {
+namespace {
+
+/// Whether a step stops cloth: it does where the potential rose. Where that goes on in every second or third step, cloth
+/// trembles between two sets of contacts, each met on the way from the other, and then for a while every step does.
+bool stops(bool rises, int& unrest) {
+    if (unrest > most_unrest) {
+        if (--unrest == most_unrest) unrest = 0;
+        return true;
+    }
+    unrest = rises ? unrest + unrest_of_rise : std::max(0, unrest - 1);
+    if (unrest >= most_unrest) unrest = most_unrest + stopping_steps;
+    return rises;
+}
+
+}  // namespace
 
 void damp_kinetic_energy(const StepScene& scene, StepState& state, RestState& rest, StepReport& report) {
     if (!scene.settings.kinetic_damping) return;
     const StepEnergy energy = scene.plan.measures ? report.energy : energy_of(scene, state);
     const double potential = energy.gravity + energy.elastic;
     const bool driven = scene.plan.something_moves() || scene.settings.wind.value_or(Vec3::Zero()) != Vec3::Zero();
-    const bool rises = rest.potential && potential > *rest.potential && !driven;
+    const bool rises = rest.potential && potential > *rest.potential;
     rest.potential = potential;
-    if (!rises) return;
+    if (driven) rest.unrest = 0;
+    if (driven || !stops(rises, rest.unrest)) return;
     for (auto* axis : {&state.cloth.velocities.x, &state.cloth.velocities.y, &state.cloth.velocities.z})
         std::fill(axis->begin(), axis->end(), 0.0);
     state.past.forget();

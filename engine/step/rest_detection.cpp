@@ -91,6 +91,7 @@ void wake(RestState& rest) {
     rest.cloths.clear();
     rest.anchor.resize(0);
     rest.potential.reset();
+    rest.unrest = 0;
     rest.asleep = false;
 }
 

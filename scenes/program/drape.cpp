@@ -135,7 +135,9 @@ void add_options(CLI::App& command, DrapeCommand& all) {
                     "At rest is what for half a second keeps within half a second times this of one place, m/s (default 0.0002)")
         ->type_name("V");
     command.add_flag("--until-rest", all.until_rest, "Go on until all garments are proven at rest; so it does without this, too");
-    command.add_flag("--weld", options.weld, "Leave no gap at the seams of patterns, but for gathers");
+    command.add_flag_callback(
+        "--no-weld", [&options] { options.weld = false; },
+        "Leave what gaps springs leave at the seams of patterns (default: none, but for gathers)");
     command.add_flag("--no-self-contact", options.no_self_contact,
                      "Let garments pass through themselves and each other, which costs less");
     command.add_flag("--quiet", all.quiet, "Print nothing but errors");

@@ -230,6 +230,33 @@ TEST_CASE("a contact of cloths that hardly move stays one until they are apart")
     CHECK(rows_at(*detector, at(1.0, 0.8 * h, 0.2 * h)) == 0);
 }
 
+TEST_CASE("edges over a valley whose slopes are sewn to them are in contact once they are near") {
+    // The slopes lie nearer to the upper edge than the valley's ground, but its ends are sewn to them.
+    const auto rows_at = [](double height, bool sewn) {
+        Cloths cloths;
+        cloths.add({.vertices = {{0, 0, -5}, {0, 0, 5}, {-0.2, 0.1, 0}, {0.2, 0.1, 0}}, .triangles = {{0, 2, 1}, {0, 1, 3}}},
+                   0.6);
+        cloths.add({.vertices = {{-0.2, height, 0}, {0.2, height, 0}, {0, height + 1.0, 0}}, .triangles = {{0, 1, 2}}}, 0.6);
+        const std::vector<Stitch> stitches{{.vertex = 4, .from = 2, .to = 2}, {.vertex = 5, .from = 3, .to = 3}};
+        SelfContact self = cloths.self_contact();
+        if (sewn) self.stitches = stitches;
+        const auto detector = backends()[0].make_detector();
+        detector->set_cloth(cloths.mesh.triangles, cloths.thickness);
+        detector->set_self_contact(self);
+        detector->refresh(cloths.mesh.vertices, cloths.mesh.vertices);
+        ContactRows rows;
+        detector->evaluate(cloths.mesh.vertices, 0.0, rows);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (sewn) CHECK(rows.distance[i] == Approx(height));
+            if (sewn) CHECK(std::abs(rows.direction[i].y()) == Approx(1.0));
+        }
+        return rows.size();
+    };
+    CHECK(rows_at(0.03, true) == 1);
+    CHECK(rows_at(0.09, true) == 0);
+    CHECK(rows_at(0.03, false) > 1);
+}
+
 TEST_CASE("contacts that join while a step is solved are gone in the next where cloth has moved") {
     // A vertex above a flat sheet, which then dips under it so that its closest point leaves the face.
     Random random(3);

@@ -1,5 +1,7 @@
 #include "engine/step/kinetic_damping.h"
 
+#include <algorithm>
+
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
@@ -29,6 +31,28 @@ int steps_to_sleep(Simulation& simulation, int most) {
         if (simulation.step().slept) return n;
     }
     return most;
+}
+
+/// In which of 200 steps cloth is stopped whose potential rises in every `period`-th.
+std::vector<bool> stops_of(int period, bool pins_move = false) {
+    const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
+    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.kinetic_damping = true});
+    world.scene.plan.measures = true;
+    std::vector<bool> stopped;
+    double potential = 0.0;
+    for (int n = 0; n < 200; ++n) {
+        world.scene.plan.pins_move = pins_move && n < 100;
+        potential += n % period == 0 ? 1.0 : -1.0;
+        StepReport report;
+        report.energy.gravity = potential;
+        damp_kinetic_energy(world.scene, world.state, world.rest, report);
+        stopped.push_back(report.stopped);
+    }
+    return stopped;
+}
+
+long count_of(const std::vector<bool>& stops, int first, int last) {
+    return std::count(stops.begin() + first, stops.begin() + last, true);
 }
 
 }  // namespace
@@ -77,6 +101,23 @@ TEST_CASE("Cloth that creeps is left alone: overdamped, its potential falls in e
         return simulation.state_hash();
     };
     CHECK(hash_after(true) == hash_after(false));
+}
+
+TEST_CASE("Where the potential rises in every second step, every step stops cloth for a second, and then not") {
+    const std::vector<bool> trembling = stops_of(2), swinging = stops_of(8);
+    CHECK(count_of(swinging, 1, 200) == 24);
+    CHECK(count_of(trembling, 1, 10) == 4);
+    const auto all_stop = [&](int n) { return count_of(trembling, n, n + 60) == 60; };
+    int first = 0;
+    while (first < 100 && !all_stop(first)) ++first;
+    CHECK(first < 30);
+    CHECK(count_of(trembling, first + 62, first + 72) == 5);
+}
+
+TEST_CASE("A pin that moves ends the steps that all stop cloth") {
+    const std::vector<bool> stops = stops_of(2, true);
+    CHECK(count_of(stops, 0, 100) == 0);
+    CHECK(count_of(stops, 100, 110) == 5);
 }
 
 TEST_CASE("Cloth is not stopped while a pin lifts it") {
