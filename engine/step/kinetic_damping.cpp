@@ -23,7 +23,7 @@ bool stops(bool rises, int& unrest) {
 }  // namespace
 
 void damp_kinetic_energy(const StepScene& scene, StepState& state, RestState& rest, StepReport& report) {
-    if (!scene.settings.kinetic_damping) return;
+    if (!scene.settings.kinetic_damping || rest.asleep) return;
     const StepEnergy energy = scene.plan.measures ? report.energy : energy_of(scene, state);
     const double potential = energy.gravity + energy.elastic;
     const bool driven = scene.plan.something_moves() || scene.settings.wind.value_or(Vec3::Zero()) != Vec3::Zero();

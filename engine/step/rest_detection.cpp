@@ -22,26 +22,30 @@ bool is_still(const RestCheck& check, const Vectors& positions, const Vectors& a
     return true;
 }
 
-bool is_balanced(const RestCheck& check, const Vectors& forces) {
+/// By what velocities have changed in the step: forces at its end hold what the solver left unbalanced, too, which on a stiff
+/// contact is many times a vertex's weight where it moves nothing.
+bool is_balanced(const RestCheck& check, const Vectors& from, const Vectors& to) {
     const auto& [scene, cloth, bound] = check;
     // A force m a moves a vertex by a t^2/2.
     const double least = 2.0 * bound / (rest_time * rest_time);
     const double acceleration = std::max(rest_force_share * scene.settings.gravity.norm(), least);
+    const double change = acceleration * scene.settings.time_step;
     for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
-        if (scene.is_free(i) && forces.at(i).norm() > acceleration * scene.model.mass[i]) return false;
+        if (scene.is_free(i) && (to.at(i) - from.at(i)).squaredNorm() > change * change) return false;
     }
     return true;
 }
 
-void update_cloth(const RestCheck& check, const Vectors& forces, const Vectors& positions, Vectors& anchor, ClothRest& rest) {
+void update_cloth(const RestCheck& check, const Vectors& velocities, const ClothState& state, Vectors& anchor, ClothRest& rest) {
     const auto& [scene, cloth, bound] = check;
+    const Vectors& positions = state.positions;
     if (is_still(check, positions, anchor)) {
         rest.still_time += scene.settings.time_step;
     } else {
         rest.still_time = 0.0;
         for (int i = cloth.first; i < cloth.first + cloth.count; ++i) anchor.set(i, positions.at(i));
     }
-    rest.asleep = rest.still_time >= rest_time && is_balanced(check, forces);
+    rest.asleep = rest.still_time >= rest_time && is_balanced(check, velocities, state.velocities);
 }
 
 void fall_asleep(ClothState& cloth, RestState& rest, StepReport& last) {
@@ -68,7 +72,7 @@ void fall_asleep(ClothState& cloth, RestState& rest, StepReport& last) {
 
 }  // namespace
 
-void update_rest(const StepScene& scene, const Vectors& forces, ClothState& cloth, RestState& rest, StepReport& report) {
+void update_rest(const StepScene& scene, const Vectors& velocities, ClothState& cloth, RestState& rest, StepReport& report) {
     if (!scene.plan.rest) return;
     if (scene.plan.something_moves() || report.status != StepStatus::ok) return wake(rest);
     if (rest.cloths.size() != scene.model.cloths.size()) {
@@ -81,7 +85,7 @@ void update_rest(const StepScene& scene, const Vectors& forces, ClothState& clot
         const std::optional<double>& speed = scene.settings.rest_speed;
         const double bound = speed ? *speed * rest_time : rest_displacement_share * scene.model.thickness[range.first];
         const RestCheck check{scene, range, bound};
-        update_cloth(check, forces, cloth.positions, rest.anchor, rest.cloths[c]);
+        update_cloth(check, velocities, cloth, rest.anchor, rest.cloths[c]);
         report.sleeping_cloths += rest.cloths[c].asleep;
     }
     if (report.sleeping_cloths == static_cast<int>(rest.cloths.size())) fall_asleep(cloth, rest, report);

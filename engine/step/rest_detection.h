@@ -28,13 +28,12 @@ struct RestState {
 /// one is at rest. A cloth is at rest if for 0.5 s
 /// - no vertex was farther than 0.002 of the thickness, or 0.5 s times StepSettings::rest_speed, from where it was when that time
 ///   began, and now
-/// - the net force on each free vertex (springs, gravity, contact, friction) is below 0.02 of its weight (without gravity: below
-/// what moves
-///   it by that distance in that time),
+/// - the net force on each free vertex (springs, gravity, contact, friction), mass times what the step changed its velocity by
+///   over its length, is below 0.02 of its weight (without gravity: below what moves it by that distance in that time),
 /// while no pin and no obstacle moved and every step converged. Two conditions, as a swing is slow where it turns and
 /// balanced where it is fast.
-/// `forces`: of the last evaluation, N. Falling asleep changes velocities and the report.
-void update_rest(const StepScene& scene, const Vectors& forces, ClothState& cloth, RestState& rest, StepReport& report);
+/// `velocities`: at the start of the step, m/s. Falling asleep changes velocities and the report.
+void update_rest(const StepScene& scene, const Vectors& velocities, ClothState& cloth, RestState& rest, StepReport& report);
 
 /// Whatever changes the scene calls this.
 void wake(RestState& rest);

@@ -82,8 +82,8 @@ StepReport step(World& world) {
         finish_motion(scene);
         advance_time(dt, state);
         measure.accepted(state, work, report);
+        update_rest(scene, end->cloth.velocities, state.cloth, rest, report);
         damp_kinetic_energy(scene, state, rest, report);
-        update_rest(scene, work.newton.current.forces.total, state.cloth, rest, report);
     } else {
         loosen_welds(world);
         state.past.forget();
