@@ -9,6 +9,7 @@
 #include "common/whole_file.h"
 #include "doctor/doctor_scene.h"
 #include "meshes/mesh_import.h"
+#include "meshes/stitch_file.h"
 #include "percale/error.h"
 #include "tolerances.h"
 
@@ -21,7 +22,7 @@ constexpr double sewing_stiffness = 3000.0;  // N/m
 /// Of a preset, so that hems come to rest within seconds.
 constexpr double sewing_damping = 0.02;  // s
 /// A preset's moduli hold on patterns; on meshes that do not say where warp is they are made isotropic, which is warned of.
-constexpr const char *mesh_fabric = "mesh", *pattern_fabric = "pattern";
+constexpr const char *mesh_fabric = "mesh", *sewn_mesh_fabric = "sewn mesh", *pattern_fabric = "pattern";
 
 const std::map<std::string, double> metres = {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}};
 
@@ -92,8 +93,8 @@ private:
             fabric.damping_time = sewing_damping;
             fabric.spring_damping = 0.0;
         }
-        made_.scene.fabrics[pattern_fabric] = fabric;
-        if (!options_.preset.empty()) made_.scene.preset_moduli = {mesh_fabric};
+        made_.scene.fabrics[pattern_fabric] = made_.scene.fabrics[sewn_mesh_fabric] = fabric;
+        if (!options_.preset.empty()) made_.scene.preset_moduli = {mesh_fabric, sewn_mesh_fabric};
     }
 
     void guess_up(const Vec3& body) {
@@ -124,21 +125,36 @@ private:
         if (is_pattern(file)) {
             add_pattern(cloth);
         } else {
-            cloth.fabric = mesh_fabric;
-            cloth.mesh = file;
-            cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file));
-            cloth.pose.rotation = turn_;
-            made_.scene.cloths.push_back(cloth);
+            add_mesh(cloth);
         }
     }
 
-    /// It is sewn when those of the garments below it are, without weight.
+    void add_mesh(ClothSpec& cloth) {
+        const std::string& file = cloth.place.file;
+        cloth.mesh = file;
+        cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file));
+        cloth.pose.rotation = turn_;
+        const std::size_t stitches = extension_of(file) == ".obj" ? find_obj_stitches(file).size() : 0;
+        cloth.fabric = stitches > 0 ? sewn_mesh_fabric : mesh_fabric;
+        if (stitches > 0) {
+            note(file + " has " + std::to_string(stitches) + " stitches, by which it is sewn");
+            add_seam(cloth, false);  // it does not say which are gathers
+        }
+        made_.scene.cloths.push_back(cloth);
+    }
+
     void add_pattern(ClothSpec& cloth) {
         if (!options_.garment_unit.empty()) throw SceneError("--garment-unit: a pattern says its own unit");
-        Scene& scene = made_.scene;
         cloth.fabric = pattern_fabric;
         cloth.pattern = cloth.place.file;
         cloth.edge_length = options_.edge_length;
+        add_seam(cloth, options_.weld);
+        made_.scene.cloths.push_back(cloth);
+    }
+
+    /// A garment is sewn when those below it are, without weight.
+    void add_seam(const ClothSpec& cloth, bool weld) {
+        Scene& scene = made_.scene;
         scene.step.gravity = Vec3::Zero();
         SeamSpec seam;
         seam.cloths = {cloth.name, cloth.name};
@@ -147,10 +163,9 @@ private:
         seam.over = sewing_time;
         seam.stiffness = sewing_stiffness;
         seam.contact_while_closing = false;
-        seam.weld = options_.weld;
+        seam.weld = weld;
         seam.place = cloth.place;
         scene.seams.push_back(seam);
-        scene.cloths.push_back(cloth);
     }
 
     void add_body(const Vec3& extent) {

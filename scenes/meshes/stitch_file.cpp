@@ -50,6 +50,10 @@ std::vector<Stitch> read_lines(const std::string& file, Read read) {
         const std::optional<Stitch> stitch = read(line.substr(0, line.find('#')), place);
         if (stitch) stitches.push_back(*stitch);
     }
+    return stitches;
+}
+
+std::vector<Stitch> some(const std::string& file, std::vector<Stitch> stitches) {
     if (stitches.empty()) throw SceneError(file, "no stitches");
     return stitches;
 }
@@ -57,14 +61,16 @@ std::vector<Stitch> read_lines(const std::string& file, Read read) {
 }  // namespace
 
 std::vector<Stitch> read_stitch_file(const std::string& file) {
-    return read_lines(file, [](std::string_view line, const TextPlace& place) -> std::optional<Stitch> {
-        std::string_view rest = line;
-        if (next_word(rest).empty()) return std::nullopt;
-        return read_stitch(line, place);
-    });
+    return some(file, read_lines(file, [](std::string_view line, const TextPlace& place) -> std::optional<Stitch> {
+                    std::string_view rest = line;
+                    if (next_word(rest).empty()) return std::nullopt;
+                    return read_stitch(line, place);
+                }));
 }
 
-std::vector<Stitch> read_obj_stitches(const std::string& file) {
+std::vector<Stitch> read_obj_stitches(const std::string& file) { return some(file, find_obj_stitches(file)); }
+
+std::vector<Stitch> find_obj_stitches(const std::string& file) {
     return read_lines(file, [](std::string_view line, const TextPlace& place) -> std::optional<Stitch> {
         if (next_word(line) != "stitch") return std::nullopt;
         return read_stitch(line, place);

@@ -13,5 +13,7 @@ std::vector<Stitch> read_stitch_file(const std::string& file);
 
 /// The lines "stitch i j" and "stitch i j k t" of an OBJ file. Throws SceneError with file:line, and where there are none.
 std::vector<Stitch> read_obj_stitches(const std::string& file);
+/// The same; empty where there are none.
+std::vector<Stitch> find_obj_stitches(const std::string& file);
 
 }  // namespace percale::scenes

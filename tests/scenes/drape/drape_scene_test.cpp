@@ -1,5 +1,7 @@
 #include "scenes/drape/drape_scene.h"
 
+#include <fstream>
+
 #include "scenes/meshes/obj_file.h"
 #include "scenes/run/scene_build.h"
 #include "tests/scenes/message_of.h"
@@ -67,6 +69,21 @@ TEST_CASE("what is said is not guessed, and garments grow by the scale") {
     for (const std::string& note : made.notes) CHECK(note.find("taken as") == std::string::npos);
     CHECK(made.scene.cloths[0].pose.scale == 1.5);
     CHECK(made.scene.cloths[0].pose.rotation.w == 1.0);
+}
+
+TEST_CASE("a mesh with stitches is sewn as a pattern is, without weight until it is, one without is not") {
+    const TestFolder folder;
+    DrapeOptions options = write_files(folder, [](const Vec3& x) { return x; });
+    CHECK(drape_scene(options).scene.seams.empty());
+    CHECK(drape_scene(options).scene.step.gravity != Vec3::Zero());
+    std::ofstream(options.files[0], std::ios::app) << "stitch 0 4\nstitch 20 23 24 0.5\n";
+    const DrapeScene made = drape_scene(options);
+    REQUIRE(made.notes.size() == 1);
+    CHECK(made.notes[0].find("has 2 stitches, by which it is sewn") != std::string::npos);
+    CHECK(made.scene.step.gravity == Vec3::Zero());
+    const BuiltScene built = build_scene(made.scene);
+    REQUIRE(built.seams.size() == 1);
+    CHECK(built.seams[0].sewn.stitches == std::vector<Stitch>{{0, 4, 4, 0.0}, {20, 23, 24, 0.5}});
 }
 
 TEST_CASE("units are guessed so that things are 0.1 to some 10 m large") {

@@ -25,6 +25,10 @@ TEST_CASE("an OBJ file's stitches are its lines of that keyword") {
     const TestFolder folder;
     const std::string file = file_of(folder, "v 0 0 0\nf 1 2 3\nstitch 0 2 1 0.25\n# stitch 9 9\nstitch 1 2\n");
     CHECK(read_obj_stitches(file) == std::vector<Stitch>{{0, 2, 1, 0.25}, {1, 2, 2, 0.0}});
+    CHECK(find_obj_stitches(file) == read_obj_stitches(file));
+    const std::string none = file_of(folder, "v 0 0 0\n# stitch 0 1\n");
+    CHECK(find_obj_stitches(none).empty());
+    CHECK_THROWS_AS(read_obj_stitches(none), SceneError);
 }
 
 TEST_CASE("what is no stitch is told with its line") {

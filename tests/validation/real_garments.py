@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""Fetches seven garments of other projects, dresses their bodies in them, and says how each ended.
+
+    tests/validation/real_garments.py build/percale build/real_garments
+
+Nothing of what it fetches belongs to this project, and some of it may be used for tests only. --source says where repositories
+are: an address with {owner} and {name}, or a folder of bare copies. What is there already is not fetched again.
+
+Columns: vertices; how it ended; simulated and CPU seconds; Newton iterations a step; frames that cross (the body or itself);
+gap of 95 % of the stitches and of all, mm, of the widest seam; largest strain of an edge. Exit code 1 if one is not at rest
+or crosses.
+"""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+
+FILES = {
+    "isantesteban/snug": ["assets/meshes/tshirt.obj", "assets/meshes/pants.obj"],
+    "isantesteban/vto-garment-collisions": ["assets/meshes/body.obj"],
+    "omegaiota/DiffCloth": ["src/assets/meshes/remeshed/skirt7271.obj"],
+    "maria-korosteleva/GarmentCode": ["assets/bodies/mean_all.obj"] + [
+        f"assets/Patterns/{name}_specification.json" for name in ("dress_pencil", "shirt_mean", "hoody_mean")],
+    "ipc-sim/Codim-IPC": ["Projects/FEMShell/input/dress_knife/stage.obj", "Projects/FEMShell/input/Rumba_Dancing/shell0.obj"],
+}
+
+# name: (garment, body, further keys of the cloth, of the body, of its seams)
+SEWN = "contact_while_closing = false\n"
+GARMENTS = {
+    "t-shirt (SNUG)": ("tshirt.obj", "body.obj", "", "", None),
+    "pants (SNUG)": ("pants.obj", "body.obj", "", "", None),
+    "skirt (DiffCloth), 1.4 times as large": (
+        "skirt7271.obj", "mean_all.obj", "pose = { translation = [0, -0.42, 0], scale = 1.4 }\n", "", None),
+    "dress_pencil (GarmentCode)": ("dress_pencil_specification.json", "mean_all.obj", "", "", SEWN + "weld = true\n"),
+    "shirt_mean (GarmentCode)": ("shirt_mean_specification.json", "mean_all.obj", "", "", SEWN + "weld = true\n"),
+    "hoody_mean (GarmentCode)": ("hoody_mean_specification.json", "mean_all.obj", "", "", SEWN + "weld = true\n"),
+    "dress (Codim-IPC), from its panels": (
+        "stage.obj", "shell0.obj", "pose = { rotation = [0.7071067811865476, -0.7071067811865476, 0, 0] }\n",
+        "pose = { translation = [0, -0.75, 0] }\n", ""),
+}
+
+
+def fetch(source, folder):
+    for repository, files in FILES.items():
+        missing = [file for file in files if not (folder / pathlib.Path(file).name).exists()]
+        if not missing:
+            continue
+        owner, name = repository.split("/")
+        place = source.format(owner=owner, name=name)
+        if "://" in place:
+            copy = folder / f"{owner}+{name}"
+            command = ["git", "clone", "--depth", "1", "--filter=blob:none", "--no-checkout", place, str(copy)]
+            if not copy.exists() and subprocess.run(command, check=False).returncode != 0:
+                sys.exit(f"{place}: cannot be fetched")
+            place = str(copy)
+        for file in missing:
+            show = subprocess.run(["git", "-C", place, "show", f"HEAD:{file}"], capture_output=True, check=False)
+            if show.returncode != 0:
+                sys.exit(f"{place}: no {file}: {show.stderr.decode().strip()}")
+            (folder / pathlib.Path(file).name).write_bytes(show.stdout)
+
+
+def scene(garment, body, cloth_keys, body_keys, seam_keys, options):
+    is_pattern = garment.endswith(".json")
+    text = f'''title = "{garment} on {body}"
+duration = "rest"
+gravity = [0.0, {0.0 if seam_keys is not None else -9.81}, 0.0]
+
+[step]
+time_step = 0.016666666666666666
+kinetic_damping = true
+rest_speed = 0.0002
+
+[fabric.cloth]
+preset = "{options.fabric}"
+thickness = {options.thickness}
+self_contact = true
+damping_time = 0.02
+
+[[cloth]]
+name = "garment"
+fabric = "cloth"
+{"pattern" if is_pattern else "mesh"} = "{garment}"
+{cloth_keys}
+[[obstacle]]
+name = "body"
+mesh = "{body}"
+friction = 0.4
+{body_keys}'''
+    if seam_keys is not None:
+        text += f'''
+[[seam]]
+file = "mesh"
+over = 0.6
+stiffness = 3000.0
+{seam_keys}
+[[event]]
+time = 0.6
+gravity = [0.0, -9.81, 0.0]
+'''
+    return text + "\n[expect]\nintersections = 0\nlargest_strain = { below = 10.0 }\n"
+
+
+def gap_mm(report, key):
+    gaps = [seam[key] for seam in report.get("seams", []) if seam.get(key) is not None]
+    return f"{1e3 * max(gaps):.3g}" if gaps else "-"
+
+
+def dress(program, folder, name, options):
+    number = list(GARMENTS).index(name) + 1
+    file = folder / f"garment_{number}.toml"
+    file.write_text(scene(*GARMENTS[name], options))
+    out = folder / f"garment_{number}"
+    try:
+        run = subprocess.run([program, "run", str(file), "-o", str(out), "--threads", str(options.threads)], capture_output=True,
+                             text=True, timeout=options.limit, check=False)
+    except subprocess.TimeoutExpired:
+        print(f"{name:38} took longer than {options.limit:g} s", flush=True)
+        return False
+    report_file = out / "report.json"
+    error = run.stderr.strip().splitlines()[-1] if run.stderr.strip() else ""
+    if not report_file.exists():
+        print(f"{name:38} {error}", flush=True)
+        return False
+    report = json.loads(report_file.read_text())
+    crossing = sum(1 for frame in report["frames"] if frame["intersections"] > 0)
+    at_rest = run.returncode == 0 and report["rest"]["at_rest"]
+    last = sorted((out / "frames").glob("garment_*.obj"))[-1]
+    vertices = sum(1 for line in last.open() if line.startswith("v "))
+    print(f"{name:38} {vertices:6} vertices  {'at rest' if at_rest else 'NOT at rest':11} {report['simulated_s']:6.2f} s simulated"
+          f" {report['cpu_s']:7.1f} CPU s  {report['newton_iterations'] / max(1, report['steps']):5.1f} Newton a step"
+          f"  {crossing} of {len(report['frames'])} frames cross  gap {gap_mm(report, 'gap_of_95_percent')} /"
+          f" {gap_mm(report, 'largest_gap')} mm  strain {100 * report['largest_strain']:.3g} %", flush=True)
+    if not at_rest:
+        print(f"    {error}", flush=True)
+    return at_rest and crossing == 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("folder", type=pathlib.Path, help="where the files go, outside the repository or under build/")
+    parser.add_argument("--source", default="https://github.com/{owner}/{name}")
+    parser.add_argument("--fabric", default="cotton")
+    parser.add_argument("--thickness", type=float, default=0.003, help="m")
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--only", help="those whose name contains this")
+    parser.add_argument("--limit", type=float, default=900.0, help="wall seconds for one garment")
+    options = parser.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+    fetch(options.source, options.folder)
+    names = [name for name in GARMENTS if not options.only or options.only in name]
+    ends = [dress(str(pathlib.Path(options.program).resolve()), options.folder, name, options) for name in names]
+    print(f"{sum(ends)} of {len(ends)} at rest without a crossing")
+    return 0 if all(ends) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
