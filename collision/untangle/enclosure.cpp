@@ -43,7 +43,7 @@ Enclosure::Enclosure(std::vector<Triangle> triangles, std::span<const Vec3> posi
     std::map<int, int> number;
     for (auto& [b, a, rim] : rims_) rim = number.try_emplace(lowest(a), static_cast<int>(number.size())).first->second;
     rim_count_ = static_cast<int>(number.size());
-    if (rim_count_ == 1) return;
+    if (rim_count_ < 2) return;
     const std::vector<Vec3> centres = middles(positions);
     for (const Vec3& point : points) {
         if (surrounds(point, positions, centres)) surrounded_.push_back(point);

@@ -10,7 +10,8 @@
 namespace percale {
 
 /// What a piece of cloth surrounds: the points about which its solid angle is more than half of all directions, each of its rims
-/// closed by a fan about the rim's middle. A skirt surrounds a waist; a sheet, a piece with one rim, surrounds nothing.
+/// closed by a fan about the rim's middle. A skirt surrounds a waist; a sheet or a ball,
+/// pieces with fewer than two rims, surround nothing.
 class Enclosure {
 public:
     /// `triangles`: of a connected piece, wound alike. `points`: m, those that may be surrounded.

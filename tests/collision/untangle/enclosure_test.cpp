@@ -49,12 +49,13 @@ TEST_CASE("A tube has lost what it surrounds once fewer than half of the points 
     CHECK(enclosure.lost(shifted(mesh.vertices, {1.1, 0.0, 0.0})));
 }
 
-TEST_CASE("Neither a sheet nor a tube beside the points surrounds any, so nothing is lost") {
+TEST_CASE("Neither a sheet, a tube beside the points nor a ball surrounds any, so nothing is lost") {
     Random random(5);
     std::vector<Vec3> points;
     for (int i = 0; i < 100; ++i) points.push_back(random.point(0.2));
-    const TriangleMesh sheet = make_grid(1.0, 1.0, 8, 8), beside = moved(tube(24, 7), {2.0, 0.0, 0.0});
-    for (const TriangleMesh& mesh : {sheet, beside}) {
+    const TriangleMesh sheet = make_grid(1.0, 1.0, 8, 8), beside = moved(tube(24, 7), {2.0, 0.0, 0.0}),
+                       ball = make_sphere(1.0, 2);
+    for (const TriangleMesh& mesh : {sheet, beside, ball}) {
         const Enclosure enclosure(mesh.triangles, mesh.vertices, points);
         CHECK_FALSE(enclosure.lost(shifted(mesh.vertices, {5.0, 0.0, 0.0})));
     }
