@@ -73,11 +73,14 @@ constexpr int deepest_key = 256;
 
 // ---- garment/
 
+/// kg/m^2, of cloth that nothing is said about: from silk gauze to chain mail. Outside a unit is likely wrong.
+constexpr double lightest_cloth = 0.005, heaviest_cloth = 15.0;
+
 /// m. How much farther out than the one below it the panels of a garment start. Smaller: panels start through those below.
 constexpr double layer_offset = 0.04;
 
-/// Ratio of a seam's sides from which on it is a gather, and is not welded. Larger: edges of the longer side that have no room
-/// are pressed together without end. Smaller: eased seams stay open a little.
+/// Ratio of a seam's sides from which on it is a gather: the longer one gets vertices between stitches. Larger: edges of the longer
+/// side are pressed together. Smaller: eased seams are gathered.
 constexpr double gathered_ratio = 1.1;
 
 // ---- run/

@@ -8,6 +8,7 @@
 #include "common/text.h"
 #include "common/whole_file.h"
 #include "doctor/doctor_scene.h"
+#include "meshes/mesh_facts.h"
 #include "meshes/mesh_import.h"
 #include "meshes/stitch_file.h"
 #include "percale/error.h"
@@ -17,7 +18,7 @@ namespace percale::scenes {
 namespace {
 
 /// How a pattern is sewn.
-constexpr double sewing_time = 0.6;          // s
+constexpr double sewing_time = 2.0;          // s; in 0.6 s straps catch at the shoulder, and it costs as much
 constexpr double sewing_stiffness = 3000.0;  // N/m
 /// Of a preset, so that hems come to rest within seconds.
 constexpr double sewing_damping = 0.02;  // s
@@ -58,6 +59,15 @@ Vec3 extent_of(const std::string& file) {
     return highest - lowest;
 }
 
+/// False where it cannot be read, too.
+bool looks_closed(const std::string& file) {
+    try {
+        return mesh_facts(joined_by_place(import_mesh(file)).mesh).watertight();
+    } catch (const SceneError&) {
+        return false;
+    }
+}
+
 class DrapeScenes {
 public:
     explicit DrapeScenes(const DrapeOptions& options) : options_(options) {}
@@ -68,6 +78,7 @@ public:
         const Vec3 body = extent_of(options_.body());
         guess_up(body);
         for (const std::string& file : options_.garments()) add_garment(file);
+        refuse_short_time();
         add_body(body);
         ask_doctor();
         return std::move(made_);
@@ -95,6 +106,13 @@ private:
         }
         made_.scene.fabrics[pattern_fabric] = made_.scene.fabrics[sewn_mesh_fabric] = fabric;
         if (!options_.preset.empty()) made_.scene.preset_moduli = {mesh_fabric, sewn_mesh_fabric};
+    }
+
+    void refuse_short_time() const {
+        const double sewn = sewing_time * static_cast<double>(made_.scene.seams.size());
+        if (options_.seconds > sewn) return;
+        throw SceneError("--seconds " + short_number(options_.seconds) + ": sewing alone takes " + short_number(sewn) +
+                         " s, " + short_number(sewing_time) + " s for each garment; it must be more");
     }
 
     void guess_up(const Vec3& body) {
@@ -181,6 +199,9 @@ private:
 
     /// What is an error building the scene refuses.
     void ask_doctor() {
+        const std::string& last = options_.garments().back();
+        if (!is_pattern(last) && looks_closed(last) && !looks_closed(options_.body()))
+            note("warning: " + last + " is a closed surface and " + options_.body() + " is not: the body comes last");
         for (const Finding& finding : examine_scene_meshes(made_.scene)) {
             if (finding.severity == Severity::warning) note("warning: " + finding.what);
         }

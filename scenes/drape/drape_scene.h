@@ -25,7 +25,7 @@ struct DrapeOptions {
     double seconds = 20.0;      // s, limit
     double still = 2e-4;        // m/s, what rest is
     double edge_length = 0.02;  // m, of a pattern's mesh
-    bool weld = true;           // of a pattern all seams but gathers
+    bool weld = true;           // the seams of patterns
     bool no_self_contact = false;
     bool damps_patterns = false;  // a preset whose damping nothing else is said of
 

@@ -118,8 +118,7 @@ Field<SeamSpec> weld_field() {
         {.path = "weld",
          .sentence =
              "true: no gap is left at rest, as if the sides were one; once closed, stitches pull harder step by step until "
-             "they meet, with at most stiffness times 1 cm. Gathers of patterns, sides that differ by a tenth, are left as "
-             "they are."},
+             "they meet, with at most stiffness times 1 cm."},
         &SeamSpec::weld);
 }
 

@@ -6,6 +6,7 @@
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "pattern/panel_curve.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
@@ -98,20 +99,44 @@ private:
         const std::array<SeamSide, 2> sides = {SeamSide(pattern_, seam.sides[0]), SeamSide(pattern_, seam.sides[1])};
         for (const SeamSide& side : sides) refuse_second_use(seam, side);
         std::array<std::vector<double>, 2> stations;
+        std::vector<std::array<std::size_t, 2>> joined;  // numbers of stations that are sewn together
         const std::vector<Break> breaks = breaks_of(seam, sides[0], sides[1], edge_length_);
         for (std::size_t b = 0; b + 1 < breaks.size(); ++b) {
-            double length = 0.0;
-            for (int s = 0; s < 2; ++s) length += 0.5 * (breaks[b + 1][s] - breaks[b][s]) * sides[s].length();
-            const int count = pieces(length, edge_length_);
-            for (int k = 0; k < count; ++k) {
-                for (int s = 0; s < 2; ++s) stations[s].push_back(std::lerp(breaks[b][s], breaks[b + 1][s], 1.0 * k / count));
+            std::array<double, 2> length;
+            for (int s = 0; s < 2; ++s) length[s] = (breaks[b + 1][s] - breaks[b][s]) * sides[s].length();
+            const Division division = divided(sides, length);
+            for (int k = 0; k < division.stitches; ++k) {
+                joined.push_back({stations[0].size(), stations[1].size()});
+                for (int s = 0; s < 2; ++s) {
+                    const int own = division.stitches * division.between[s];
+                    for (int i = k * division.between[s]; i < (k + 1) * division.between[s]; ++i)
+                        stations[s].push_back(std::lerp(breaks[b][s], breaks[b + 1][s], 1.0 * i / own));
+                }
             }
         }
+        joined.push_back({stations[0].size(), stations[1].size()});
         for (auto& list : stations) list.push_back(1.0);
         std::array<std::vector<EdgeStations::Place>, 2> places;
         for (int s = 0; s < 2; ++s) places[s] = enter(sides[s], stations[s]);
         auto& sewn = result_.sewn.emplace_back();
-        for (std::size_t k = 0; k < places[0].size(); ++k) sewn.push_back({places[0][k], places[1][k]});
+        for (const auto& [first, second] : joined) sewn.push_back({places[0][first], places[1][second]});
+    }
+
+    /// How a piece of a seam is divided: into pieces from stitch to stitch, each side's into as many edges.
+    struct Division {
+        int stitches = 1;
+        std::array<int, 2> between = {1, 1};
+    };
+
+    /// Where one side is longer it is gathered: between two stitches it gets vertices that are free to buckle. Sewn at each of
+    /// its vertices its edges would be pressed together. `length`: of a piece on both sides, m.
+    Division divided(const std::array<SeamSide, 2>& sides, const std::array<double, 2>& length) const {
+        const int longer = sides[1].length() > sides[0].length() ? 1 : 0;
+        if (sides[longer].length() < gathered_ratio * sides[1 - longer].length())
+            return {.stitches = pieces(0.5 * (length[0] + length[1]), edge_length_)};
+        Division division{.stitches = pieces(length[1 - longer], edge_length_)};
+        division.between[longer] = std::max(2, pieces(length[longer] / division.stitches, edge_length_));
+        return division;
     }
 
     void refuse_second_use(const PatternSeam& seam, const SeamSide& side) const {

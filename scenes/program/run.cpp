@@ -95,6 +95,8 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
     if (built.scene.has_contact())
         std::printf(", %d intersecting pairs, %s", m.intersections, nearness_text(m.smallest_distance).c_str());
     std::printf("; %s/report.json\n", options.folder.c_str());
+    if (!built.obstacles.empty() && result.totals.contacts_most == 0)
+        std::printf("warning: no cloth ever met an obstacle; is everything in its place, and in one unit?\n");
     for (const ExpectationResult& expectation : expectations) std::printf("  %s\n", expectation.text.c_str());
 }
 

@@ -7,6 +7,7 @@
 #include "format/expectations.h"
 #include "format/rest_check.h"
 #include "garment/cloth_shape.h"
+#include "garment/cloth_warnings.h"
 #include "garment/vertex_selection.h"
 #include "meshes/mesh_import.h"
 #include "percale/detectors.h"
@@ -127,13 +128,11 @@ void sew(BuiltScene& built, const SeamSpec& seam, BuiltSeam made) {
     built.seams.push_back(std::move(made));
 }
 
-/// All seams of a pattern, each with its name there. Gathers are not welded: the longer side does not fit onto the shorter one.
+/// All seams of a pattern, each with its name there.
 void sew_pattern(BuiltScene& built, int cloth, const SeamSpec& seam) {
     for (const SewnSeam& own : built.pattern_seams[cloth]) {
         if (own.stitches.empty()) continue;
-        SeamSpec as_said = seam;
-        as_said.weld = seam.weld && own.gather < gathered_ratio;
-        sew(built, as_said, {.name = own.name, .sewn = {{cloth, cloth}, own.stitches}});
+        sew(built, seam, {.name = own.name, .sewn = {{cloth, cloth}, own.stitches}});
     }
 }
 
@@ -232,6 +231,8 @@ BuiltScene build_scene(const Scene& given) {
         at_place_of(cloth, [&] { add_cloth(built, cloth); });
         pin_cloth(built, cloth);
     }
+    const std::vector<std::string> doubts = cloth_warnings(scene, built.cloth_meshes);
+    built.warnings.insert(built.warnings.end(), doubts.begin(), doubts.end());
     for (const ObstacleSpec& obstacle : scene.obstacles) at_place_of(obstacle, [&] { add_obstacle(built, obstacle); });
     for (const SeamSpec& seam : scene.seams) add_seam(built, seam);
     sew_other_patterns(built);

@@ -93,11 +93,11 @@ friction = 0.4
         text += f'''
 [[seam]]
 file = "mesh"
-over = 0.6
+over = 2.0
 stiffness = 3000.0
 {seam_keys}
 [[event]]
-time = 0.6
+time = 2.0
 gravity = [0.0, -9.81, 0.0]
 '''
     return text + "\n[expect]\nintersections = 0\nlargest_strain = { below = 10.0 }\n"

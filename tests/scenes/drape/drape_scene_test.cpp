@@ -1,5 +1,6 @@
 #include "scenes/drape/drape_scene.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include "scenes/meshes/obj_file.h"
@@ -69,6 +70,18 @@ TEST_CASE("what is said is not guessed, and garments grow by the scale") {
     for (const std::string& note : made.notes) CHECK(note.find("taken as") == std::string::npos);
     CHECK(made.scene.cloths[0].pose.scale == 1.5);
     CHECK(made.scene.cloths[0].pose.rotation.w == 1.0);
+}
+
+TEST_CASE("a garment that is closed and a body that is not were likely swapped") {
+    const TestFolder folder;
+    DrapeOptions options = write_files(folder, [](const Vec3& x) { return x; });
+    const auto told = [&] {
+        const std::vector<std::string> notes = drape_scene(options).notes;
+        return std::ranges::any_of(notes, [](const std::string& note) { return note.find("the body comes last") != note.npos; });
+    };
+    CHECK_FALSE(told());
+    std::swap(options.files[0], options.files[1]);
+    CHECK(told());
 }
 
 TEST_CASE("a mesh with stitches is sewn as a pattern is, without weight until it is, one without is not") {

@@ -21,7 +21,7 @@ DrapeOptions ring_around_post(const TestFolder& folder, double half_width) {
     DrapeOptions options;
     options.files = {folder.path("ring.toml"), folder.path("post.obj")};
     options.outs = {folder.path("out.obj")};
-    options.seconds = 0.95;
+    options.seconds = 2.35;
     return options;
 }
 
@@ -50,7 +50,7 @@ TEST_CASE(
     "meet") {
     const TestFolder folder;
     DrapeOptions options = ring_around_post(folder, 9.0);
-    options.seconds = 0.65;
+    options.seconds = 2.05;
     options.no_self_contact = true;
     BuiltScene built = build_scene(drape_scene(options).scene);
     const Drape drape = settle(built, options, [](double) { return false; });

@@ -52,6 +52,30 @@ TEST_CASE("both sides of a seam have as many stations, a corner of one side give
     for (const auto& [first, second] : pairs) CHECK(share_at(stations, first) >= 0.0);
 }
 
+TEST_CASE("a side that is longer by a tenth has vertices between the stitches, the other none") {
+    const auto sewn_to = [](double length) {
+        const std::string sides =
+            "unit = \"cm\"\n[[panel]]\nname = \"a\"\npoints = [[0, 0], [30, 0], [30, 20], [0, 20]]\n"
+            "[[panel]]\nname = \"b\"\npoints = [[0, 0], [" +
+            std::to_string(length) + ", 0], [0, -20]]\n";
+        return divide_edges(parse_pattern_toml(sides + "[[seam]]\nsides = [[\"a.0\"], [\"b.0\"]]\ngather = true\n", "t"), 0.02);
+    };
+    for (const double length : {20.0, 32.0, 34.0, 60.0, 100.0}) {
+        CAPTURE(length);
+        const EdgeStations stations = sewn_to(length);
+        const auto& pairs = stations.sewn[0];
+        std::array<std::size_t, 2> edges = {stations.shares[0][0].size() - 1, stations.shares[1][0].size() - 1};
+        const std::size_t stitches = pairs.size() - 1;
+        const int longer = length > 30.0 ? 1 : 0;
+        CHECK(edges[1 - longer] == stitches);
+        CHECK((edges[longer] > stitches) == (length < 27.0 || length > 33.0));
+        CHECK(edges[longer] % stitches == 0);
+        for (const auto& [first, second] : pairs) CHECK(share_at(stations, first) == Approx(share_at(stations, second)));
+        // No edge is far from what was asked for.
+        CHECK(std::max(0.3, 0.01 * length) / static_cast<double>(edges[longer]) == Approx(0.02).epsilon(0.45));
+    }
+}
+
 TEST_CASE("corners that nearly face each other are sewn to each other") {
     const EdgeStations stations = divide_edges(sewn("[\"b.3-\", \"b.2-\"]"), 0.05);
     const auto& pairs = stations.sewn[0];

@@ -83,6 +83,7 @@ TEST_CASE("a pattern is sewn around the body first, and then hangs on it") {
     CHECK(lowest > 0.8);
     CHECK(lowest < 1.0);
     CHECK(refused(drape({"--garment-unit", "cm"}), "a pattern says its own unit"));
+    CHECK(refused(drape({"--seconds", "2"}), "--seconds 2: sewing alone takes 2 s"));
 }
 
 TEST_CASE("a seam that the body keeps open is named, with its gap and its place") {
@@ -94,7 +95,7 @@ TEST_CASE("a seam that the body keeps open is named, with its gap and its place"
                                     "sides = [[\"a.1\"], [\"b.3\"]]\n");
     const TriangleMesh plate = make_box(Vec3(2.0, 2.0, 0.02));
     scenes::write_obj(folder.path("plate.obj"), plate.vertices, plate.triangles);
-    const ProgramRun run = run_program({"drape", "strips.toml", "plate.obj", "-o", "out.obj", "--seconds", "0.7"}, folder.path());
+    const ProgramRun run = run_program({"drape", "strips.toml", "plate.obj", "-o", "out.obj", "--seconds", "2.1"}, folder.path());
     CAPTURE(run.out, run.error);
     CHECK(run.exit_code == 1);
     CHECK(run.error.find("not sewn: seam 'left side' of '") != std::string::npos);
@@ -250,7 +251,7 @@ TEST_CASE("a pattern without a seam gets its weight, too") {
                  "unit = \"cm\"\n[[panel]]\nname = \"cloth\"\npoints = [[-10, -10], [10, -10], [10, 10], [-10, 10]]\n"
                  "at = [0, 14, 0]\nturn = [-90, 0, 0]\n");
     const ProgramRun run = run_program(
-        {"drape", "cloth.toml", "block.obj", "-o", "out.obj", "--fabric", "cotton", "--friction", "0.8", "--seconds", "1.5"},
+        {"drape", "cloth.toml", "block.obj", "-o", "out.obj", "--fabric", "cotton", "--friction", "0.8", "--seconds", "2.9"},
         folder.path());
     CAPTURE(run.out, run.error);
     double lowest = 1.0;

@@ -79,6 +79,7 @@ TEST_CASE("no text says that a distance is inf") {
     const ProgramRun run = run_program({"run", "far.toml", "-o", "out"}, folder.path());
     CHECK(run.exit_code == 0);
     CHECK(run.out.find("0 intersecting pairs, never near;") != std::string::npos);
+    CHECK(run.out.find("warning: no cloth ever met an obstacle") != std::string::npos);
     CHECK(run.out.find("smallest_distance infinite, expected > 0.1: passed") != std::string::npos);
     CHECK(report_in(folder, "out").at("smallest_distance").is_null());
 }

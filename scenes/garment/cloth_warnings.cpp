@@ -1,0 +1,46 @@
+#include "garment/cloth_warnings.h"
+
+#include <algorithm>
+
+#include "common/text.h"
+#include "tolerances.h"
+
+namespace percale::scenes {
+namespace {
+
+std::string density_warning(const std::string& name, double density) {
+    const bool heavy = density > heaviest_cloth;
+    const std::string other = short_number(heavy ? density / 1000.0 : 1000.0 * density);
+    return "fabric '" + name + "': area_density " + short_number(density) + " kg/m^2 is too " + (heavy ? "heavy" : "light") +
+           " for cloth (" + short_number(lightest_cloth) + " ... " + short_number(heaviest_cloth) + "); was " + other +
+           " kg/m^2 meant?";
+}
+
+bool in_one_place(const TriangleMesh& a, const TriangleMesh& b, double thickness) {
+    return std::ranges::equal(a.vertices, b.vertices,
+                              [&](const Vec3& x, const Vec3& y) { return (x - y).squaredNorm() < thickness * thickness; });
+}
+
+}  // namespace
+
+std::vector<std::string> cloth_warnings(const Scene& scene, std::span<const TriangleMesh> starts) {
+    std::vector<std::string> warnings;
+    for (const auto& [name, fabric] : scene.fabrics) {
+        const bool used = std::ranges::find(scene.cloths, name, &ClothSpec::fabric) != scene.cloths.end();
+        const bool likely = fabric.area_density >= lightest_cloth && fabric.area_density <= heaviest_cloth;
+        if (used && !likely) warnings.push_back(density_warning(name, fabric.area_density));
+    }
+    for (std::size_t b = 0; b < starts.size(); ++b) {
+        for (std::size_t a = 0; a < b; ++a) {
+            const Fabric &first = scene.fabrics.at(scene.cloths[a].fabric), &second = scene.fabrics.at(scene.cloths[b].fabric);
+            const double thickness = std::min(first.thickness, second.thickness);
+            if ((first.self_contact && second.self_contact) || !in_one_place(starts[a], starts[b], thickness)) continue;
+            warnings.push_back("cloths '" + scene.cloths[a].name + "' and '" + scene.cloths[b].name +
+                               "' lie in one place and pass through each other; self_contact = true of their fabrics lets them "
+                               "meet");
+        }
+    }
+    return warnings;
+}
+
+}  // namespace percale::scenes
