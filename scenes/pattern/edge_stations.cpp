@@ -72,6 +72,11 @@ std::vector<Break> breaks_of(const PatternSeam& seam, const SeamSide& first, con
                             " m; choose a smaller one");
 }
 
+/// The beginnings of so many equal pieces.
+void add_stations(double from, double to, int count, std::vector<double>& stations) {
+    for (int k = 0; k < count; ++k) stations.push_back(std::lerp(from, to, 1.0 * k / count));
+}
+
 class Divider {
 public:
     Divider(const Pattern& pattern, double edge_length) : pattern_(pattern), edge_length_(edge_length) {
@@ -106,13 +111,11 @@ private:
             for (int s = 0; s < 2; ++s) length[s] = (breaks[b + 1][s] - breaks[b][s]) * sides[s].length();
             const Division division = divided(sides, length);
             for (int k = 0; k < division.stitches; ++k) {
-                joined.push_back({stations[0].size(), stations[1].size()});
-                for (int s = 0; s < 2; ++s) {
-                    const int own = division.stitches * division.between[s];
-                    for (int i = k * division.between[s]; i < (k + 1) * division.between[s]; ++i)
-                        stations[s].push_back(std::lerp(breaks[b][s], breaks[b + 1][s], 1.0 * i / own));
-                }
+                joined.push_back({stations[0].size() + static_cast<std::size_t>(k * division.between[0]),
+                                  stations[1].size() + static_cast<std::size_t>(k * division.between[1])});
             }
+            for (int s = 0; s < 2; ++s)
+                add_stations(breaks[b][s], breaks[b + 1][s], division.stitches * division.between[s], stations[s]);
         }
         joined.push_back({stations[0].size(), stations[1].size()});
         for (auto& list : stations) list.push_back(1.0);
