@@ -111,8 +111,8 @@ private:
     void refuse_short_time() const {
         const double sewn = sewing_time * static_cast<double>(made_.scene.seams.size());
         if (options_.seconds > sewn) return;
-        throw SceneError("--seconds " + short_number(options_.seconds) + ": sewing alone takes " + short_number(sewn) +
-                         " s, " + short_number(sewing_time) + " s for each garment; it must be more");
+        throw SceneError("--seconds " + short_number(options_.seconds) + ": sewing alone takes " + short_number(sewn) + " s, " +
+                         short_number(sewing_time) + " s for each garment; it must be more");
     }
 
     void guess_up(const Vec3& body) {
