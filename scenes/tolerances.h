@@ -79,8 +79,8 @@ constexpr double lightest_cloth = 0.005, heaviest_cloth = 15.0;
 /// m. How much farther out than the one below it the panels of a garment start. Smaller: panels start through those below.
 constexpr double layer_offset = 0.04;
 
-/// Ratio of a seam's sides from which on it is a gather: the longer one gets vertices between stitches. Larger: edges of the longer
-/// side are pressed together. Smaller: eased seams are gathered.
+/// Ratio of a seam's sides from which on it is a gather: the longer one gets vertices between stitches. Larger: edges of the
+/// longer side are pressed together. Smaller: eased seams are gathered.
 constexpr double gathered_ratio = 1.1;
 
 // ---- run/
