@@ -199,9 +199,15 @@ constexpr double least_crossing_sine = 0.03;
 /// (l - l0)/l0. A route that stretches an edge by more tears: others are preferred. The engine relaxes what is stretched.
 constexpr double most_stretch = 0.5;
 
-/// Places along each axis that are asked whether cloth surrounds them, and how many have to be for it to surround an obstacle.
-/// More: untangling takes longer. Fewer: a skirt may leave the body that it was put on.
-constexpr int enclosure_places = 8, least_surrounded = 4;
+/// Places along each axis of the box about cloth where it is looked for what it surrounds. More: untangling takes longer. Fewer:
+/// a skirt may leave the body that it was put on.
+constexpr int enclosure_places = 8;
+
+/// Places inside an obstacle that cloth has to surround so that it must go on to do so. Smaller: chance decides.
+constexpr int least_surrounded = 4;
+
+/// From the middle of a rim to its vertices: where an obstacle is looked for that passes through it. Fewer: legs are missed.
+constexpr double fan_places[] = {0.0, 0.25, 0.5, 0.75, 0.95};
 
 /// Fraction of h that moved cloth keeps from obstacles. Less than cut_floor would start the run within the floor of cuts. Towards
 /// 1: narrow places have no way out.

@@ -392,9 +392,10 @@ constexpr double rest_time = 0.5, rest_displacement_share = 0.002;
 /// Share of a vertex's weight that forces on it may leave in cloth at rest. Larger: a swing sleeps where it turns.
 constexpr double rest_force_share = 0.02;
 
-/// What a step adds to RestState::unrest in which the potential rises; each other takes 1. From how much on, and for how many
-/// steps, every step stops cloth. Fewer rises: a swing creeps to rest. Fewer steps: what trembles never lies still for rest_time.
-constexpr int unrest_of_rise = 3, most_unrest = 12, stopping_steps = 60;
+/// RestState::unrest grows by the first with each step in which the potential rises and falls by 1 in each other, so that it
+/// grows where every third step rises. From the second on each step stops cloth for so many s. Smaller: a swing creeps to rest.
+constexpr int unrest_of_rise = 3, most_unrest = 12;
+constexpr double stopping_time = 2.0 * rest_time;
 
 /// Halvings of one span, one inside the other: the shortest is 1/64 of it. Fewer: hard impacts end as steps that did not
 /// converge. More: a step that cannot converge costs twice as much with each before it says so.

@@ -93,10 +93,11 @@ double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRo
 double SelfContactDetection::measure(const SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows) {
     const SelfPairContact contact = self_contact(pair, positions, lists_.surface());
     pair.reach = contact.distance + list.travel;
-    const double zone = std::max(contact.relative_zone, tolerances::least_zone) * thickness_at(pair, contact.weight);
+    const double least = contact.jumps ? 0.0 : tolerances::least_zone;
+    const double zone = std::max(contact.relative_zone, least) * thickness_at(pair, contact.weight);
     // As with obstacles, a contact stays one while a step is solved, and in the next ones until its cloth has moved: contacts
     // that come and go while cloth lies still would keep it moving. So would edges that are now flat, now a ridge.
-    if (is_first_ && zone > 0.0 && pair.shape == PairShape::point_triangle) pair.zone = 0.0;
+    if (is_first_ && contact.relative_zone > 0.0 && pair.shape == PairShape::point_triangle) pair.zone = 0.0;
     if (contact.distance < zone && zone > tolerances::widened_zone * pair.zone) {
         pair.zone = zone;
         pair.began_apart = apart(pair, start_);

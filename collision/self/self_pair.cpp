@@ -83,6 +83,7 @@ SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const C
     const double limit =
         tolerances::least_crossing_sine * tolerances::least_crossing_sine * (b - a).squaredNorm() * (d - c).squaredNorm();
     const bool cross = (b - a).cross(d - c).squaredNorm() > limit;
+    contact.jumps = !cross;
     if (!cross || s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0) return contact;
     contact.relative_zone = std::min(edge_zone(surface.edges[pair.feature[0]], first, -contact.direction, x),
                                      edge_zone(surface.edges[pair.feature[1]], second, contact.direction, x));

@@ -36,6 +36,7 @@ struct SelfPairContact {
     /// as ridges), 1/2 for edges that cross in flat cloth, where vertices and faces meet first, else 0. Of closest points that
     /// several pairs share one pair has them. Not filled in for edges farther apart than the pair's thickness.
     double relative_zone = 0.0;
+    bool jumps = false;  // closest points of nearly parallel edges go from end to end
 };
 
 /// m, below which a pair is in contact where these weights say: between corners it passes from the one's to the other's, so that

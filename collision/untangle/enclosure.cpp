@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "certificate/box_tree.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -19,10 +20,45 @@ double half_solid_angle(const Vec3& point, const Vec3& first, const Vec3& second
     return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la);
 }
 
+/// Those of a grid of places in a box that are inside the obstacle.
+std::vector<Vec3> places_inside(const certificate::Box& box, const SolidObstacle& obstacle) {
+    constexpr int count = tolerances::enclosure_places;
+    std::vector<Vec3> places;
+    for (int i = 0; i < count * count * count; ++i) {
+        const Vec3 cell(i % count + 0.5, i / count % count + 0.5, i / (count * count) + 0.5);
+        const Vec3 place = box.low + (box.high - box.low).cwiseProduct(cell / count);
+        if (obstacle.inside(place)) places.push_back(place);
+    }
+    return places;
+}
+
 }  // namespace
 
-Enclosure::Enclosure(std::vector<Triangle> triangles, std::span<const Vec3> positions, std::span<const Vec3> points)
+Enclosure::Enclosure(std::vector<Triangle> triangles, std::span<const Vec3> positions, const SolidObstacle& obstacle)
     : triangles_(std::move(triangles)) {
+    if (!obstacle.watertight()) return;
+    find_rims();
+    if (rim_count_ < 2 || !passes_through(positions, obstacle)) return;
+    certificate::Box box;
+    for (const Triangle& t : triangles_) {
+        for (const int v : t) box.add(positions[v]);
+    }
+    const std::vector<Vec3> centres = middles(positions);
+    for (const Vec3& place : places_inside(box, obstacle)) {
+        if (surrounds(place, positions, centres)) surrounded_.push_back(place);
+    }
+}
+
+bool Enclosure::lost(std::span<const Vec3> positions) const {
+    if (static_cast<int>(surrounded_.size()) < tolerances::least_surrounded) return false;
+    const std::vector<Vec3> centres = middles(positions);
+    const auto left = static_cast<std::size_t>(std::count_if(
+        surrounded_.begin(), surrounded_.end(), [&](const Vec3& place) { return surrounds(place, positions, centres); }));
+    return 2 * left < surrounded_.size();
+}
+
+/// The edges that one triangle has; those that hang together by vertices are a rim.
+void Enclosure::find_rims() {
     std::set<std::pair<int, int>> edges;
     for (const Triangle& t : triangles_) {
         for (int k = 0; k < 3; ++k) edges.emplace(t[k], t[(k + 1) % 3]);
@@ -40,27 +76,29 @@ Enclosure::Enclosure(std::vector<Triangle> triangles, std::span<const Vec3> posi
         rims_.push_back({b, a, -1});
     }
     std::map<int, int> number;
-    for (auto& [b, a, rim] : rims_) rim = number.try_emplace(lowest(a), static_cast<int>(number.size())).first->second;
+    for (RimEdge& edge : rims_) edge.rim = number.try_emplace(lowest(edge.from), static_cast<int>(number.size())).first->second;
     rim_count_ = static_cast<int>(number.size());
-    if (rim_count_ < 2) return;
-    const std::vector<Vec3> centres = middles(positions);
-    for (const Vec3& point : points) {
-        if (surrounds(point, positions, centres)) surrounded_.push_back(point);
+}
+
+/// Whether the fans of two rims or more go through the obstacle, and some of the cloth is outside.
+bool Enclosure::passes_through(std::span<const Vec3> x, const SolidObstacle& obstacle) const {
+    const auto outside = [&](const Triangle& t) { return !obstacle.inside(x[t[0]]); };
+    if (std::none_of(triangles_.begin(), triangles_.end(), outside)) return false;
+    const std::vector<Vec3> centres = middles(x);
+    std::set<int> passed;
+    for (const RimEdge& edge : rims_) {
+        for (const double out : tolerances::fan_places) {
+            if (passed.contains(edge.rim)) break;
+            if (obstacle.inside(centres[edge.rim] + out * (x[edge.from] - centres[edge.rim]))) passed.insert(edge.rim);
+        }
     }
+    return passed.size() >= 2;
 }
 
-bool Enclosure::lost(std::span<const Vec3> positions) const {
-    if (static_cast<int>(surrounded_.size()) < tolerances::least_surrounded) return false;
-    const std::vector<Vec3> centres = middles(positions);
-    const auto left = static_cast<std::size_t>(std::count_if(
-        surrounded_.begin(), surrounded_.end(), [&](const Vec3& point) { return surrounds(point, positions, centres); }));
-    return 2 * left < surrounded_.size();
-}
-
-bool Enclosure::surrounds(const Vec3& point, std::span<const Vec3> x, std::span<const Vec3> centres) const {
+bool Enclosure::surrounds(const Vec3& place, std::span<const Vec3> x, std::span<const Vec3> centres) const {
     double sum = 0.0;
-    for (const auto& [a, b, c] : triangles_) sum += half_solid_angle(point, x[a], x[b], x[c]);
-    for (const auto& [a, b, rim] : rims_) sum += half_solid_angle(point, x[a], x[b], centres[rim]);
+    for (const auto& [a, b, c] : triangles_) sum += half_solid_angle(place, x[a], x[b], x[c]);
+    for (const auto& [a, b, rim] : rims_) sum += half_solid_angle(place, x[a], x[b], centres[rim]);
     return std::abs(sum) > std::numbers::pi;
 }
 
@@ -68,9 +106,9 @@ bool Enclosure::surrounds(const Vec3& point, std::span<const Vec3> x, std::span<
 std::vector<Vec3> Enclosure::middles(std::span<const Vec3> positions) const {
     std::vector<Vec3> sum(rim_count_, Vec3::Zero());
     std::vector<int> count(rim_count_, 0);
-    for (const auto& [a, b, rim] : rims_) {
-        sum[rim] += positions[a];
-        ++count[rim];
+    for (const RimEdge& edge : rims_) {
+        sum[edge.rim] += positions[edge.from];
+        ++count[edge.rim];
     }
     for (int rim = 0; rim < rim_count_; ++rim) sum[rim] /= count[rim];
     return sum;

@@ -1,31 +1,39 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "percale/mesh.h"
+#include "untangle/untangle_obstacle.h"
 
 namespace percale {
 
-/// What a piece of cloth surrounds: the points about which its solid angle is more than half of all directions, each of its rims
-/// closed by a fan about the rim's middle. A skirt surrounds a waist; a sheet or a ball,
-/// pieces with fewer than two rims, surround nothing.
+/// What a piece of cloth surrounds of an obstacle: places inside the obstacle about which the solid angle of the cloth is more
+/// than half of all directions, each of its rims closed by a fan about the rim's middle. Only a tube surrounds something, a piece
+/// with two rims or more, and only what passes through two of them while part of the cloth is outside: a skirt a waist, but not
+/// the floor that it dips into. An open obstacle has no inside and is never surrounded.
 class Enclosure {
 public:
-    /// `triangles`: of a connected piece, wound alike. `points`: m, those that may be surrounded.
-    Enclosure(std::vector<Triangle> triangles, std::span<const Vec3> positions, std::span<const Vec3> points);
+    /// `triangles`: of a connected piece, wound alike.
+    Enclosure(std::vector<Triangle> triangles, std::span<const Vec3> positions, const SolidObstacle& obstacle);
 
-    /// Where cloth at `positions` surrounds fewer than half of the points that it surrounded first.
+    /// Whether cloth at `positions` surrounds fewer than half of the places that it surrounded first.
     bool lost(std::span<const Vec3> positions) const;
 
 private:
-    bool surrounds(const Vec3& point, std::span<const Vec3> positions, std::span<const Vec3> middles) const;
+    struct RimEdge {
+        int from, to;  // against the winding
+        int rim;
+    };
+
+    void find_rims();
+    bool passes_through(std::span<const Vec3> positions, const SolidObstacle& obstacle) const;
+    bool surrounds(const Vec3& place, std::span<const Vec3> positions, std::span<const Vec3> middles) const;
     std::vector<Vec3> middles(std::span<const Vec3> positions) const;
 
     std::vector<Triangle> triangles_;
-    std::vector<std::array<int, 3>> rims_;  // edges of rims, against the winding, and the number of the rim
+    std::vector<RimEdge> rims_;
     int rim_count_ = 0;
     std::vector<Vec3> surrounded_;  // m
 };

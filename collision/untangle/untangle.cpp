@@ -254,32 +254,9 @@ std::vector<Triangle> piece_of(const TangledCloth& cloth, int vertex) {
     return piece;
 }
 
-/// What the cloth of a patch surrounds of its obstacle: places within the obstacle, or vertices of an open one.
-Enclosure enclosure_of(const Tangle& tangle, const Patch& patch) {
-    const SolidObstacle& obstacle = tangle.obstacles[patch.obstacle];
-    std::vector<Triangle> piece = piece_of(tangle.cloth, patch.vertices.front());
-    certificate::Box box;
-    for (const Triangle& t : piece) {
-        for (const int v : t) box.add(tangle.positions[v]);
-    }
-    // No place is in the plane of a flat piece.
-    const Vec3 low = box.low - Vec3::Constant(patch.margin), room = box.high - low + Vec3::Constant(patch.margin);
-    constexpr int count = tolerances::enclosure_places;
-    std::vector<Vec3> places;
-    for (int i = 0; obstacle.watertight() && i < count * count * count; ++i) {
-        const Vec3 cell(i % count + 0.5, i / count % count + 0.5, i / (count * count) + 0.5);
-        const Vec3 place = low + room.cwiseProduct(cell / count);
-        if (obstacle.inside(place)) places.push_back(place);
-    }
-    if (obstacle.watertight()) return {std::move(piece), tangle.positions, places};
-    std::copy_if(obstacle.vertices().begin(), obstacle.vertices().end(), std::back_inserter(places),
-                 [&](const Vec3& x) { return box.contains(x); });
-    return {std::move(piece), tangle.positions, places};
-}
-
 std::optional<Attempt> best_attempt(const Tangle& tangle, const Patch& patch) {
     const double everything = extent(tangle);
-    const Enclosure enclosure = enclosure_of(tangle, patch);
+    const Enclosure enclosure(piece_of(tangle.cloth, patch.vertices.front()), tangle.positions, tangle.obstacles[patch.obstacle]);
     std::optional<Attempt> best;
     for (const Route& route : possible_routes(tangle, patch)) {
         const double most = best && !best->tears() ? best->largest_move : everything;

@@ -103,7 +103,7 @@ void exchange(Archive& archive, Value& rest) {
 
 template <class Archive, OfType<RestState> Value>
 void exchange(Archive& archive, Value& rest) {
-    archive(rest.cloths, rest.anchor, rest.potential, rest.unrest, rest.asleep, rest.figures);
+    archive(rest.cloths, rest.anchor, rest.potential, rest.unrest, rest.stopping, rest.asleep, rest.figures);
 }
 
 template <class Archive, OfType<SchemeMemory> Value>
@@ -287,6 +287,7 @@ private:
     void check_rest() const {
         const RestState& rest = saved_.rest;
         reader_.demand(fits_or_empty(rest.anchor), "a wrong number of vertices");
+        reader_.demand(rest.unrest >= 0 && rest.unrest <= most_unrest && rest.stopping <= stopping_time, "unrest out of range");
         reader_.demand(rest.cloths.empty() || (rest.cloths.size() == world_.scene.model.cloths.size() && fits(rest.anchor)),
                        "a wrong number of cloths");
     }

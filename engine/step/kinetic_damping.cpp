@@ -10,13 +10,16 @@ namespace {
 
 /// Whether a step stops cloth: it does where the potential rose. Where that goes on in every second or third step, cloth
 /// trembles between two sets of contacts, each met on the way from the other, and then for a while every step does.
-bool stops(bool rises, int& unrest) {
-    if (unrest > most_unrest) {
-        if (--unrest == most_unrest) unrest = 0;
+bool stops(bool rises, double dt, RestState& rest) {
+    if (rest.stopping > 0.0) {
+        rest.stopping -= dt;
         return true;
     }
-    unrest = rises ? unrest + unrest_of_rise : std::max(0, unrest - 1);
-    if (unrest >= most_unrest) unrest = most_unrest + stopping_steps;
+    rest.unrest = rises ? rest.unrest + unrest_of_rise : std::max(0, rest.unrest - 1);
+    if (rest.unrest >= most_unrest) {
+        rest.unrest = 0;
+        rest.stopping = stopping_time;
+    }
     return rises;
 }
 
@@ -29,8 +32,11 @@ void damp_kinetic_energy(const StepScene& scene, StepState& state, RestState& re
     const bool driven = scene.plan.something_moves() || scene.settings.wind.value_or(Vec3::Zero()) != Vec3::Zero();
     const bool rises = rest.potential && potential > *rest.potential;
     rest.potential = potential;
-    if (driven) rest.unrest = 0;
-    if (driven || !stops(rises, rest.unrest)) return;
+    if (driven) {
+        rest.unrest = 0;
+        rest.stopping = 0.0;
+    }
+    if (driven || !stops(rises, scene.settings.time_step, rest)) return;
     for (auto* axis : {&state.cloth.velocities.x, &state.cloth.velocities.y, &state.cloth.velocities.z})
         std::fill(axis->begin(), axis->end(), 0.0);
     state.past.forget();

@@ -96,6 +96,7 @@ void wake(RestState& rest) {
     rest.anchor.resize(0);
     rest.potential.reset();
     rest.unrest = 0;
+    rest.stopping = 0.0;
     rest.asleep = false;
 }
 

@@ -19,7 +19,8 @@ struct RestState {
     std::vector<ClothRest> cloths;
     Vectors anchor;                   // m, where each vertex was when its cloth became still
     std::optional<double> potential;  // J, after the last step (damp_kinetic_energy)
-    int unrest = 0;                   // how often it rose in the last steps, or for how many more each stops cloth
+    int unrest = 0;                   // how often it rose in the last steps
+    double stopping = 0.0;            // s, for how long each step still stops cloth
     bool asleep = false;              // all cloths: steps are not solved
     StepReport figures;               // of the last step that was solved
 };

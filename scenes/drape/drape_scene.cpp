@@ -109,7 +109,7 @@ private:
     }
 
     void refuse_short_time() const {
-        const double sewn = sewing_time * static_cast<double>(made_.scene.seams.size());
+        const double sewn = sewing_end(made_.scene);
         if (options_.seconds > sewn) return;
         throw SceneError("--seconds " + short_number(options_.seconds) + ": sewing alone takes " + short_number(sewn) + " s, " +
                          short_number(sewing_time) + " s for each garment; it must be more");
@@ -156,7 +156,7 @@ private:
         cloth.fabric = stitches > 0 ? sewn_mesh_fabric : mesh_fabric;
         if (stitches > 0) {
             note(file + " has " + std::to_string(stitches) + " stitches, by which it is sewn");
-            add_seam(cloth, false);  // it does not say which are gathers
+            add_seam(cloth, false);  // gathers of others are sewn at every vertex, and a weld would press their edges together
         }
         made_.scene.cloths.push_back(cloth);
     }

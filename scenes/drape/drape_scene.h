@@ -52,7 +52,7 @@ struct DrapeScene {
 /// Meshes where they are, garments moved as asked, y up. Throws SceneError for options that do not go together.
 DrapeScene drape_scene(const DrapeOptions& options);
 
-/// s: how long each pattern is sewn, one after the other, and until when there is no weight.
+/// s: until when garments are sewn, one after the other, and there is no weight.
 double sewing_end(const Scene& scene);
 
 }  // namespace percale::scenes

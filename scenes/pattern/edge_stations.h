@@ -21,8 +21,8 @@ struct EdgeStations {
 };
 
 /// Divides all edges into pieces about as long as `edge_length`, m. Where a corner lies on one side of a seam, the other has a
-/// station, too, unless it has a corner within a third of an edge length, which then is sewn to it. Throws SceneError for an edge
-/// that is in two seams.
+/// station, too, unless it has a corner within a third of an edge length, which then is sewn to it. A side that is longer by a
+/// tenth or more has further stations between those that are sewn. Throws SceneError for an edge that is in two seams.
 EdgeStations divide_edges(const Pattern& pattern, double edge_length);
 
 }  // namespace percale::scenes

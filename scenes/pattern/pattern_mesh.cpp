@@ -128,10 +128,7 @@ private:
                 length[k] += scenes::edge_length(panel, panel.edges[use.edge]);
             }
         }
-        SewnSeam sewn{.name = seam.name,
-                      .length = 0.5 * (length[0] + length[1]),
-                      .gather = std::max(length[0], length[1]) / std::min(length[0], length[1]),
-                      .stitches = {}};
+        SewnSeam sewn{.name = seam.name, .length = 0.5 * (length[0] + length[1]), .stitches = {}};
         for (const auto& [first, second] : stations_.sewn[number]) {
             const int i = vertex_at(first), j = vertex_at(second);
             // At the tip of a dart both sides have one vertex.

@@ -19,7 +19,6 @@ struct PanelPart {
 struct SewnSeam {
     std::string name;
     double length = 0.0;           // m, mean of its sides
-    double gather = 1.0;           // length of the longer side over that of the shorter one
     std::vector<Stitch> stitches;  // vertex to vertex
 };
 
@@ -32,8 +31,8 @@ struct PatternMesh {
 };
 
 /// Meshes a pattern with edges of about this length, m. Both sides of a seam are sampled alike, corner to corner, so that each of
-/// their vertices is sewn to a vertex. Throws SceneError for a length out of range, for an edge in two seams, and where the mesh
-/// would be too large.
+/// their vertices is sewn to a vertex; of a gathered side some are (divide_edges). Throws SceneError for a length out of range,
+/// for an edge in two seams, and where the mesh would be too large.
 PatternMesh mesh_pattern(const Pattern& pattern, double edge_length);
 
 /// The mesh with its uv, corner by corner.

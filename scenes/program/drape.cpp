@@ -88,8 +88,8 @@ void add_options(CLI::App& command, DrapeCommand& all) {
     DrapeOptions& options = all.drape;
     command
         .add_option("FILE", options.files,
-                    "Garments from the innermost to the outermost, each a mesh outside the body or a sewing pattern around it "
-                    "(.toml, .json), then the body's mesh")
+                    "Garments from the innermost to the outermost, each a mesh outside the body, a mesh with lines \"stitch\" or "
+                    "a sewing pattern around it (.toml, .json), then the body's mesh")
         ->type_name("GARMENT... BODY")
         ->expected(1, 100)
         ->required();
@@ -137,7 +137,7 @@ void add_options(CLI::App& command, DrapeCommand& all) {
     command.add_flag("--until-rest", all.until_rest, "Go on until all garments are proven at rest; so it does without this, too");
     command.add_flag_callback(
         "--no-weld", [&options] { options.weld = false; },
-        "Leave what gaps springs leave at the seams of patterns (default: none, but for gathers)");
+        "Leave what gaps springs leave at the seams of patterns (default: no gap)");
     command.add_flag("--no-self-contact", options.no_self_contact,
                      "Let garments pass through themselves and each other, which costs less");
     command.add_flag("--quiet", all.quiet, "Print nothing but errors");

@@ -52,9 +52,10 @@ struct StepSettings {
     StartRule start = StartRule::repair;
     bool skip = true;  // leave out what the scene does not need (Simulation::plan); false runs everything
     /// Stops all cloth (velocities become 0) after each step in which its potential energy, elastic and of gravity, has risen:
-    /// what swings comes to rest sooner, what creeps is left alone; the path there means nothing. Not while pins or obstacles
-    /// move, seams close or wind blows. Kinetic damping of dynamic relaxation (Barnes 1999, Form finding and analysis of tension
-    /// structures by dynamic relaxation), by the potential instead of the kinetic energy.
+    /// what swings comes to rest sooner, what creeps is left alone; the path there means nothing. Where it rises again within a
+    /// few steps, time and again, each step of the next second stops it. Not while pins or obstacles move, seams close or wind
+    /// blows. Kinetic damping of dynamic relaxation (Barnes 1999, Form finding and analysis of tension structures by dynamic
+    /// relaxation), by the potential instead of the kinetic energy.
     bool kinetic_damping = false;
     /// m/s. Cloth is still that has kept within half a second times this of one place; empty: within 0.002 of its thickness.
     std::optional<double> rest_speed = {};

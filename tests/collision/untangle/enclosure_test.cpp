@@ -5,7 +5,6 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
-#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::test;
@@ -38,25 +37,35 @@ std::vector<Vec3> shifted(std::vector<Vec3> x, const Vec3& by) {
 
 }  // namespace
 
-TEST_CASE("A tube has lost what it surrounds once fewer than half of the points are within") {
+TEST_CASE("A tube has lost the rod that it surrounds once most of it is outside, not before") {
     const TriangleMesh mesh = tube(24, 7);
-    std::vector<Vec3> axis;
-    for (int i = 0; i < 40; ++i) axis.emplace_back(0.0, -1.475 + 0.075 * i, 0.0);  // 27 of them within
-    const Enclosure enclosure(mesh.triangles, mesh.vertices, axis);
+    const SolidObstacle rod(make_box({0.6, 6.0, 0.6}));
+    const Enclosure enclosure(mesh.triangles, mesh.vertices, rod);
     CHECK_FALSE(enclosure.lost(mesh.vertices));
-    CHECK_FALSE(enclosure.lost(shifted(mesh.vertices, {0.5, 0.9, 0.0})));
-    CHECK(enclosure.lost(shifted(mesh.vertices, {0.0, 1.1, 0.0})));
-    CHECK(enclosure.lost(shifted(mesh.vertices, {1.1, 0.0, 0.0})));
+    CHECK_FALSE(enclosure.lost(shifted(mesh.vertices, {0.5, 0.8, 0.0})));
+    CHECK(enclosure.lost(shifted(mesh.vertices, {0.0, 1.2, 0.0})));
+    CHECK(enclosure.lost(shifted(mesh.vertices, {1.5, 0.0, 0.0})));
 }
 
-TEST_CASE("Neither a sheet, a tube beside the points nor a ball surrounds any, so nothing is lost") {
-    Random random(5);
-    std::vector<Vec3> points;
-    for (int i = 0; i < 100; ++i) points.push_back(random.point(0.2));
-    const TriangleMesh sheet = make_grid(1.0, 1.0, 8, 8), beside = moved(tube(24, 7), {2.0, 0.0, 0.0}),
-                       ball = make_sphere(1.0, 2);
-    for (const TriangleMesh& mesh : {sheet, beside, ball}) {
-        const Enclosure enclosure(mesh.triangles, mesh.vertices, points);
-        CHECK_FALSE(enclosure.lost(shifted(mesh.vertices, {5.0, 0.0, 0.0})));
-    }
+TEST_CASE("A tube about two legs surrounds them") {
+    const TriangleMesh mesh = tube(24, 7), leg = make_box({0.3, 6.0, 0.3});
+    const SolidObstacle legs(joined(moved(leg, {0.5, 0, 0}), moved(leg, {-0.5, 0, 0})));
+    CHECK(Enclosure(mesh.triangles, mesh.vertices, legs).lost(shifted(mesh.vertices, {3.0, 0.0, 0.0})));
+}
+
+TEST_CASE("What does not pass through two rims is not surrounded") {
+    const TriangleMesh mesh = tube(24, 7), sheet = make_grid(3.0, 3.0, 8, 8), ball = make_sphere(1.0, 2);
+    const SolidObstacle rod(make_box({0.6, 6.0, 0.6})), floor(moved(make_box({9.0, 4.0, 9.0}), {0, -2.3, 0})),
+        beside(moved(make_box({0.6, 6.0, 0.6}), {2.0, 0, 0})), around(make_box({9.0, 9.0, 9.0})),
+        open(TriangleMesh{.vertices = make_box({0.6, 6.0, 0.6}).vertices, .triangles = {{0, 1, 2}}});
+    const auto loses = [](const TriangleMesh& cloth, const SolidObstacle& obstacle) {
+        return Enclosure(cloth.triangles, cloth.vertices, obstacle).lost(shifted(cloth.vertices, {20.0, 0.0, 0.0}));
+    };
+    CHECK(loses(mesh, rod));
+    CHECK_FALSE(loses(mesh, floor));
+    CHECK_FALSE(loses(mesh, beside));
+    CHECK_FALSE(loses(mesh, around));
+    CHECK_FALSE(loses(mesh, open));
+    CHECK_FALSE(loses(sheet, rod));
+    CHECK_FALSE(loses(ball, rod));
 }

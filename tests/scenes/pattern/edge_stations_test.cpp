@@ -76,6 +76,20 @@ TEST_CASE("a side that is longer by a tenth has vertices between the stitches, t
     }
 }
 
+TEST_CASE("in a gather with a corner and an edge that runs backwards stitches join like shares") {
+    std::string wide = yoke;
+    wide.replace(wide.find("[30.4, 0]"), 9, "[45.0, 0]");
+    const EdgeStations stations =
+        divide_edges(parse_pattern_toml(wide + "[[seam]]\nsides = [[\"a.0\", \"a.1\"], [\"b.0-\"]]\ngather = true\n", "t"), 0.02);
+    const auto& pairs = stations.sewn[0];
+    CHECK(pairs.size() == stations.shares[0][0].size() + stations.shares[0][1].size() - 1);
+    CHECK(stations.shares[1][0].size() == 2 * (pairs.size() - 1) + 1);
+    for (const auto& [first, second] : pairs) {
+        const double share = share_at(stations, first), along = first.edge == 0 ? share / 3.0 : (1.0 + 2.0 * share) / 3.0;
+        CHECK(1.0 - share_at(stations, second) == Approx(along).margin(1e-9));
+    }
+}
+
 TEST_CASE("corners that nearly face each other are sewn to each other") {
     const EdgeStations stations = divide_edges(sewn("[\"b.3-\", \"b.2-\"]"), 0.05);
     const auto& pairs = stations.sewn[0];
