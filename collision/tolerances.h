@@ -203,6 +203,9 @@ constexpr double most_stretch = 0.5;
 /// a skirt may leave the body that it was put on.
 constexpr int enclosure_places = 8;
 
+/// Of the diagonal of that box: what it is grown by, so that no place is in the plane of flat cloth.
+constexpr double enclosure_room = 0.01;
+
 /// Places inside an obstacle that cloth has to surround so that it must go on to do so. Smaller: chance decides.
 constexpr int least_surrounded = 4;
 

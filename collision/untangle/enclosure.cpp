@@ -20,9 +20,13 @@ double half_solid_angle(const Vec3& point, const Vec3& first, const Vec3& second
     return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la);
 }
 
-/// Those of a grid of places in a box that are inside the obstacle.
-std::vector<Vec3> places_inside(const certificate::Box& box, const SolidObstacle& obstacle) {
+/// Those of a grid of places in a box that are inside the obstacle; none is in the plane of a flat box.
+std::vector<Vec3> places_inside(certificate::Box box, const SolidObstacle& obstacle) {
     constexpr int count = tolerances::enclosure_places;
+    static_assert(count % 2 == 0);
+    const Vec3 room = Vec3::Constant(tolerances::enclosure_room * (box.high - box.low).norm());
+    box.low -= room;
+    box.high += room;
     std::vector<Vec3> places;
     for (int i = 0; i < count * count * count; ++i) {
         const Vec3 cell(i % count + 0.5, i / count % count + 0.5, i / (count * count) + 0.5);

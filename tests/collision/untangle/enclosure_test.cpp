@@ -58,6 +58,9 @@ TEST_CASE("What does not pass through two rims is not surrounded") {
     const SolidObstacle rod(make_box({0.6, 6.0, 0.6})), floor(moved(make_box({9.0, 4.0, 9.0}), {0, -2.3, 0})),
         beside(moved(make_box({0.6, 6.0, 0.6}), {2.0, 0, 0})), around(make_box({9.0, 9.0, 9.0})),
         open(TriangleMesh{.vertices = make_box({0.6, 6.0, 0.6}).vertices, .triangles = {{0, 1, 2}}});
+    // A flat ring whose hole and rim both go around the rod.
+    TriangleMesh ring = mesh;
+    for (Vec3& x : ring.vertices) x = Vec3((2.0 + x.y()) * x.x(), 0.0, (2.0 + x.y()) * x.z());
     const auto loses = [](const TriangleMesh& cloth, const SolidObstacle& obstacle) {
         return Enclosure(cloth.triangles, cloth.vertices, obstacle).lost(shifted(cloth.vertices, {20.0, 0.0, 0.0}));
     };
@@ -68,4 +71,5 @@ TEST_CASE("What does not pass through two rims is not surrounded") {
     CHECK_FALSE(loses(mesh, open));
     CHECK_FALSE(loses(sheet, rod));
     CHECK_FALSE(loses(ball, rod));
+    CHECK_FALSE(loses(ring, rod));
 }
