@@ -162,6 +162,9 @@ constexpr double much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
 /// limb pass.
 constexpr double widest_sewn_gap = 0.01;
 
+/// s, after sewing: a seam that is open by more than that then does not close. Longer: garments that cannot be sewn take longer.
+constexpr double late_closing = 1.0;
+
 /// A body that is by this factor taller along z than along y stands along z. Smaller: spheres and beds do. Larger: people do not.
 constexpr double standing_ratio = 1.5;
 

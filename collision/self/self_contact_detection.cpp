@@ -95,9 +95,9 @@ double SelfContactDetection::measure(const SelfList& list, SelfPair& pair, std::
     pair.reach = contact.distance + list.travel;
     const double least = contact.jumps ? 0.0 : tolerances::least_zone;
     const double zone = std::max(contact.relative_zone, least) * thickness_at(pair, contact.weight);
-    // As with obstacles, a contact stays one while a step is solved, and in the next ones until its cloth has moved: contacts
-    // that come and go while cloth lies still would keep it moving. So would edges that are now flat, now a ridge.
-    if (is_first_ && contact.relative_zone > 0.0 && pair.shape == PairShape::point_triangle) pair.zone = 0.0;
+    // As with obstacles, a contact stays one while a step is solved; of edges in the next ones, too, until their cloth has moved:
+    // edges that are now flat, now a ridge would keep cloth moving that lies still.
+    if (is_first_ && pair.shape == PairShape::point_triangle) pair.zone = 0.0;
     if (contact.distance < zone && zone > tolerances::widened_zone * pair.zone) {
         pair.zone = zone;
         pair.began_apart = apart(pair, start_);

@@ -3,20 +3,15 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <queue>
 #include <utility>
+
+#include "geometry/disjoint_sets.h"
 
 namespace percale {
 namespace {
 
 constexpr double unreachable = std::numeric_limits<double>::infinity();
-
-/// The lowest of the vertices that are sewn to this one, itself among them.
-int lowest_of(std::vector<int>& lower, int vertex) {
-    while (lower[vertex] != vertex) vertex = lower[vertex] = lower[lower[vertex]];
-    return vertex;
-}
 
 /// Shortest paths from one place, as they are found.
 class Front {
@@ -62,15 +57,12 @@ SewnRest::SewnRest(const ClothSurface& surface, std::span<const Stitch> stitches
 }
 
 void SewnRest::make_knots(std::span<const Stitch> stitches) {
-    std::vector<int> lower(knot_of_.size());
-    std::iota(lower.begin(), lower.end(), 0);
+    DisjointSets sewn(knot_of_.size());
     for (const Stitch& stitch : stitches) {
-        if (!stitch.joins_vertices()) continue;
-        const auto [low, high] = std::minmax({lowest_of(lower, stitch.vertex), lowest_of(lower, stitch.other())});
-        lower[high] = low;
+        if (stitch.joins_vertices()) sewn.join(stitch.vertex, stitch.other());
     }
     const auto knot_at = [&](int vertex) {
-        int& knot = knot_of_[lowest_of(lower, vertex)];
+        int& knot = knot_of_[sewn.of(vertex)];
         if (knot >= 0) return knot;
         knot = static_cast<int>(knots_.size());
         knots_.emplace_back();
@@ -80,8 +72,8 @@ void SewnRest::make_knots(std::span<const Stitch> stitches) {
         const int knot = knot_at(stitch.vertex);
         if (!stitch.joins_vertices()) knots_[knot].points.push_back(stitch);
     }
-    for (int vertex = 0; vertex < static_cast<int>(lower.size()); ++vertex) {
-        knot_of_[vertex] = knot_of_[lowest_of(lower, vertex)];
+    for (int vertex = 0; vertex < static_cast<int>(knot_of_.size()); ++vertex) {
+        knot_of_[vertex] = knot_of_[sewn.of(vertex)];
         if (knot_of_[vertex] >= 0) knots_[knot_of_[vertex]].vertices.push_back(vertex);
     }
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "certificate/box_tree.h"
+#include "geometry/disjoint_sets.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -41,7 +42,7 @@ std::vector<Vec3> places_inside(certificate::Box box, const SolidObstacle& obsta
 Enclosure::Enclosure(std::vector<Triangle> triangles, std::span<const Vec3> positions, const SolidObstacle& obstacle)
     : triangles_(std::move(triangles)) {
     if (!obstacle.watertight()) return;
-    find_rims();
+    find_rims(positions.size());
     if (rim_count_ < 2 || !passes_through(positions, obstacle)) return;
     certificate::Box box;
     for (const Triangle& t : triangles_) {
@@ -62,25 +63,19 @@ bool Enclosure::lost(std::span<const Vec3> positions) const {
 }
 
 /// The edges that one triangle has; those that hang together by vertices are a rim.
-void Enclosure::find_rims() {
+void Enclosure::find_rims(std::size_t vertex_count) {
     std::set<std::pair<int, int>> edges;
     for (const Triangle& t : triangles_) {
         for (int k = 0; k < 3; ++k) edges.emplace(t[k], t[(k + 1) % 3]);
     }
-    std::map<int, int> lower;  // of vertices on rims, one of the same rim
-    const auto lowest = [&](int vertex) {
-        while (lower.at(vertex) != vertex) vertex = lower[vertex] = lower[lower[vertex]];
-        return vertex;
-    };
+    DisjointSets rims(vertex_count);
     for (const auto& [a, b] : edges) {
         if (edges.contains({b, a})) continue;
-        lower.try_emplace(a, a);
-        lower.try_emplace(b, b);
-        lower[std::max(lowest(a), lowest(b))] = std::min(lowest(a), lowest(b));
+        rims.join(a, b);
         rims_.push_back({b, a, -1});
     }
     std::map<int, int> number;
-    for (RimEdge& edge : rims_) edge.rim = number.try_emplace(lowest(edge.from), static_cast<int>(number.size())).first->second;
+    for (RimEdge& edge : rims_) edge.rim = number.try_emplace(rims.of(edge.from), static_cast<int>(number.size())).first->second;
     rim_count_ = static_cast<int>(number.size());
 }
 

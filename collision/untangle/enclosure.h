@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -27,7 +27,7 @@ private:
         int rim;
     };
 
-    void find_rims();
+    void find_rims(std::size_t vertex_count);
     bool passes_through(std::span<const Vec3> positions, const SolidObstacle& obstacle) const;
     bool surrounds(const Vec3& place, std::span<const Vec3> positions, std::span<const Vec3> middles) const;
     std::vector<Vec3> middles(std::span<const Vec3> positions) const;

@@ -1,10 +1,10 @@
 #include "untangle/untangle_check.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "certificate/triangle_gap.h"
 #include "certificate/triangle_overlap.h"
+#include "geometry/disjoint_sets.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -13,24 +13,6 @@ namespace {
 using certificate::BoxTree;
 using certificate::Corners;
 using certificate::Overlap;
-
-/// Disjoint sets of vertices, each known by its lowest member.
-class DisjointSets {
-public:
-    explicit DisjointSets(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-    int of(int vertex) {
-        while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
-        return vertex;
-    }
-    void join(int a, int b) {
-        const int x = of(a), y = of(b);
-        parent_[std::max(x, y)] = std::min(x, y);
-    }
-
-private:
-    std::vector<int> parent_;
-};
 
 Corners corners(std::span<const Vec3> x, const Triangle& t) { return {x[t[0]], x[t[1]], x[t[2]]}; }
 

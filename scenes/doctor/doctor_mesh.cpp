@@ -252,6 +252,16 @@ std::vector<Finding> examine_obstacle(const ExaminedMesh& obstacle) {
     return found.take();
 }
 
+namespace {
+
+/// Garments have rims and bodies are closed.
+bool looks_swapped(const ExaminedMesh& cloth, const ExaminedMesh& obstacle) {
+    if (!cloth.from_file || !obstacle.from_file || cloth.filled || !cloth.facts.watertight()) return false;
+    return !mesh_facts(joined_by_place(obstacle.mesh).mesh).watertight();
+}
+
+}  // namespace
+
 std::vector<Finding> examine_pair(const ExaminedMesh& cloth, const ExaminedMesh& obstacle) {
     Findings found(cloth);
     const double size = cloth.facts.extent(), other = obstacle.facts.extent(), ratio = std::max(size / other, other / size);
@@ -265,6 +275,10 @@ std::vector<Finding> examine_pair(const ExaminedMesh& cloth, const ExaminedMesh&
                       smaller + ", if it is not meant so");
         return found.take();
     }
+    if (looks_swapped(cloth, obstacle))
+        found.add(Severity::warning, "swapped",
+                  "it is a closed surface and " + obstacle.name + " is not: were their meshes swapped?",
+                  "name the garment's mesh as cloth and the body's as obstacle; leave it so if the cloth is meant to be closed");
     std::array<double, 3> sides;
     for (int axis = 0; axis < 3; ++axis) sides[axis] = obstacle.facts.highest[axis] - obstacle.facts.lowest[axis];
     std::sort(sides.begin(), sides.end());

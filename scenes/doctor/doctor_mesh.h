@@ -13,6 +13,7 @@ struct ExaminedMesh {
     std::string place = {};  // in the scene file, or the mesh file
     bool from_file = true;   // else a grid or a shape, which is made without faults
     bool sewn = false;       // a seam joins parts of it
+    bool filled = false;     // cloth that is closed on purpose
     TriangleMesh mesh = {};
     MeshFacts facts = {};
 };

@@ -70,6 +70,8 @@ Meshes read_meshes(const Scene& scene, std::vector<Finding>& found) {
         auto mesh = read_mesh(cloth, MeshRole::cloth, found, [&] { return start_mesh(scene, cloth); });
         if (!mesh) continue;
         mesh->sewn = is_sewn_to_itself(scene, cloth);
+        const auto fabric = scene.fabrics.find(cloth.fabric);
+        mesh->filled = fabric != scene.fabrics.end() && (fabric->second.pressure || fabric->second.gas_volume);
         meshes.cloths.push_back(std::move(*mesh));
         meshes.cloth_specs.push_back(&cloth);
     }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/text.h"
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
@@ -28,6 +30,16 @@ double lowest_of(const BuiltScene& built) {
     return lowest;
 }
 
+std::string place_of(const Vec3& x) {
+    return "(" + short_number(x.x()) + ", " + short_number(x.y()) + ", " + short_number(x.z()) + ")";
+}
+
+/// What failed in sewing, which another sewing time may mend; empty where nothing did.
+std::string sewing_fault(const BuiltScene& built) {
+    const WidestGap gap = widest_gap(built);
+    return gap.width > widest_sewn_gap ? unsewn_text(gap) : "";
+}
+
 }  // namespace
 
 double mean_height(const Simulation& simulation, ClothId cloth) {
@@ -37,11 +49,32 @@ double mean_height(const Simulation& simulation, ClothId cloth) {
     return sum / static_cast<double>(positions.size());
 }
 
-Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function<bool(double)>& stop) {
+WidestGap widest_gap(const BuiltScene& built) {
+    WidestGap widest;
+    for (const BuiltSeam& seam : built.seams) {
+        const std::vector<double> gaps = built.simulation.seam_gaps(seam.id);
+        widest.stitches += gaps.size();
+        const auto found = std::max_element(gaps.begin(), gaps.end());
+        if (*found < widest.width) continue;
+        widest.width = *found;
+        widest.seam = seam.name;
+        widest.garment = built.scene.cloths[seam.sewn.cloths[0]].name;
+        const int vertex = seam.sewn.stitches[static_cast<std::size_t>(found - gaps.begin())].vertex;
+        widest.place = built.simulation.positions(built.cloths[seam.sewn.cloths[0]])[vertex];
+    }
+    return widest;
+}
+
+std::string unsewn_text(const WidestGap& gap) {
+    return "not sewn: seam '" + gap.seam + "' of '" + gap.garment + "' is open by " + short_number(gap.width) + " m at " +
+           place_of(gap.place) + "; does its way lie around or through the body?";
+}
+
+Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function<bool(double)>& stop, bool again) {
     Drape drape;
     RestWatch watch;
     const double all_sewn = sewing_end(built.scene), lowest = lowest_of(built) - options.fabric.thickness;
-    bool sewn = built.scene.seams.empty();
+    bool sewn = built.scene.seams.empty(), closed = sewn || !again;
     drape.height = heights(built);
     while (built.simulation.time() < options.seconds - 1e-9) {
         if (!sewn && built.simulation.time() >= all_sewn - 1e-9) {
@@ -54,9 +87,14 @@ Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function
         try {
             drape.last = built.simulation.step();
         } catch (const StartError& error) {
-            drape.end = DrapeEnd::failed;
+            drape.end = again ? DrapeEnd::unsewn : DrapeEnd::failed;
             drape.failure = std::string(error.what()) + " (--no-self-contact: as if it did not)";
             return drape;
+        }
+        if (!closed && built.simulation.time() >= all_sewn + late_closing) {
+            closed = true;
+            drape.failure = sewing_fault(built);
+            if (!drape.failure.empty()) drape.end = DrapeEnd::unsewn;
         }
         if (!drape.last.ok()) {
             drape.end = DrapeEnd::failed;
@@ -67,6 +105,7 @@ Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function
         drape.rest = watch.figures();
         drape.met = drape.met || drape.last.contacts > 0;
         const bool stopped = stop(built.simulation.time());
+        if (drape.end == DrapeEnd::unsewn) return drape;
         if (drape.rest.at_rest)
             drape.end = DrapeEnd::settled;
         else if (stopped)

@@ -11,7 +11,26 @@
 
 namespace percale::scenes {
 
-enum class DrapeEnd { settled, time_up, fell, failed, stopped };
+enum class DrapeEnd {
+    settled,
+    time_up,
+    fell,
+    failed,
+    unsewn,  // given up: sewn through itself, or a seam is open
+    stopped,
+};
+
+/// The stitch that is farthest open.
+struct WidestGap {
+    std::size_t stitches = 0;  // of all seams
+    double width = 0.0;        // m
+    std::string seam = {}, garment = {};
+    Vec3 place = Vec3::Zero();  // m, of its vertex
+};
+WidestGap widest_gap(const BuiltScene& built);
+
+/// For its user, of a gap that is too wide.
+std::string unsewn_text(const WidestGap& gap);
 
 /// How a drape went.
 struct Drape {
@@ -24,8 +43,9 @@ struct Drape {
 };
 
 /// Steps until all garments are at rest, the time is up, or all have fallen below the body; when the seams have closed there is
-/// weight. `stop` is asked after each step, with the simulated time in s.
-Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function<bool(double)>& stop);
+/// weight. `stop` is asked after each step, with the simulated time in s. `again`: what is not sewn when the seams should have
+/// closed is given up, so that it can be sewn in another time.
+Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function<bool(double)>& stop, bool again = false);
 
 /// m: of the vertices of a cloth in the mean.
 double mean_height(const Simulation& simulation, ClothId cloth);

@@ -8,7 +8,6 @@
 #include "common/text.h"
 #include "common/whole_file.h"
 #include "doctor/doctor_scene.h"
-#include "meshes/mesh_facts.h"
 #include "meshes/mesh_import.h"
 #include "meshes/stitch_file.h"
 #include "percale/error.h"
@@ -18,7 +17,6 @@ namespace percale::scenes {
 namespace {
 
 /// How a pattern is sewn.
-constexpr double sewing_time = 2.0;          // s; in 0.6 s straps catch at the shoulder, and it costs as much
 constexpr double sewing_stiffness = 3000.0;  // N/m
 /// Of a preset, so that hems come to rest within seconds.
 constexpr double sewing_damping = 0.02;  // s
@@ -57,15 +55,6 @@ Vec3 extent_of(const std::string& file) {
         return Vec3::Zero();
     }
     return highest - lowest;
-}
-
-/// False where it cannot be read, too.
-bool looks_closed(const std::string& file) {
-    try {
-        return mesh_facts(joined_by_place(import_mesh(file)).mesh).watertight();
-    } catch (const SceneError&) {
-        return false;
-    }
 }
 
 class DrapeScenes {
@@ -112,7 +101,7 @@ private:
         const double sewn = sewing_end(made_.scene);
         if (options_.seconds > sewn) return;
         throw SceneError("--seconds " + short_number(options_.seconds) + ": sewing alone takes " + short_number(sewn) + " s, " +
-                         short_number(sewing_time) + " s for each garment; it must be more");
+                         short_number(options_.sewing_time) + " s for each garment; it must be more");
     }
 
     void guess_up(const Vec3& body) {
@@ -177,8 +166,8 @@ private:
         SeamSpec seam;
         seam.cloths = {cloth.name, cloth.name};
         seam.file = "mesh";
-        seam.from = sewing_time * static_cast<double>(scene.seams.size());
-        seam.over = sewing_time;
+        seam.from = options_.sewing_time * static_cast<double>(scene.seams.size());
+        seam.over = options_.sewing_time;
         seam.stiffness = sewing_stiffness;
         seam.contact_while_closing = false;
         seam.weld = weld;
@@ -199,9 +188,6 @@ private:
 
     /// What is an error building the scene refuses.
     void ask_doctor() {
-        const std::string& last = options_.garments().back();
-        if (!is_pattern(last) && looks_closed(last) && !looks_closed(options_.body()))
-            note("warning: " + last + " is a closed surface and " + options_.body() + " is not: the body comes last");
         for (const Finding& finding : examine_scene_meshes(made_.scene)) {
             if (finding.severity == Severity::warning) note("warning: " + finding.what);
         }
@@ -249,6 +235,14 @@ bool stands_along_z(const Vec3& extent) { return extent.z() > standing_ratio * e
 
 DrapeScene drape_scene(const DrapeOptions& options) { return DrapeScenes(options).make(); }
 
-double sewing_end(const Scene& scene) { return sewing_time * static_cast<double>(scene.seams.size()); }
+double sewing_end(const Scene& scene) { return scene.seams.empty() ? 0.0 : scene.seams.back().from + scene.seams.back().over; }
+
+std::vector<double> sewing_times(const DrapeOptions& options) {
+    std::vector<double> times = {options.sewing_time};
+    for (const double other : {2.0 * options.sewing_time, 0.6 * options.sewing_time}) {
+        if (other * static_cast<double>(options.garments().size()) < options.seconds) times.push_back(other);
+    }
+    return times;
+}
 
 }  // namespace percale::scenes

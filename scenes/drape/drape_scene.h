@@ -25,6 +25,7 @@ struct DrapeOptions {
     double seconds = 20.0;      // s, limit
     double still = 2e-4;        // m/s, what rest is
     double edge_length = 0.02;  // m, of a pattern's mesh
+    double sewing_time = 1.0;   // s, of each garment
     bool weld = true;           // the seams of patterns
     bool no_self_contact = false;
     bool damps_patterns = false;  // a preset whose damping nothing else is said of
@@ -54,5 +55,9 @@ DrapeScene drape_scene(const DrapeOptions& options);
 
 /// s: until when garments are sewn, one after the other, and there is no weight.
 double sewing_end(const Scene& scene);
+
+/// s: sewing times to try, the first as the options say, each shorter than what leaves time to settle. Straps catch at the
+/// shoulder where they are sewn fast; panels cross far where they are sewn slowly, as they do not meet meanwhile.
+std::vector<double> sewing_times(const DrapeOptions& options);
 
 }  // namespace percale::scenes

@@ -12,19 +12,10 @@
 namespace percale::scenes {
 namespace {
 
-std::string place_of(const Vec3& x) {
-    return "(" + short_number(x.x()) + ", " + short_number(x.y()) + ", " + short_number(x.z()) + ")";
-}
-
 std::string unclean_text(const FrameCheck& check) {
     return "not clean: " + std::to_string(check.intersections) +
            " intersecting pairs (with the body, themselves or each other), " + std::to_string(check.vertices_inside) +
            " vertices inside the body, deepest " + short_number(check.deepest_penetration) + " m";
-}
-
-std::string unsewn_text(const WidestGap& gap) {
-    return "not sewn: seam '" + gap.seam + "' of '" + gap.garment + "' is open by " + short_number(gap.width) + " m at " +
-           place_of(gap.place) + "; does its way lie around or through the body?";
 }
 
 std::string restless_text(const Drape& drape) {
@@ -63,22 +54,6 @@ void tell_of_sliding(const BuiltScene& built, const Drape& drape, DrapeVerdict& 
 }
 
 }  // namespace
-
-WidestGap widest_gap(const BuiltScene& built) {
-    WidestGap widest;
-    for (const BuiltSeam& seam : built.seams) {
-        const std::vector<double> gaps = built.simulation.seam_gaps(seam.id);
-        widest.stitches += gaps.size();
-        const auto found = std::max_element(gaps.begin(), gaps.end());
-        if (*found < widest.width) continue;
-        widest.width = *found;
-        widest.seam = seam.name;
-        widest.garment = built.scene.cloths[seam.sewn.cloths[0]].name;
-        const int vertex = seam.sewn.stitches[static_cast<std::size_t>(found - gaps.begin())].vertex;
-        widest.place = built.simulation.positions(built.cloths[seam.sewn.cloths[0]])[vertex];
-    }
-    return widest;
-}
 
 DrapedFiles write_draped(const BuiltScene& built, const DrapeOptions& options, bool z_up) {
     std::vector<TriangleMesh> cloths = built.cloth_meshes;

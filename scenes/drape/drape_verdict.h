@@ -8,15 +8,6 @@
 
 namespace percale::scenes {
 
-/// The stitch that is farthest open.
-struct WidestGap {
-    std::size_t stitches = 0;  // of all seams
-    double width = 0.0;        // m
-    std::string seam = {}, garment = {};
-    Vec3 place = Vec3::Zero();  // m, of its vertex
-};
-WidestGap widest_gap(const BuiltScene& built);
-
 /// Writes the garments as they are now, in m, with the axes of the files, and certifies them. `own_crossings`: pairs of triangles
 /// of garments that cross; they count as intersections where garments meet.
 struct DrapedFiles {

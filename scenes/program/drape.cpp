@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "common/nearest_name.h"
 #include "common/text.h"
@@ -39,33 +40,52 @@ int finish(const BuiltScene& built, const DrapeCommand& command, const Drape& dr
     return drape.end == DrapeEnd::stopped ? stopped_by_signal : not_as_expected;
 }
 
-int drape_garments(const DrapeCommand& command) {
+std::size_t print_start(const DrapeOptions& options, const DrapeScene& made, const BuiltScene& built) {
+    std::printf("%s onto %s\n", joined(options.garments()).c_str(), options.body().c_str());
+    for (const std::string& note : made.notes) std::printf("%s\n", note.c_str());
+    for (const std::string& warning : built.warnings) std::printf("warning: %s\n", warning.c_str());
+    const std::size_t moves = print_start_moves(built.simulation);
+    std::fflush(stdout);
+    return moves;
+}
+
+/// Sewn within options.sewing_time; nothing where it could not be and is to be tried `again`.
+std::optional<int> drape_once(const DrapeCommand& command, const StopSignals& signals, bool again) {
     const DrapeOptions& options = command.drape;
-    if (options.files.size() < 2)
-        throw SceneError(options.files.front() + ": is the only file; name the garments, the innermost first, and then the BODY");
-    check_drape(options);
     const DrapeScene made = drape_scene(options);
     BuiltScene built = build_scene(made.scene);
-    const std::string garments = joined(options.garments());
-    std::size_t start_moves = 0;
-    if (!command.quiet) {
-        std::printf("%s onto %s\n", garments.c_str(), options.body().c_str());
-        for (const std::string& note : made.notes) std::printf("%s\n", note.c_str());
-        for (const std::string& warning : built.warnings) std::printf("warning: %s\n", warning.c_str());
-        start_moves = print_start_moves(built.simulation);
-    }
-    std::fflush(stdout);
-    const StopSignals signals;
+    const std::size_t start_moves = command.quiet ? 0 : print_start(options, made, built);
     ProgressBar bar(!command.quiet, options.seconds);
-    const Drape drape = settle(built, options, [&](double time) {
+    const auto stop = [&](double time) {
         bar.show(time);
         return signals.asked();
-    });
+    };
+    const Drape drape = settle(built, options, stop, again);
     bar.clear();
     if (!command.quiet) print_moves_after(start_moves, built.simulation);
+    const std::string garments = joined(options.garments());
+    if (drape.end == DrapeEnd::unsewn) {
+        if (!command.quiet)
+            std::printf("%s: sewn in %s s: %s\n", garments.c_str(), short_number(options.sewing_time).c_str(),
+                        drape.failure.c_str());
+        return std::nullopt;
+    }
     if (drape.end != DrapeEnd::failed) return finish(built, command, drape, made.z_up);
     std::fprintf(stderr, "percale: %s: nothing was written: %s\n", garments.c_str(), drape.failure.c_str());
     return not_as_expected;
+}
+
+int drape_garments(DrapeCommand command) {
+    DrapeOptions& options = command.drape;
+    if (options.files.size() < 2)
+        throw SceneError(options.files.front() + ": is the only file; name the garments, the innermost first, and then the BODY");
+    check_drape(options);
+    const StopSignals signals;
+    const std::vector<double> times = sewing_times(options);
+    for (std::size_t k = 0;; ++k) {
+        options.sewing_time = times[k];
+        if (const auto end = drape_once(command, signals, k + 1 < times.size())) return *end;
+    }
 }
 
 /// The preset, with what else the command line says.

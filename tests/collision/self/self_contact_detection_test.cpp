@@ -230,6 +230,32 @@ TEST_CASE("a contact of cloths that hardly move stays one until they are apart")
     CHECK(rows_at(*detector, at(1.0, 0.8 * h, 0.2 * h)) == 0);
 }
 
+TEST_CASE("a vertex that passes over an edge stays in contact with the face that it was above until the step is solved") {
+    const double h = 0.05;
+    // The second triangle of the lower sheet owns no edge: closest points on the one between both are the first's.
+    const auto at = [](double x) {
+        return std::vector<Vec3>{{0, 0, -1},   {0, 0, 1},         {1, -0.02, 0},    {-1, -0.02, 0},
+                                 {x, 0.02, 0}, {x + 0.3, 1, 0.3}, {x - 0.3, 1, 0.3}};
+    };
+    Cloths cloths;
+    const std::vector<Vec3> x = at(-0.002);
+    cloths.add({.vertices = {x.begin(), x.begin() + 4}, .triangles = {{0, 1, 2}, {1, 0, 3}}}, h);
+    cloths.add({.vertices = {x.begin() + 4, x.end()}, .triangles = {{0, 1, 2}}}, h);
+    const auto rows_at = [&](ContactDetector& detector, const std::vector<Vec3>& places) {
+        detector.refresh(places, places);
+        ContactRows rows;
+        detector.evaluate(places, 0.0, rows);
+        return rows.size();
+    };
+    CHECK(rows_at(*detector_for(cloths, backends()[0]), at(0.002)) == 1);
+    const auto detector = detector_for(cloths, backends()[0]);
+    CHECK(rows_at(*detector, at(-0.002)) == 1);
+    ContactRows rows;
+    detector->evaluate(at(0.002), 0.0, rows);
+    CHECK(rows.size() == 2);
+    CHECK(rows_at(*detector, at(0.002)) == 1);
+}
+
 TEST_CASE("edges over a valley whose slopes are sewn to them are in contact once they are near") {
     // The slopes lie nearer to the upper edge than the valley's ground, but its ends are sewn to them.
     const auto rows_at = [](double height, bool sewn) {

@@ -1,8 +1,5 @@
 #include "collision/untangle/enclosure.h"
 
-#include <cmath>
-#include <numbers>
-
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
@@ -10,25 +7,6 @@ using namespace percale;
 using namespace percale::test;
 
 namespace {
-
-/// An open tube of radius 1 and height 2 about the y axis.
-TriangleMesh tube(int around, int rows) {
-    TriangleMesh mesh;
-    for (int i = 0; i < rows; ++i) {
-        for (int k = 0; k < around; ++k) {
-            const double angle = 2.0 * std::numbers::pi * k / around;
-            mesh.vertices.emplace_back(std::cos(angle), 2.0 * i / (rows - 1) - 1.0, std::sin(angle));
-        }
-    }
-    for (int i = 0; i + 1 < rows; ++i) {
-        for (int k = 0; k < around; ++k) {
-            const int a = i * around + k, b = i * around + (k + 1) % around;
-            mesh.triangles.push_back({a, b, a + around});
-            mesh.triangles.push_back({b, b + around, a + around});
-        }
-    }
-    return mesh;
-}
 
 std::vector<Vec3> shifted(std::vector<Vec3> x, const Vec3& by) {
     for (Vec3& point : x) point += by;
@@ -38,7 +16,7 @@ std::vector<Vec3> shifted(std::vector<Vec3> x, const Vec3& by) {
 }  // namespace
 
 TEST_CASE("A tube has lost the rod that it surrounds once most of it is outside, not before") {
-    const TriangleMesh mesh = tube(24, 7);
+    const TriangleMesh mesh = make_tube({.height = 2.0});
     const SolidObstacle rod(make_box({0.6, 6.0, 0.6}));
     const Enclosure enclosure(mesh.triangles, mesh.vertices, rod);
     CHECK_FALSE(enclosure.lost(mesh.vertices));
@@ -48,13 +26,13 @@ TEST_CASE("A tube has lost the rod that it surrounds once most of it is outside,
 }
 
 TEST_CASE("A tube about two legs surrounds them") {
-    const TriangleMesh mesh = tube(24, 7), leg = make_box({0.3, 6.0, 0.3});
+    const TriangleMesh mesh = make_tube({.height = 2.0}), leg = make_box({0.3, 6.0, 0.3});
     const SolidObstacle legs(joined(moved(leg, {0.5, 0, 0}), moved(leg, {-0.5, 0, 0})));
     CHECK(Enclosure(mesh.triangles, mesh.vertices, legs).lost(shifted(mesh.vertices, {3.0, 0.0, 0.0})));
 }
 
 TEST_CASE("What does not pass through two rims is not surrounded") {
-    const TriangleMesh mesh = tube(24, 7), sheet = make_grid(3.0, 3.0, 8, 8), ball = make_sphere(1.0, 2);
+    const TriangleMesh mesh = make_tube({.height = 2.0}), sheet = make_grid(3.0, 3.0, 8, 8), ball = make_sphere(1.0, 2);
     const SolidObstacle rod(make_box({0.6, 6.0, 0.6})), floor(moved(make_box({9.0, 4.0, 9.0}), {0, -2.3, 0})),
         beside(moved(make_box({0.6, 6.0, 0.6}), {2.0, 0, 0})), around(make_box({9.0, 9.0, 9.0})),
         open(TriangleMesh{.vertices = make_box({0.6, 6.0, 0.6}).vertices, .triangles = {{0, 1, 2}}});

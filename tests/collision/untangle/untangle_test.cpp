@@ -155,24 +155,8 @@ TEST_CASE("shallow overlap is pushed out where it is, touching cloth is lifted o
     }
 }
 
-/// A skirt about the y axis: radii at its waist, y = 0.15, and at its hem, y = -0.15.
-TriangleMesh skirt_mesh(double waist, double hem) {
-    TriangleMesh mesh;
-    const int around = 48, rows = 8;
-    for (int i = 0; i < around * rows; ++i) {
-        const double angle = 2.0 * std::numbers::pi * (i % around) / around, up = (i / around) / (rows - 1.0);
-        const double radius = std::lerp(hem, waist, up);
-        mesh.vertices.emplace_back(radius * std::cos(angle), 0.3 * up - 0.15, radius * std::sin(angle));
-        if (i / around == rows - 1) continue;
-        const int next = i - i % around + (i + 1) % around;
-        mesh.triangles.push_back({i, next, i + around});
-        mesh.triangles.push_back({next, next + around, i + around});
-    }
-    return mesh;
-}
-
 TEST_CASE("a skirt whose waist is too narrow is stretched about the body, though leaving it would stretch less") {
-    Case skirt{.cloth = skirt_mesh(0.5, 1.1), .obstacles = {make_sphere(0.9, 3)}};
+    Case skirt{.cloth = make_tube({.low = 1.1, .top = 0.5, .height = 0.3, .around = 48}), .obstacles = {make_sphere(0.9, 3)}};
     for (Vec3& x : skirt.obstacles[0].vertices) x.y() *= 8.0;
     skirt.solve();
     REQUIRE(skirt.out);
@@ -183,7 +167,8 @@ TEST_CASE("a skirt whose waist is too narrow is stretched about the body, though
 }
 
 TEST_CASE("a skirt that dips into the floor is lifted out of it") {
-    Case skirt{.cloth = skirt_mesh(0.5, 0.5), .obstacles = {moved(make_box({4.0, 1.0, 4.0}), {0.0, -0.5, 0.0})}};
+    Case skirt{.cloth = make_tube({.low = 0.5, .top = 0.5, .height = 0.3, .around = 48}),
+               .obstacles = {moved(make_box({4.0, 1.0, 4.0}), {0.0, -0.5, 0.0})}};
     skirt.solve();
     REQUIRE(skirt.out);
     CHECK(skirt.clear());

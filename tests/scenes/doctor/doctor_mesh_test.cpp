@@ -140,6 +140,21 @@ TEST_CASE("cloth that crosses itself is an error only where it meets itself") {
     CHECK(find(of_cloth(both(free_sheet(), shifted(free_sheet(), {0, 0.01, 0}))), "self_crossing") == nullptr);
 }
 
+TEST_CASE("a closed cloth and an open obstacle were likely swapped, unless the cloth is filled") {
+    const TriangleMesh ball = make_sphere(0.3, 2), sheet = scaled(free_sheet(), 1.2);
+    const auto pair = [](const TriangleMesh& cloth, const TriangleMesh& obstacle, bool filled) {
+        return examine_pair(
+            {.role = MeshRole::cloth, .name = "cloth 'c'", .filled = filled, .mesh = cloth, .facts = mesh_facts(cloth)},
+            {.role = MeshRole::obstacle, .name = "obstacle 'o'", .mesh = obstacle, .facts = mesh_facts(obstacle)});
+    };
+    const auto swapped = pair(ball, sheet, false);
+    REQUIRE(find(swapped, "swapped") != nullptr);
+    CHECK(find(swapped, "swapped")->severity == Severity::warning);
+    CHECK(find(pair(ball, sheet, true), "swapped") == nullptr);
+    CHECK(find(pair(sheet, ball, false), "swapped") == nullptr);
+    CHECK(find(pair(ball, shifted(ball, {0, 0.5, 0}), false), "swapped") == nullptr);
+}
+
 TEST_CASE("pieces, and triangles wound against each other, are notes for cloth") {
     const auto pieces = of_cloth(both(free_sheet(), shifted(free_sheet(), {0, 0.1, 0})));
     REQUIRE(pieces.size() == 1);

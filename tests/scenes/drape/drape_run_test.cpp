@@ -46,4 +46,37 @@ TEST_CASE("a drape ends at rest, when it is stopped, and when all has fallen bel
           std::string::npos);
 }
 
+TEST_CASE("a garment that cannot be sewn is given up a second after its seams should have closed, if it is tried again") {
+    const TestFolder folder;
+    // Two strips on both sides of a plate that is wider than they are.
+    const std::string strip = "points = [[-10, 0], [10, 0], [10, 10], [-10, 10]]\n";
+    folder.write("strips.toml", "unit = \"cm\"\n[[panel]]\nname = \"a\"\n" + strip + "at = [0, 0, 5]\n[[panel]]\nname = \"b\"\n" +
+                                    strip + "at = [0, 0, -5]\nturn = [0, 180, 0]\n[[seam]]\nname = \"side\"\n" +
+                                    "sides = [[\"a.1\"], [\"b.3\"]]\n");
+    const TriangleMesh plate = make_box(Vec3(2.0, 2.0, 0.02));
+    write_obj(folder.path("plate.obj"), plate.vertices, plate.triangles);
+    DrapeOptions options;
+    options.files = {folder.path("strips.toml"), folder.path("plate.obj")};
+    options.outs = {folder.path("out.obj")};
+    options.sewing_time = 0.3;
+    options.seconds = 1.5;
+    const auto go_on = [](double) { return false; };
+    BuiltScene tried = build_scene(drape_scene(options).scene);
+    const Drape given_up = settle(tried, options, go_on, true);
+    CHECK(given_up.end == DrapeEnd::unsewn);
+    CHECK(given_up.failure.find("not sewn: seam 'side' of 'strips' is open by ") == 0);
+    CHECK(tried.simulation.time() == Approx(1.3).margin(0.02));
+    BuiltScene last = build_scene(drape_scene(options).scene);
+    CHECK(settle(last, options, go_on).end == DrapeEnd::time_up);
+    CHECK(last.simulation.time() == Approx(1.5).margin(0.02));
+}
+
+TEST_CASE("sewing times leave time to settle, the first is what the options say") {
+    DrapeOptions options;
+    options.files = {"a.toml", "b.toml", "body.obj"};
+    CHECK(sewing_times(options) == std::vector<double>{1.0, 2.0, 0.6});
+    options.seconds = 3.0;
+    CHECK(sewing_times(options) == std::vector<double>{1.0, 0.6});
+}
+
 }  // namespace percale::scenes::test

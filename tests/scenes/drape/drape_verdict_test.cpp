@@ -21,7 +21,7 @@ DrapeOptions ring_around_post(const TestFolder& folder, double half_width) {
     DrapeOptions options;
     options.files = {folder.path("ring.toml"), folder.path("post.obj")};
     options.outs = {folder.path("out.obj")};
-    options.seconds = 2.35;
+    options.seconds = 1.35;
     return options;
 }
 
@@ -50,7 +50,7 @@ TEST_CASE(
     "meet") {
     const TestFolder folder;
     DrapeOptions options = ring_around_post(folder, 9.0);
-    options.seconds = 2.05;
+    options.seconds = 1.05;
     options.no_self_contact = true;
     BuiltScene built = build_scene(drape_scene(options).scene);
     const Drape drape = settle(built, options, [](double) { return false; });

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,27 @@ inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
     a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
     for (const Triangle& t : b.triangles) a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
     return a;
+}
+
+/// An open tube about the y axis, its middle at the origin, wound so that normals point at the axis or all away from it.
+struct TubeShape {
+    double low = 1.0, top = 1.0;  // m, radii at both ends
+    double height = 1.0;          // m
+    int around = 24, rows = 8;    // vertices
+};
+inline TriangleMesh make_tube(const TubeShape& shape) {
+    const auto& [low, top, height, around, rows] = shape;
+    TriangleMesh mesh;
+    for (int i = 0; i < around * rows; ++i) {
+        const double angle = 2.0 * std::numbers::pi * (i % around) / around, up = (i / around) / (rows - 1.0);
+        const double radius = std::lerp(low, top, up);
+        mesh.vertices.emplace_back(radius * std::cos(angle), height * (up - 0.5), radius * std::sin(angle));
+        if (i / around == rows - 1) continue;
+        const int next = i - i % around + (i + 1) % around;
+        mesh.triangles.push_back({i, next, i + around});
+        mesh.triangles.push_back({next, next + around, i + around});
+    }
+    return mesh;
 }
 
 /// A ball whose vertices are pulled out and pushed in along their radii: closed, not convex, no self-intersections.
