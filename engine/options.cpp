@@ -182,6 +182,15 @@ constexpr Option<StepSettings> step_list[] = {
      .lowest = 1,
      .highest = 1000,
      .integer = [](StepSettings& s) { return &s.newton_iterations; }},
+    {.key = "work_limit",
+     .unit = "",
+     .sentence = "Newton iterations of one step at most, of all that it is divided into and solved again; beyond, the step fails "
+                 "and the state stays; auto = no limit.",
+     .lowest = 1,
+     .highest = 1000000000,
+     .changes_steps = false,
+     .integer = [](StepSettings& s) { return &s.work_limit; },
+     .zero_is_auto = true},
     {.key = "linear_solver",
      .unit = "",
      .sentence = "How the linear system of a Newton iteration is solved: cg = conjugate gradient with block Jacobi, multigrid = "

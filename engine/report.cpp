@@ -11,6 +11,27 @@ std::string numbered(const char* what, int number, const std::string& name) {
     return std::string(what) + " " + std::to_string(number) + (name.empty() ? "" : " (" + name + ")");
 }
 
+/// Cloth between pins that stay and a body that goes is not too slow.
+std::string stretch_text(const StepReport& report) {
+    std::ostringstream text;
+    text << numbered("cloth", report.stretched_cloth, report.stretched_name) << " is stretched to "
+         << std::round(10.0 * (1.0 + report.stretch)) / 10.0 << " times its length between its " << report.stretched_pins
+         << " pinned vertices and what moves it; should its pins go along?";
+    return text.str();
+}
+
+/// Why cloth does not follow a body, and what would help.
+std::string lag_text(const StepReport& report) {
+    std::ostringstream text;
+    if (report.stretched_cloth >= 0) return stretch_text(report);
+    if (report.blocked_vertex >= 0) {
+        text << "vertex " << report.blocked_vertex << " of " << numbered("cloth", report.blocked_cloth, report.blocked_name)
+             << ", which is in its way, is pinned; should it go along?";
+        return text.str();
+    }
+    return "take a shorter time step or a slower motion";
+}
+
 std::string failure_text(const StepReport& report) {
     std::ostringstream text;
     const bool by_cloth = report.blocking_obstacle < 0 && !report.blocking_name.empty();
@@ -31,14 +52,23 @@ std::string failure_text(const StepReport& report) {
                      << report.smallest_fraction;
                 break;
             }
+            if (report.obstacle_travel > 0.0) {
+                text << blocker << " moves " << report.obstacle_travel
+                     << " m beside the cloth in one step, farther than cloth can follow; take a shorter time step or a slower "
+                        "motion, or teleport cloth and obstacle together";
+                break;
+            }
             text << blocker << " moves faster than the cloth can follow, smallest safe fraction of a move "
-                 << report.smallest_fraction << "; take a shorter time step or a slower motion";
+                 << report.smallest_fraction << "; " << lag_text(report);
             break;
         case StepStatus::wrong_derivative:
             text << report.wrong_derivative;
             break;
         case StepStatus::not_finite:
             text << "positions or velocities would become infinite; take a shorter time step or an implicit scheme";
+            break;
+        case StepStatus::work_limit:
+            text << "more Newton iterations than work_limit allows; take a shorter time step or a slower motion";
             break;
         default:
             break;
@@ -114,6 +144,8 @@ const char* status_word(StepStatus status) {
             return "wrong_derivative";
         case StepStatus::not_finite:
             return "not_finite";
+        case StepStatus::work_limit:
+            return "work_limit";
     }
     return "unknown";
 }

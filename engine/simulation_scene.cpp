@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "percale/options.h"
@@ -12,7 +13,7 @@
 namespace percale {
 
 Simulation::Simulation(const StepSettings& settings, std::unique_ptr<ContactDetector> detector, std::shared_ptr<Workers> workers)
-    : implementation_(std::make_unique<Implementation>()) {
+    : implementation_{std::make_unique<Implementation>()} {
     check_options(settings, "settings");
     World& world = implementation_->world;
     world.scene.settings = settings;
@@ -20,6 +21,11 @@ Simulation::Simulation(const StepSettings& settings, std::unique_ptr<ContactDete
     world.own_workers = workers == nullptr;
     world.workers = std::move(workers);
     set_workers(world);
+}
+
+Simulation::Implementation* Simulation::Owner::operator->() const {
+    if (!owned) throw SceneError("this simulation was moved from: only the one that it was moved to may be used");
+    return owned.get();
 }
 
 Simulation::~Simulation() = default;
@@ -92,9 +98,15 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
     check_pose(pose, settings.name);
     check_mesh(mesh, settings.name, false);
     const Pose placed = normalised(pose);
+    double square = 0.0;
+    for (const Vec3& x : mesh.vertices) square = std::max(square, x.squaredNorm());
     world.scene.detector->add_obstacle(mesh, placed, settings.friction);
-    world.scene.script.obstacles.push_back(
-        {settings.name, placed, placed, static_cast<int>(mesh.triangles.size()), settings.restitution});
+    world.scene.script.obstacles.push_back({.name = settings.name,
+                                            .start = placed,
+                                            .end = placed,
+                                            .triangles = static_cast<int>(mesh.triangles.size()),
+                                            .restitution = settings.restitution,
+                                            .reach = placed.scale * std::sqrt(square)});
     world.changed = true;
     scene_changed(world);
     return {static_cast<int>(world.scene.script.obstacles.size()) - 1};
@@ -113,7 +125,9 @@ void Simulation::prepare() {
     check_scheme(implementation_->world.scene);
     const bool obstacles = !world.scene.script.obstacles.empty() && !world.scene.model.cloths.empty();
     if (world.scene.detector && (obstacles || cloth_meets_now(world))) {
+        world.refused = true;  // unless it comes to another end
         std::vector<StartMove> moves = clear_start(world, sewn_now ? " is sewn " : " starts ");
+        world.refused = false;
         std::vector<StartMove>& known = implementation_->start_moves;
         if (!sewn_now) known.clear();
         if (sewn_now && !moves.empty()) world.state.past.forget();

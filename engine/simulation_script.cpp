@@ -3,6 +3,7 @@
 #include "percale/options.h"
 #include "simulation_implementation.h"
 #include "step/sewing.h"
+#include "step/teleport.h"
 
 namespace percale {
 
@@ -27,6 +28,10 @@ void Simulation::move_pin(ClothId cloth, int vertex, const Vec3& target) {
     World& world = implementation_->world;
     if (target != world.state.cloth.positions.at(at)) wake(world.rest);
     world.scene.script.pin_targets.set(at, target);
+    if (!world.refused) return;
+    world.state.cloth.positions.set(at, target);  // no step begins where it is
+    update_points(world.state.cloth);
+    implementation_->update_views();
 }
 
 void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
@@ -37,6 +42,9 @@ void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
     }
     state.end = normalised(end);
     if (state.end != state.start) wake(implementation_->world.rest);
+    if (!implementation_->world.refused) return;
+    state.start = state.end;  // no step begins where it is
+    state.settled = false;
 }
 
 void Simulation::set_gravity(const Vec3& gravity) {
@@ -153,6 +161,24 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     world.state.past.forget();
     world.changed = true;
     wake(world.rest);
+}
+
+void Simulation::teleport(std::span<const ClothId> cloths, std::span<const ObstacleId> obstacles, const Pose& motion,
+                          TeleportVelocities velocities) {
+    check_pose(motion, "teleport");
+    if (motion.scale != 1.0) throw SceneError("teleport", "scale = " + number_text(motion.scale) + ", a rigid motion has 1");
+    std::vector<int> cloth_numbers, obstacle_numbers;
+    for (const ClothId id : cloths) {
+        static_cast<void>(implementation_->cloth(id));
+        if (std::ranges::count(cloth_numbers, id.index) == 0) cloth_numbers.push_back(id.index);
+    }
+    for (const ObstacleId id : obstacles) {
+        static_cast<void>(implementation_->obstacle(id));
+        if (std::ranges::count(obstacle_numbers, id.index) == 0) obstacle_numbers.push_back(id.index);
+    }
+    percale::teleport(implementation_->world, cloth_numbers, obstacle_numbers, normalised(motion),
+                      velocities == TeleportVelocities::keep);
+    implementation_->update_views();
 }
 
 void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities) {

@@ -49,6 +49,9 @@ constexpr int curve_key_bits = 20;
 /// in memory. Fewer: more padding. Cost alone.
 constexpr std::size_t vertex_sorting_window = 256;
 
+/// Radians. Below it the chord between two turns differs from the arc by less than rounding, and sines would divide 0 by 0.
+constexpr double least_arc = 1e-5;
+
 // ---- model/
 
 /// Radians. A rest shape with smaller angles is flat. 0: rounding makes every flat cloth a curved one, which costs more.
@@ -147,11 +150,9 @@ constexpr double least_start_share = 1e-3;
 
 // ---- schemes/: the longest stable step of a Runge-Kutta scheme is searched along a ray, in units of 1/|lambda|
 
-/// Shorter stable steps count as none.
-constexpr double least_stable_step = 1e-6;
-
-/// Factor from one trial to the next. Larger: a gap of the stable region may be stepped over. Cost.
-constexpr double stable_step_march = 1.02;
+/// Shorter stable steps count as none. And the factor from one trial to the next. Larger: a gap of the stable region may be
+/// stepped over. Cost.
+constexpr double least_stable_step = 1e-6, stable_step_march = 1.02;
 
 /// Share of |R| that rounding adds to 1. 0: stable steps are found unstable.
 constexpr double growth_rounding = 1e-12;
@@ -221,20 +222,16 @@ constexpr double least_candidate_square = 1e-24;
 /// Share of the residual to which floats are trusted. Smaller: iterations that gain nothing. Larger: more refinements.
 constexpr double float_residual = 1e-4;
 
-/// Refinements of a solve in floats by residuals in doubles.
+/// Refinements of a solve in floats by residuals in doubles; the share of the wanted residual that one aims at; and the share of
+/// the residual before that it may leave: with more, floats have broken down.
 constexpr int most_refinements = 12;
-
-/// Share of the wanted residual that a solve in floats aims at.
-constexpr double float_aim_share = 0.5;
-
-/// Share of the residual before that a refinement may leave; with more, floats have broken down.
-constexpr double most_refined_share = 0.5;
+constexpr double float_aim_share = 0.5, most_refined_share = 0.5;
 
 /// Ratio of energy gains from one window to the next. Below it they fall fast, and what is likely to come is estimated by the
 /// last window alone. Larger: badly conditioned systems count as solved too early. (Inline, as a header reads it.)
 inline constexpr double slow_gain_ratio = 0.8;
 
-/// The largest ratio that the sum of what is to come is taken with. 1: no bound.
+/// The largest that the sum of what is to come is taken with. 1: no bound.
 inline constexpr double most_gain_ratio = 0.99;
 
 // ---- plan/
@@ -308,8 +305,7 @@ constexpr int most_contact_rounds = 6;
 /// Share of h at most: contact less exact takes another round, however large the time error is.
 constexpr double contact_round_share = 0.01;
 
-/// h over the smallest change that means something without contact (2e-5 h). Smaller: cloth near rest is left unsolved. Larger:
-/// iterations that are pointless.
+/// h over the smallest change that means something without contact (2e-5 h). Smaller: cloth near rest is left unsolved.
 constexpr double thickness_over_smallest_change = 5e4;
 
 /// Share of an adaptive stage's allowance below which a change means nothing.
@@ -396,6 +392,17 @@ constexpr double rest_force_share = 0.02;
 /// grows where every third step rises. From the second on each step stops cloth for so many s. Smaller: a swing creeps to rest.
 constexpr int unrest_of_rise = 3, most_unrest = 12;
 constexpr double stopping_time = 2.0 * rest_time;
+
+/// Radians, and times the thickness: what an obstacle turns and moves by in one part of a step. Larger: parts that the path of
+/// vertices on straight lines does not follow, and lists of contacts that grow. Smaller: more parts.
+constexpr double largest_part_turn = 0.26179938779914943, largest_part_travel = 20.0;
+
+/// Parts of a step. More: steps of many seconds, that fling cloth. And what a count of parts may be above a whole number.
+constexpr int most_step_parts = 64;
+constexpr double part_rounding = 1e-9;
+
+/// Strain of held cloth that the report of a failed step tells of. Smaller: it tells of cloth that is only taut.
+constexpr double told_strain = 1.0;
 
 /// Halvings of one span, one inside the other: the shortest is 1/64 of it. Fewer: hard impacts end as steps that did not
 /// converge. More: a step that cannot converge costs twice as much with each before it says so.

@@ -83,6 +83,12 @@ constexpr double layer_offset = 0.04;
 /// longer side are pressed together. Smaller: eased seams are gathered.
 constexpr double gathered_ratio = 1.1;
 
+/// Relative to the square of the longest side: a triangle with less than this as twice its area has none. 0: ears along a line.
+constexpr double least_turn = 1e-12;
+
+/// Corners of a polygon that is cut into ears, which takes their square of time. More: seconds for one polygon.
+constexpr std::size_t most_cut_corners = 10000;
+
 // ---- run/
 
 /// Radians, and times the thickness: what an obstacle turns and moves by in one part of a step. Larger: parts that the path of
@@ -105,8 +111,8 @@ constexpr double event_rounding = 1e-9;
 /// taken along by the last one. 0: rounding adds a step of no length.
 constexpr double whole_steps_rounding = 1e-9, least_last_step = 1e-3;
 
-/// Radians. Below it the chord between two turns differs from the arc by less than rounding, and sines would divide 0 by 0.
-constexpr double least_arc = 1e-5;
+/// Strain from which a run warns that cloth would have torn. Smaller: it warns of knits that stretch.
+constexpr double torn_strain = 1.0;
 
 // ---- doctor/: from where on it warns. Smaller or larger: warnings of what is right, or none of what is wrong.
 

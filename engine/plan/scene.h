@@ -18,6 +18,7 @@ struct ObstacleState {
     Pose start, end;  // of the coming step
     int triangles = 0;
     double restitution = 0.0;
+    double reach = 0.0;   // m, of its farthest vertex from the mesh's origin, the pose's scale included
     bool settled = true;  // the detector knows that it stays at `start`
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -67,10 +68,11 @@ struct NewtonSpace {
     StagePoint current, trial;
     FrictionStart friction;
     Vectors direction, right_side;
-    Vectors first_direction;           // m/s, before rows were foreseen
-    std::vector<NetLimit> net_limits;  // of the last direction
-    BodyStates bodies;                 // in the rounds of find_motion
-    ForeseenRows foreseen;             // of the last move that a line search refused
+    Vectors first_direction;                                // m/s, before rows were foreseen
+    std::vector<NetLimit> net_limits;                       // of the last direction
+    BodyStates bodies;                                      // in the rounds of find_motion
+    ForeseenRows foreseen;                                  // of the last move that a line search refused
+    int iterations_left = std::numeric_limits<int>::max();  // of StepSettings::work_limit, for one stage
 
     ContactLaw& law(ContactResponse response) {
         if (response == ContactResponse::projection) return projection;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "forces/elastic.h"
 #include "impacts.h"
 #include "plan/scene.h"
@@ -54,6 +56,7 @@ struct Workspace {
     ElasticSpace elastic;
     StepState ends[3];  // of spans that are kept or dropped (solve_step.cpp)
     StageTimes times;
+    int iterations_left = std::numeric_limits<int>::max();  // of Newton's, that the step may still take
 };
 
 }  // namespace percale

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "model/cloth_state.h"
+#include "percale/cloth_ahead.h"
 #include "plan/scene.h"
 
 namespace percale {
@@ -9,5 +11,19 @@ void tell_obstacles(StepScene& scene);
 
 /// After a good step: obstacles stay where they arrived.
 void finish_motion(StepScene& scene);
+
+/// A cloth during the coming step if it went on as it moves.
+ClothAhead cloth_ahead(const StepScene& scene, const ClothRange& cloth, const ClothState& state);
+
+/// Into how many equal parts the coming step is divided, and what asks for them.
+struct MotionParts {
+    int count = 1;
+    int obstacle = -1;    // the one that asks for most
+    double travel = 0.0;  // m: how far it goes beside the cloth that it meets
+};
+
+/// No obstacle that may meet a cloth turns by more than 15 degrees in a part, as its vertices go straight there, nor moves by
+/// more than 20 thicknesses of that cloth beside its mean motion, so that the cloth can follow.
+MotionParts motion_parts(const StepScene& scene, const ClothState& state);
 
 }  // namespace percale

@@ -111,6 +111,11 @@ private:
         const StepState* at = &start;
         StepState* end = nullptr;
         while (count > 0) {
+            if (report_.newton_iterations >= work_.iterations_left) {
+                report_.status = StepStatus::work_limit;
+                return nullptr;
+            }
+            work_.newton.iterations_left = work_.iterations_left - report_.newton_iterations;
             const auto [fraction, depth] = pending[--count];
             const Span next = span(fraction, depth == most_halvings);
             end = &other_end(*at);

@@ -1,14 +1,17 @@
 #include "step.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "checks/checked_terms.h"
+#include "failure.h"
 #include "kinetic_damping.h"
 #include "measure.h"
 #include "motion.h"
 #include "plan/planning.h"
 #include "sewing.h"
 #include "solve_step.h"
+#include "step_parts.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -47,24 +50,13 @@ void check_end(const StepScene& scene, const StepState& start, const StepState& 
         check_derivatives({scene, start.cloth, end, work, report.smallest_dt}, report);
 }
 
-}  // namespace
-
-void scene_changed(World& world) {
-    world.plan_outdated = true;
-    world.state.past.forget();  // what schemes would extrapolate from
-    wake(world.rest);
-}
-
-StepReport step(World& world) {
+/// One step that is not divided.
+StepReport step_once(World& world) {
     StepScene& scene = world.scene;
     StepState& state = world.state;
     RestState& rest = world.rest;
     Workspace& work = world.work;
     const double dt = scene.settings.time_step;
-    if (rest.asleep) {
-        advance_time(dt, state);
-        return sleep_through(rest, state.time);
-    }
     StepReport report = begin_report(dt);
     work.times = {};
     report.energy.work = plan_step(world);
@@ -93,6 +85,45 @@ StepReport step(World& world) {
     report.stages = work.times;
     report.time = state.time;
     return report;
+}
+
+/// A step in which an obstacle moves far. Where it moves too far for any number of parts, nothing is tried.
+StepReport step_far(World& world, const MotionParts& motion) {
+    StepState& state = world.state;
+    if (motion.count > most_step_parts) {
+        StepReport report = begin_report(world.scene.settings.time_step);
+        tell_too_far(world.scene, motion, report);
+        report.time = state.time;
+        return report;
+    }
+    const double time = state.time, time_error = state.time_error;
+    StepReport report = step_in_parts(world, motion.count, step_once);
+    if (report.ok()) {  // as one step adds it up
+        state.time = time;
+        state.time_error = time_error;
+        advance_time(world.scene.settings.time_step, state);
+    }
+    report.time = state.time;
+    return report;
+}
+
+}  // namespace
+
+void scene_changed(World& world) {
+    world.plan_outdated = true;
+    world.state.past.forget();  // what schemes would extrapolate from
+    wake(world.rest);
+}
+
+StepReport step(World& world) {
+    if (world.rest.asleep) {
+        advance_time(world.scene.settings.time_step, world.state);
+        return sleep_through(world.rest, world.state.time);
+    }
+    const int limit = world.scene.settings.work_limit;
+    world.work.iterations_left = limit > 0 ? limit : std::numeric_limits<int>::max();
+    const MotionParts motion = motion_parts(world.scene, world.state.cloth);
+    return motion.count > 1 ? step_far(world, motion) : step_once(world);
 }
 
 }  // namespace percale

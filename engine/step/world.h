@@ -31,6 +31,7 @@ struct World {
     UserViews views;
     bool plan_outdated = true;  // the scene has changed since the plan was made
     bool changed = true;        // cloth or obstacles were added since the last preparation
+    bool refused = false;       // the last preparation found a start that may not be simulated
     LoadSource load_source = LoadSource::nowhere;
     std::vector<ContactLoad> saved_loads;  // of a state that was restored
     std::vector<Vec3> holds_before;        // N: of the welds, before the step that is being made

@@ -18,6 +18,7 @@
 #include "meshes/obj_file.h"
 #include "meshes/off_file.h"
 #include "meshes/ply_file.h"
+#include "meshes/polygon.h"
 #include "meshes/stl_header.h"
 #include "percale/error.h"
 #include "tolerances.h"
@@ -86,7 +87,7 @@ void check_finite(const Point& x, std::size_t vertex, const std::string& file) {
             throw SceneError(file, "vertex " + std::to_string(vertex) + ": coordinate " + names[axis] + " is not finite");
 }
 
-/// Fans a face from its first corner; points and lines give nothing. assimp's own way to triangles follows indices that are out
+/// Points and lines give nothing. assimp's own way to triangles follows indices that are out
 /// of range, and ends the program where a polygon has no area.
 void append_face(const aiMesh& part, unsigned number, std::size_t first, const std::string& file, TriangleMesh& mesh) {
     const std::span<const unsigned> indices(part.mFaces[number].mIndices, part.mFaces[number].mNumIndices);
@@ -95,8 +96,10 @@ void append_face(const aiMesh& part, unsigned number, std::size_t first, const s
         throw SceneError(file, "face " + std::to_string(number) + ": vertex index " + std::to_string(index) +
                                    " is out of range 0 ... " + std::to_string(static_cast<long>(part.mNumVertices) - 1));
     }
-    const auto corner = [&](std::size_t k) { return static_cast<int>(first + indices[k]); };
-    for (std::size_t k = 2; k < indices.size(); ++k) mesh.triangles.push_back({corner(0), corner(k - 1), corner(k)});
+    std::vector<Vec3> places;
+    for (const unsigned index : indices) places.push_back(mesh.vertices[first + index]);
+    const auto corner = [&](int k) { return static_cast<int>(first + indices[static_cast<std::size_t>(k)]); };
+    for (const Triangle& t : polygon_triangles(places)) mesh.triangles.push_back({corner(t[0]), corner(t[1]), corner(t[2])});
 }
 
 /// Appends one mesh of an imported scene with its node's transform.

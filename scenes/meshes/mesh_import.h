@@ -12,13 +12,13 @@ std::string extension_of(const std::string& file);
 /// Whether a file is a mesh by the ending of its name.
 bool is_mesh_file(const std::string& file);
 
-/// Reads a mesh file. OBJ, OFF and PLY by our own readers (vertices exactly the file's, in its order; polygons fanned), STL, glTF
-/// and GLB, Collada (DAE), FBX, 3DS, AMF, X3D, DXF, LWO, ASE and X through assimp (float precision; polygons fanned, too; all
-/// parts of the file joined, node transforms applied) with vertices welded by position so that a file's shared vertices are
-/// shared again, in the order of first appearance. Coordinates are multiplied by `unit` (m per unit of the file, > 0). Throws
-/// SceneError naming the file, and the line for OBJ, OFF and PLY in text: missing or unreadable file, empty, NaN or infinite
-/// coordinate, index out of range, no triangles, a header that claims more than the file can hold, another format, copies of
-/// parts beyond 64 in the mean and 100000 vertices.
+/// Reads a mesh file. OBJ, OFF and PLY by our own readers (vertices exactly the file's, in its order; polygons by
+/// polygon_triangles), STL, glTF and GLB, Collada (DAE), FBX, 3DS, AMF, X3D, DXF, LWO, ASE and X through assimp (float precision;
+/// polygons likewise; all parts of the file joined, node transforms applied) with vertices welded by position so that a file's
+/// shared vertices are shared again, in the order of first appearance. Coordinates are multiplied by `unit` (m per unit of the
+/// file, > 0). Throws SceneError naming the file, and the line for OBJ, OFF and PLY in text: missing or unreadable file, empty,
+/// NaN or infinite coordinate, index out of range, no triangles, a header that claims more than the file can hold, another
+/// format, copies of parts beyond 64 in the mean and 100000 vertices.
 TriangleMesh import_mesh(const std::string& file, double unit = 1.0);
 
 /// A mesh with its texture coordinates, which OBJ files have (vt); vertices times `unit`. Throws SceneError as import_mesh does,

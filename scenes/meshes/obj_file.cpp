@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/whole_file.h"
+#include "meshes/polygon.h"
 #include "meshes/text_scan.h"
 
 namespace percale::scenes {
@@ -97,39 +98,46 @@ void read_face(std::string_view line, const TextPlace& place, const ReadSoFar& s
     faces.lines.push_back(place.line);
 }
 
-/// Fans every face from its first corner.
-std::vector<Triangle> fan(const FaceList& faces, std::size_t vertex_count, const std::string& name) {
-    std::vector<Triangle> triangles;
+/// A triangle by the numbers of its corners in the list, and its face.
+struct CornerTriangle {
+    std::array<std::size_t, 3> corners;
+    std::size_t face = 0;
+};
+
+std::vector<CornerTriangle> corner_triangles(const FaceList& faces, std::span<const Vec3> vertices, const std::string& name) {
+    std::vector<CornerTriangle> triangles;
     triangles.reserve(faces.corners.size());
+    std::vector<Vec3> places;
     std::size_t start = 0;
     for (std::size_t face = 0; face < faces.ends.size(); ++face) {
-        for (std::size_t k = start; k < faces.ends[face]; ++k)
-            if (faces.corners[k] >= static_cast<long long>(vertex_count))
+        places.clear();
+        for (std::size_t k = start; k < faces.ends[face]; ++k) {
+            if (faces.corners[k] >= static_cast<long long>(vertices.size()))
                 fail_at_line({name, faces.lines[face]}, "vertex index " + std::to_string(faces.corners[k] + 1) +
-                                                            " is out of range 1 ... " + std::to_string(vertex_count));
-        const auto corner = [&](std::size_t k) { return static_cast<int>(faces.corners[k]); };
-        for (std::size_t k = start + 2; k < faces.ends[face]; ++k) triangles.push_back({corner(start), corner(k - 1), corner(k)});
+                                                            " is out of range 1 ... " + std::to_string(vertices.size()));
+            places.push_back(vertices[static_cast<std::size_t>(faces.corners[k])]);
+        }
+        for (const Triangle& t : polygon_triangles(places))
+            triangles.push_back({{start + t[0], start + t[1], start + t[2]}, face});
         start = faces.ends[face];
     }
     return triangles;
 }
 
-/// Texture coordinates of the corners, fanned likewise.
-std::vector<std::array<Eigen::Vector2d, 3>> fan_textures(const FaceList& faces, const std::vector<Eigen::Vector2d>& textures,
-                                                         const std::string& name) {
+/// Texture coordinates of the corners.
+std::vector<std::array<Eigen::Vector2d, 3>> corner_textures(const FaceList& faces, std::span<const CornerTriangle> triangles,
+                                                            const std::vector<Eigen::Vector2d>& textures,
+                                                            const std::string& name) {
     std::vector<std::array<Eigen::Vector2d, 3>> uv;
-    std::size_t start = 0;
-    for (std::size_t face = 0; face < faces.ends.size(); ++face) {
-        const auto corner = [&](std::size_t k) {
-            const long long index = faces.textures[k];
+    for (const auto& [corners, face] : triangles) {
+        const auto texture = [&, line = faces.lines[face]](std::size_t corner) {
+            const long long index = faces.textures[corner];
             if (index >= 0 && index < static_cast<long long>(textures.size())) return textures[static_cast<std::size_t>(index)];
-            fail_at_line({name, faces.lines[face]}, index < 0
-                                                        ? "a corner has no texture index (vt), which every corner needs here"
-                                                        : "texture index " + std::to_string(index + 1) +
-                                                              " is out of range 1 ... " + std::to_string(textures.size()));
+            fail_at_line({name, line}, index < 0 ? "a corner has no texture index (vt), which every corner needs here"
+                                                 : "texture index " + std::to_string(index + 1) + " is out of range 1 ... " +
+                                                       std::to_string(textures.size()));
         };
-        for (std::size_t k = start + 2; k < faces.ends[face]; ++k) uv.push_back({corner(start), corner(k - 1), corner(k)});
-        start = faces.ends[face];
+        uv.push_back({texture(corners[0]), texture(corners[1]), texture(corners[2])});
     }
     return uv;
 }
@@ -166,8 +174,12 @@ TexturedMesh read_content(std::istream& in, const std::string& name, bool textur
     }
     if (mesh.vertices.empty()) throw SceneError(name, "no vertices");
     if (faces.ends.empty()) throw SceneError(name, "no triangles");
-    mesh.triangles = fan(faces, mesh.vertices.size(), name);
-    if (textured) result.uv = fan_textures(faces, textures, name);
+    const std::vector<CornerTriangle> triangles = corner_triangles(faces, mesh.vertices, name);
+    const auto vertex = [&](std::size_t corner) { return static_cast<int>(faces.corners[corner]); };
+    for (const auto& [corners, face] : triangles) {
+        mesh.triangles.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2])});
+    }
+    if (textured) result.uv = corner_textures(faces, triangles, textures, name);
     return result;
 }
 

@@ -10,7 +10,7 @@
 
 namespace percale::scenes {
 
-/// Wavefront OBJ: v and f (with or without /vt/vn, negative indices allowed, polygons fanned from their first vertex); other
+/// Wavefront OBJ: v and f (with or without /vt/vn, negative indices allowed, polygons by polygon_triangles); other
 /// keywords are passed over. Vertex order is kept. Throws SceneError with name:line.
 TriangleMesh read_obj(std::istream& in, const std::string& name);
 

@@ -3,6 +3,7 @@
 #include <istream>
 #include <iterator>
 
+#include "meshes/polygon.h"
 #include "meshes/text_scan.h"
 
 namespace percale::scenes {
@@ -71,18 +72,17 @@ std::string_view element_line(OffText& text, const char* kind, std::size_t done,
     return line;
 }
 
-void read_face(std::string_view line, const OffText& text, std::size_t vertex_count, std::vector<Triangle>& triangles) {
+void read_face(std::string_view line, const OffText& text, std::size_t vertex_count, PolygonList& polygons) {
     const long long corners = to_integer(next_word(line), text.place(), "number of corners");
     if (corners < 3) fail_at_line(text.place(), "a face needs 3 corners or more, this one has " + std::to_string(corners));
-    Triangle fan{};
     for (long long k = 0; k < corners; ++k) {
         const long long index = to_integer(next_word(line), text.place(), "vertex index");
         if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
             fail_at_line(text.place(),
                          "vertex index " + std::to_string(index) + " is out of range 0 ... " + std::to_string(vertex_count - 1));
-        fan = {k == 0 ? static_cast<int>(index) : fan[0], fan[2], static_cast<int>(index)};
-        if (k >= 2) triangles.push_back(fan);
+        polygons.add_corner(static_cast<int>(index));
     }
+    polygons.end_polygon();
 }
 
 }  // namespace
@@ -98,7 +98,8 @@ TriangleMesh read_off(std::istream& in, const std::string& name) {
 
     TriangleMesh mesh;
     mesh.vertices.reserve(vertex_count);
-    mesh.triangles.reserve(face_count);
+    PolygonList polygons;
+    polygons.reserve(face_count);
     for (std::size_t k = 0; k < vertex_count; ++k) {
         std::string_view line = element_line(text, "vertices", k, vertex_count);
         Vec3 x;
@@ -108,7 +109,8 @@ TriangleMesh read_off(std::istream& in, const std::string& name) {
         mesh.vertices.push_back(x);
     }
     for (std::size_t k = 0; k < face_count; ++k)
-        read_face(element_line(text, "faces", k, face_count), text, vertex_count, mesh.triangles);
+        read_face(element_line(text, "faces", k, face_count), text, vertex_count, polygons);
+    mesh.triangles = triangles_of(polygons, mesh.vertices);
     return mesh;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "meshes/polygon.h"
 #include "meshes/text_scan.h"
 
 namespace percale::scenes {
@@ -307,27 +308,32 @@ Vec3 read_vertex(PlyBody& body, const PlyElement& element) {
     return x;
 }
 
-void read_corners(PlyBody& body, const PlyProperty& list, std::size_t vertex_count, std::vector<Triangle>& triangles) {
+void read_corners(PlyBody& body, const PlyProperty& list, std::size_t vertex_count, PolygonList& polygons) {
     const long long corners = body.whole(list.length, "number of corners");
     if (corners < 3) body.fail("a face needs 3 corners or more, this one has " + std::to_string(corners));
-    Triangle fan{};
     for (long long k = 0; k < corners; ++k) {
         const long long index = body.whole(list.item, "vertex index");
         if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
             body.fail("vertex index " + std::to_string(index) + " is out of range 0 ... " + std::to_string(vertex_count - 1));
-        fan = {k == 0 ? static_cast<int>(index) : fan[0], fan[2], static_cast<int>(index)};
-        if (k >= 2) triangles.push_back(fan);
+        polygons.add_corner(static_cast<int>(index));
     }
+    polygons.end_polygon();
 }
 
-void read_elements(PlyBody& body, const PlyElement& element, std::size_t vertex_count, TriangleMesh& mesh) {
+/// What the elements of a file hold, faces perhaps before their vertices.
+struct PlyContent {
+    std::vector<Vec3> vertices;
+    PolygonList faces;
+};
+
+void read_elements(PlyBody& body, const PlyElement& element, std::size_t vertex_count, PlyContent& read) {
     for (std::size_t k = 0; k < element.count; ++k) {
         body.begin(element, k);
         if (element.name == "vertex") {
-            mesh.vertices.push_back(read_vertex(body, element));
+            read.vertices.push_back(read_vertex(body, element));
         } else {
             for (const PlyProperty& property : element.properties)
-                property.role == no_role ? body.skip(property) : read_corners(body, property, vertex_count, mesh.triangles);
+                property.role == no_role ? body.skip(property) : read_corners(body, property, vertex_count, read.faces);
         }
         body.end();
     }
@@ -341,12 +347,15 @@ TriangleMesh read_ply(std::istream& in, const std::string& name) {
     PlyText text{name, content};
     const PlyHeader header = read_header(text);
     const std::size_t vertex_count = find_element(header, "vertex")->count;
-    TriangleMesh mesh;
-    mesh.vertices.reserve(vertex_count);
-    mesh.triangles.reserve(find_element(header, "face")->count);
+    PlyContent read;
+    read.vertices.reserve(vertex_count);
+    read.faces.reserve(find_element(header, "face")->count);
     PlyBody body(text, header.format);
     for (const PlyElement& element : header.elements)
-        if (!element.properties.empty()) read_elements(body, element, vertex_count, mesh);
+        if (!element.properties.empty()) read_elements(body, element, vertex_count, read);
+    TriangleMesh mesh;
+    mesh.triangles = triangles_of(read.faces, read.vertices);
+    mesh.vertices = std::move(read.vertices);
     return mesh;
 }
 

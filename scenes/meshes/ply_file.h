@@ -9,7 +9,7 @@ namespace percale::scenes {
 
 /// Polygon File Format 1.0: ascii (one element a line), binary_little_endian and binary_big_endian. Takes x, y and z of the
 /// element "vertex", numbers of any type, and the list vertex_indices or vertex_index of the element "face", of any whole type;
-/// polygons are fanned from their first vertex. Other elements and properties are passed over, wherever they stand. Vertices are
+/// polygons by polygon_triangles. Other elements and properties are passed over, wherever they stand. Vertices are
 /// exactly the file's, in its order; coordinates in text and of type double keep their full precision. Throws SceneError with
 /// name:line, behind a binary file's header with the name and the element. Counts that the file is too short to hold are refused
 /// before memory is taken for them; what is taken is at most some 40 times the file.

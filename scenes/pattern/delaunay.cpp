@@ -12,12 +12,6 @@ namespace {
 
 /// Relative to the terms of the determinant: points nearer to a common circle are on it, so that flips end.
 constexpr long double circle_rounding = 1e-13L;
-/// Relative to the square of the longest side: a triangle with less than this as twice its area has none.
-constexpr double least_turn = 1e-12;
-
-double longest_square(const Point2& a, const Point2& b, const Point2& c) {
-    return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-}
 
 /// Whether d lies inside the circle through a, b, c, which turn left.
 bool in_circle(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
@@ -32,92 +26,7 @@ bool in_circle(const Point2& a, const Point2& b, const Point2& c, const Point2& 
     return terms[0] + terms[1] + terms[2] > circle_rounding * (std::abs(terms[0]) + std::abs(terms[1]) + std::abs(terms[2]));
 }
 
-/// Cuts corners off a polygon, the best shaped first.
-class EarClipper {
-public:
-    explicit EarClipper(std::span<const Point2> outline) : x_(outline), quality_(outline.size()) {
-        const int count = static_cast<int>(outline.size());
-        for (int k = 0; k < count; ++k) {
-            before_.push_back((k + count - 1) % count);
-            after_.push_back((k + 1) % count);
-        }
-        left_ = count;
-        judge_all();
-    }
-
-    std::vector<Triangle> clip() {
-        std::vector<Triangle> ears;
-        int any = 0;
-        while (left_ > 3) {
-            int best = find_best(any);
-            if (best < 0) {
-                judge_all();
-                best = find_best(any);
-            }
-            if (best < 0) throw SceneError("the outline crosses or touches itself");
-            ears.push_back({before_[best], best, after_[best]});
-            const int a = before_[best], b = after_[best];
-            after_[a] = b;
-            before_[b] = a;
-            quality_[best] = -1.0;
-            --left_;
-            quality_[a] = judge(a);
-            quality_[b] = judge(b);
-            any = a;
-        }
-        if (turn(any) <= 0.0) throw SceneError("the outline crosses or touches itself");
-        ears.push_back({before_[any], any, after_[any]});
-        return ears;
-    }
-
-private:
-    double turn(int k) const { return turn_left(x_[before_[k]], x_[k], x_[after_[k]]); }
-
-    int find_best(int any) const {
-        int best = -1, k = any;
-        for (int n = 0; n < left_; ++n, k = after_[k]) {
-            if (quality_[k] > 0.0 && (best < 0 || quality_[k] > quality_[best])) best = k;
-        }
-        return best;
-    }
-
-    void judge_all() {
-        int k = 0;
-        while (quality_[k] < 0.0) ++k;
-        for (int n = 0; n < left_; ++n, k = after_[k]) quality_[k] = judge(k);
-    }
-
-    /// The smallest angle of the ear at a corner; 0 where it is none.
-    double judge(int k) const {
-        const Point2 &a = x_[before_[k]], &b = x_[k], &c = x_[after_[k]];
-        const double none = least_turn * longest_square(a, b, c);
-        if (turn(k) <= none) return 0.0;
-        // Points on a side count as inside, also where they are rounded off it: else what is left may lie on one line.
-        for (int other = after_[after_[k]]; other != before_[k]; other = after_[other]) {
-            const Point2& p = x_[other];
-            if (turn_left(a, b, p) >= -none && turn_left(b, c, p) >= -none && turn_left(c, a, p) >= -none) return 0.0;
-        }
-        return smallest_angle_of(a, b, c);
-    }
-
-    std::span<const Point2> x_;
-    std::vector<int> before_, after_;
-    std::vector<double> quality_;  // of the corners that are left; -1: cut off
-    int left_ = 0;
-};
-
 }  // namespace
-
-double turn_left(const Point2& a, const Point2& b, const Point2& c) {
-    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-double smallest_angle_of(const Point2& a, const Point2& b, const Point2& c) {
-    const auto angle = [](const Point2& u, const Point2& v) {
-        return std::atan2(std::abs(u.x() * v.y() - u.y() * v.x()), u.dot(v));
-    };
-    return std::min({angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)});
-}
 
 Delaunay::Delaunay(std::span<const Point2> outline) : outline_size_(outline.size()), points_(outline.begin(), outline.end()) {
     if (outline.size() < 3)
@@ -131,7 +40,9 @@ Delaunay::Delaunay(std::span<const Point2> outline) : outline_size_(outline.size
 }
 
 void Delaunay::clip_ears() {
-    for (const Triangle& ear : EarClipper(points_).clip()) cells_.push_back({{ear[0], ear[1], ear[2]}, {-1, -1, -1}});
+    const std::optional<std::vector<Triangle>> ears = cut_ears(points_);
+    if (!ears) throw SceneError("the outline crosses or touches itself");
+    for (const Triangle& ear : *ears) cells_.push_back({{ear[0], ear[1], ear[2]}, {-1, -1, -1}});
 }
 
 void Delaunay::join_cells() {
@@ -223,7 +134,7 @@ bool Delaunay::insert(const Point2& point) {
     // On a side, or so near it that the part there had no area.
     for (int side = 0; side < 3; ++side) {
         const Point2 &from = points_[whole.corner[side]], &to = points_[whole.corner[(side + 1) % 3]];
-        if (turn_left(from, to, point) <= least_turn * longest_square(points_[a], points_[b], points_[c])) return false;
+        if (turn_left(from, to, point) <= least_turn_of(points_[a], points_[b], points_[c])) return false;
     }
     const int added = static_cast<int>(points_.size()), second = static_cast<int>(cells_.size()), third = second + 1;
     points_.push_back(point);

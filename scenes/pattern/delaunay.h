@@ -4,12 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "pattern/pattern.h"
+#include "meshes/polygon.h"
 
 namespace percale::scenes {
-
-/// > 0 where a, b, c turn left: twice the area of the triangle, m^2.
-double turn_left(const Point2& a, const Point2& b, const Point2& c);
 
 /// A constrained Delaunay triangulation of the inside of a polygon, whose sides it keeps.
 class Delaunay {
@@ -49,8 +46,5 @@ private:
     int last_ = 0;                          // where the last point was found
     std::vector<std::array<int, 2>> open_;  // sides that may have to be flipped
 };
-
-/// Of a triangle, rad.
-double smallest_angle_of(const Point2& a, const Point2& b, const Point2& c);
 
 }  // namespace percale::scenes

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "common/source_place.h"
+#include "meshes/polygon.h"
 #include "percale/mesh.h"
 
 // A sewing pattern as plain data: flat panels, where they are placed, and which of their edges are sewn together. Lengths in m.
 namespace percale::scenes {
-
-using Point2 = Eigen::Vector2d;
 
 enum class EdgeCurve { line, quadratic, cubic, arc };
 

@@ -4,52 +4,23 @@
 #include <cmath>
 #include <numbers>
 
+#include "percale/cloth_ahead.h"
 #include "run/obstacle_motion.h"
 #include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
 
-/// Of the shortest turn from one to the other, rad.
-double angle_between(const Rotation& p, const Rotation& q) {
-    return 2.0 * std::acos(std::min(1.0, std::abs(p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z)));
-}
-
 /// How long two stretches of time have in common, s.
 double overlap(double from, double to, double other_from, double other_to) {
     return std::max(0.0, std::min(to, other_to) - std::max(from, other_from));
 }
 
-struct Extent {
-    Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-
-    void add(const Vec3& x, double reach = 0.0) {
-        low = low.cwiseMin((x.array() - reach).matrix());
-        high = high.cwiseMax((x.array() + reach).matrix());
-    }
-    bool overlaps(const Extent& other) const {
-        return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
-    }
-};
-
-/// A cloth during the coming step, if it went on as it moves.
-struct ClothAhead {
-    Extent extent;
-    Vec3 displacement = Vec3::Zero();  // m, mean over the vertices
-    double thickness = 0.0;            // m
-};
-
 ClothAhead cloth_ahead(const BuiltScene& built, std::size_t cloth, double dt) {
-    ClothAhead ahead;
-    ahead.thickness = built.scene.fabrics.at(built.scene.cloths[cloth].fabric).thickness;
+    ClothAhead ahead(built.scene.fabrics.at(built.scene.cloths[cloth].fabric).thickness, dt);
     const auto positions = built.simulation.positions(built.cloths[cloth]);
     const auto velocities = built.simulation.velocities(built.cloths[cloth]);
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        ahead.extent.add(positions[i], ahead.thickness);
-        ahead.extent.add(positions[i] + dt * velocities[i], ahead.thickness);
-        ahead.displacement += dt * velocities[i];
-    }
-    ahead.displacement /= static_cast<double>(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) ahead.add(positions[i], velocities[i]);
     return ahead;
 }
 
@@ -66,13 +37,12 @@ double parts_of_displacement(const BuiltScene& built, std::size_t obstacle, doub
     const double now = built.simulation.time();
     const Vec3 start = obstacle_pose_at(spec, now).translation, end = obstacle_pose_at(spec, now + dt).translation;
     const double reach = reach_of(built, obstacle);
-    Extent swept;
-    for (const Vec3& x : {start, end}) swept.add(x, reach);
     double parts = 0.0;
     for (std::size_t i = 0; i < built.cloths.size(); ++i) {
         const ClothAhead cloth = cloth_ahead(built, i, dt);
-        const double relative = path - (end - start).norm() + (end - start - cloth.displacement).norm();
-        if (swept.overlaps(cloth.extent)) parts = std::max(parts, relative / (largest_part_displacement * cloth.thickness));
+        if (!cloth.meets(start, end, reach)) continue;
+        const double relative = path - (end - start).norm() + cloth.beside(end - start).norm();
+        parts = std::max(parts, relative / (largest_part_displacement * cloth.thickness()));
     }
     return parts;
 }

@@ -114,11 +114,11 @@ TEST_CASE("The hash of step settings changes with every field that changes steps
     CHECK(options_hash(of_the_state) == before);
 }
 
-TEST_CASE("Threads, the rule for a start and checks of derivatives change no step") {
+TEST_CASE("Threads, the rule for a start, checks of derivatives and the limit of work change no step") {
     std::set<std::string_view> free;
     for (const Option<StepSettings>& option : step_options())
         if (!option.changes_steps) free.insert(option.key);
-    CHECK(free == std::set<std::string_view>{"threads", "start", "check_derivatives"});
+    CHECK(free == std::set<std::string_view>{"threads", "start", "check_derivatives", "work_limit"});
 }
 
 TEST_CASE("Defaults are allowed") {

@@ -1,5 +1,6 @@
 #include "percale/simulation.h"
 
+#include <array>
 #include <limits>
 
 #include "tests/support/catch.h"
@@ -178,6 +179,10 @@ TEST_CASE("Calls with wrong values are refused and change nothing") {
     CHECK(mentions(scene_error([&] { s.set_velocities(scene.cloth, few); }), {"towel", "set_velocities", "15", "16"}));
     CHECK(mentions(scene_error([&] { s.set_positions(scene.cloth, bad); }), {"towel", "position 11", "not finite"}));
     CHECK(mentions(scene_error([&] { s.set_velocities(scene.cloth, bad); }), {"towel", "velocity 11", "not finite"}));
+    const std::array cloths{scene.cloth}, wrong{ClothId{3}};
+    CHECK(mentions(scene_error([&] { s.teleport(cloths, {}, {.scale = 2.0}); }), {"teleport", "scale = 2"}));
+    CHECK(mentions(scene_error([&] { s.teleport(cloths, {}, {.rotation = {2, 0, 0, 0}}); }), {"teleport", "rotation"}));
+    CHECK(mentions(scene_error([&] { s.teleport(wrong, {}, {.translation = Vec3(1, 0, 0)}); }), {"no cloth 3", "0 ... 0"}));
     CHECK(s.state_hash() == hash);
     CHECK(s.step().dt == 1.0 / 60.0);
 }
@@ -189,6 +194,46 @@ TEST_CASE("Velocities set on pinned vertices are not taken over") {
     simulation.set_velocities(cloth, std::vector<Vec3>(9, Vec3(1, 2, 3)));
     CHECK(simulation.velocities(cloth)[1] == Vec3::Zero());
     CHECK(simulation.velocities(cloth)[2] == Vec3(1, 2, 3));
+}
+
+TEST_CASE("What stands in the way of a refused start may be moved away, the obstacle or the pin") {
+    for (const bool by_pin : {false, true}) {
+        CAPTURE(by_pin);
+        PlaneScene scene({.start = StartRule::refuse});
+        Simulation& s = scene.simulation;
+        s.pin(scene.cloth, 5);
+        REQUIRE(s.step().ok());
+        const Vec3 place = s.positions(scene.cloth)[5];
+        const Pose above{.translation = Vec3(0, place.y() + 0.001, 0)};
+        const ObstacleId shelf = s.add_obstacle(make_plane(1.0), above, {.name = "shelf"});
+        for (int n = 0; n < 2; ++n) CHECK(mentions(scene_error([&] { s.step(); }), {"inside shelf"}));
+        s.move_obstacle(shelf, {.translation = Vec3(0, -1, 0)});
+        if (by_pin) {
+            s.move_obstacle(shelf, above);
+            for (int i = 0; i < 16; ++i) s.pin(scene.cloth, i);
+            CHECK_FALSE(scene_error([&] { s.step(); }).empty());
+            const std::vector<Vec3> places = copy(s.positions(scene.cloth));
+            for (int i = 0; i < 16; ++i) s.move_pin(scene.cloth, i, places[i] + Vec3(0, 0.1, 0));
+            CHECK(s.positions(scene.cloth)[3] == places[3] + Vec3(0, 0.1, 0));
+        } else {
+            CHECK(s.obstacle_pose(shelf).translation.y() == -1.0);
+        }
+        CHECK(s.step().ok());
+        // From now on it moves in the steps again.
+        s.move_obstacle(shelf, {.translation = Vec3(0, -2, 0)});
+        CHECK(s.obstacle_pose(shelf).translation.y() > -2.0);
+    }
+}
+
+TEST_CASE("A simulation that was moved from says so whatever is asked of it, and may be assigned to") {
+    PlaneScene scene;
+    Simulation taken(std::move(scene.simulation));
+    CHECK(mentions(scene_error([&] { scene.simulation.step(); }), {"moved from"}));
+    CHECK(mentions(scene_error([&] { scene.simulation.set_gravity(Vec3::Zero()); }), {"moved from"}));
+    CHECK(mentions(scene_error([&] { static_cast<void>(scene.simulation.positions(scene.cloth)); }), {"moved from"}));
+    CHECK(taken.step().ok());
+    scene.simulation = std::move(taken);
+    CHECK(scene.simulation.step().ok());
 }
 
 }  // namespace percale::test

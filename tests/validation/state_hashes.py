@@ -31,7 +31,8 @@ def variants(name, scene):
     scheme = scene.get('step', {}).get('scheme', 'backward_euler')
     yield 'shipped', [], []
     yield 'threads', [], ['--threads', '2']
-    yield 'resumed', [], ['--checkpoint', str(scene['duration'] / 2)]
+    half = 1.0 if scene['duration'] == 'rest' else scene['duration'] / 2
+    yield 'resumed', [], ['--checkpoint', str(half)]
     yield 'everything', [], ['--no-skip']
     if has_contact(scene):
         yield 'bullet', ['step.detector=bullet'], []

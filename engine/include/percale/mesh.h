@@ -43,6 +43,14 @@ bool operator==(const Pose& a, const Pose& b);
 Vec3 transform(const Pose& pose, const Vec3& point);
 std::vector<Vec3> transform(const Pose& pose, std::span<const Vec3> points);
 
+/// The turn that does what `second` does after `first`.
+Rotation product(const Rotation& second, const Rotation& first);
+/// Of the shortest turn from one to the other, rad, 0 ... pi.
+double angle_between(const Rotation& a, const Rotation& b);
+/// The pose at a share, 0 ... 1, of the way from one to the other: on the straight line, by the shortest turn at an even rate
+/// (Shoemake 1985, Animating rotation with quaternion curves), at the scale of the first.
+Pose interpolate(const Pose& from, const Pose& to, double share);
+
 /// Flat grid in the plane y = 0, centred, normals +y. Vertex (column c, row r) has index r * columns + c and lies at
 /// x = -width/2 + c width/(columns-1), z = -depth/2 + r depth/(rows-1). Cell (c, r) is split along its
 /// (c, r)-(c+1, r+1) diagonal where c + r is even, else along the other.

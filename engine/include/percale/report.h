@@ -18,6 +18,7 @@ enum class StepStatus {  // those up to tolerance_missed are accepted
     obstacle_too_fast,  // failed: the cloth could not follow a moving obstacle
     wrong_derivative,   // failed: StepSettings::check_derivatives found forces that do not fit energy or matrix
     not_finite,         // failed: a state would have become infinite or NaN; the state is that of the step's start
+    work_limit,         // failed: it took more Newton iterations than StepSettings::work_limit allows
 };
 
 /// What became of a span, a piece of a step that is solved at once. All but `solved` drop it, and it is solved again in shorter
@@ -100,7 +101,7 @@ struct StepReport {
     double dt = 0.0;           // s
     double smallest_dt = 0.0;  // s, of the parts the step was solved in
     double largest_dt = 0.0;   // s, likewise
-    int parts = 1;             // accepted lengths that an adaptive step consists of
+    int parts = 1;             // accepted lengths that an adaptive step, or one in which an obstacle moves far, consists of
     int rejected = 0;          // lengths that it tried and found too inexact
     int newton_iterations = 0;
     int linear_iterations = 0;
@@ -118,12 +119,17 @@ struct StepReport {
     double contact_stiffness = 0.0;  // N/m, largest of the step
     double largest_strain = 0.0;     // of structural springs, (l - l0)/l0; NaN unless it is measured
     double largest_speed = 0.0;      // m/s; likewise
-    int blocked_cloth = -1;          // the cloth and vertex of a blocked pin
+    int blocked_cloth = -1;          // the cloth and vertex of a blocked pin, or of one in an obstacle's way
     int blocked_vertex = -1;
     int blocking_obstacle = -1;               // -1 where it is cloth, too; blocking_name then says so
     std::string blocked_name, blocking_name;  // of that cloth and obstacle
+    double obstacle_travel = 0.0;             // m, beside the cloth, where the blocking obstacle moves too far for a step
     int second_obstacle = -1;                 // pushes the cloth towards the blocking one
     std::string second_name;
+    int stretched_cloth = -1;  // of a failed step: held by pins and stretched to more than twice its length
+    int stretched_pins = 0;    // how many of its vertices are pinned
+    double stretch = 0.0;      // its largest strain
+    std::string stretched_name;
     std::string wrong_derivative;    // the first that was found: term, vertices, figures
     std::uint64_t contact_hash = 0;  // of the contact rows at the end
     StepEnergy energy;

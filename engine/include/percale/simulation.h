@@ -32,6 +32,8 @@ struct SeamId {
     int index = -1;
 };
 
+enum class TeleportVelocities { keep, clear };
+
 struct ObstacleSettings {
     double friction = 0.3;          // Coulomb coefficient against cloth, 0 ... 10
     double restitution = 0.0;       // share of its normal speed with which cloth that hits it leaves, 0 ... 1
@@ -39,7 +41,8 @@ struct ObstacleSettings {
 };
 
 /// Cloth, obstacles and their motion in time. Wrong arguments throw SceneError from the call that was wrong; a step never
-/// throws for numerical trouble but returns a status. One thread at a time per simulation; simulations are independent.
+/// throws for numerical trouble but returns a status. All calls to a simulation that was moved from throw SceneError. One thread
+/// at a time per simulation; simulations are independent.
 class Simulation {
 public:
     /// Without a detector, obstacles are refused. `workers` do the work instead of StepSettings::threads, several simulations may
@@ -58,9 +61,12 @@ public:
 
     void pin(ClothId cloth, int vertex);
     void unpin(ClothId cloth, int vertex);
-    /// Where a pinned vertex is at the end of the next step, m; it then stays there.
+    /// Where a pinned vertex is at the end of the next step, m; it then stays there. After `prepare` has refused the start, it is
+    /// there at once, as an obstacle that is moved then.
     void move_pin(ClothId cloth, int vertex, const Vec3& target);
-    /// Where an obstacle is at the end of the next step; it then stays there. The scale must not change.
+    /// Where an obstacle is at the end of the next step; it then stays there. The scale must not change. Where obstacles move by
+    /// more than 20 thicknesses beside cloth that they may meet, or turn by more than 15 degrees, the step is made in equal parts
+    /// (StepReport::parts); beyond 64 it fails at once. What jumps is no motion: `teleport`.
     void move_obstacle(ObstacleId obstacle, const Pose& end);
     void set_gravity(const Vec3& gravity);  // m/s^2
     /// Velocity of the air, m/s; before the first call there is no air (StepSettings::wind). Drag: Fabric::drag_normal,
@@ -84,6 +90,11 @@ public:
     /// All vertices of a cloth; m and m/s. For starts that are not at rest.
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
+    /// Moves cloths and obstacles together by a rigid motion x -> translation + rotation x of the world (scale 1), in no time:
+    /// pins, their targets and all that contact and seams remember go along; velocities turn along, or are cleared. The next
+    /// step checks as `prepare` does whether they are clear of what did not move.
+    void teleport(std::span<const ClothId> cloths, std::span<const ObstacleId> obstacles, const Pose& motion,
+                  TeleportVelocities velocities = TeleportVelocities::keep);
 
     /// Checks the scene as a whole; the first step calls it, and that in which seams have closed without contact. Cloth that
     /// starts through, inside or touching an obstacle, or cloth with self_contact that does so with such cloth, is moved out
@@ -136,13 +147,18 @@ public:
     /// out as on this machine. Throws SceneError where the detector cannot save its state.
     std::vector<std::byte> save() const;
     /// Throws SceneError, and leaves the simulation as it was, where the bytes are cut off, damaged, of another version of this
-    /// format, or of a simulation with other cloth, pairs, seams, obstacles or settings (`threads`, `start` and
-    /// `check_derivatives` may differ).
+    /// format, or of a simulation with other cloth, pairs, seams, obstacles or settings (`threads`, `start`,
+    /// `check_derivatives` and `work_limit` may differ).
     void restore(std::span<const std::byte> saved);
 
 private:
     struct Implementation;
-    std::unique_ptr<Implementation> implementation_;
+    /// Throws SceneError where nothing is owned: a simulation that was moved from can only be assigned to or destroyed.
+    struct Owner {
+        std::unique_ptr<Implementation> owned;
+        Implementation* operator->() const;
+    };
+    Owner implementation_;
 };
 
 }  // namespace percale

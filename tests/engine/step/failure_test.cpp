@@ -51,6 +51,36 @@ TEST_CASE("Obstacles that move are too fast, and cloth in the way is called clot
     CHECK(stuck.report.second_name == "press");
 }
 
+TEST_CASE("Cloth that is stretched between its pins and what moves is named, in place of an obstacle's speed") {
+    Stuck stuck;
+    stuck.world.scene.plan.obstacles_move = true;
+    stuck.world.work.newton.current.rows.obstacle = {0, -1, 0};
+    stuck.tell(SpanEnd::blocked);
+    CHECK(stuck.report.stretched_cloth == -1);
+    CHECK(mentions(stuck.report.explanation(), {"moves faster"}));
+    stuck.world.work.newton.current.positions.add(0, Vec3(-4.0, 0.0, 0.0));  // its springs are 0.5 m long
+    stuck.tell(SpanEnd::blocked);
+    CHECK(stuck.report.stretched_cloth == 0);
+    CHECK(stuck.report.stretched_pins == 1);
+    CHECK(stuck.report.stretch == Approx(8.0));
+    CHECK(mentions(stuck.report.explanation(), {"cloth 0 (cloth) is stretched to 9 times", "1 pinned vertices", "go along?"}));
+    CHECK_FALSE(mentions(stuck.report.explanation(), {"shorter time step"}));
+    stuck.world.scene.script.free[4] = 1.0;  // nothing is held: another reason
+    stuck.report = {};
+    stuck.tell(SpanEnd::blocked);
+    CHECK(stuck.report.stretched_cloth == -1);
+}
+
+TEST_CASE("A pinned vertex in the way of an obstacle is named") {
+    Stuck stuck;
+    stuck.world.scene.plan.obstacles_move = true;
+    stuck.world.work.newton.current.rows.obstacle = {0, -1, 0};
+    stuck.world.work.newton.current.rows.vertex[0] = {3, 4, -1, -1};
+    stuck.tell(SpanEnd::blocked);
+    CHECK(stuck.report.blocked_vertex == 4);
+    CHECK(mentions(stuck.report.explanation(), {"obstacle 0 (floor) moves faster", "vertex 4 of cloth 0 (cloth)", "is pinned"}));
+}
+
 TEST_CASE("Of what is not finite nothing is named") {
     Stuck stuck;
     stuck.tell(SpanEnd::not_finite);

@@ -69,4 +69,28 @@ TEST_CASE("An obstacle that only turns is on the move too") {
     CHECK(world.scene.plan.obstacles_move);
 }
 
+TEST_CASE("Parts go by turns of 15 degrees, and by 20 thicknesses beside cloth that an obstacle may meet") {
+    World world = sheet_world();  // 1 m wide, 5 mm thick
+    ObstacleState ball;
+    ball.reach = 0.1;
+    ball.start.translation = ball.end.translation = Vec3(0.0, 0.2, 0.0);
+    const auto parts_to = [&](const Pose& end) {
+        ball.end = end;
+        world.scene.script.obstacles = {ball};
+        return motion_parts(world.scene, world.state.cloth);
+    };
+    CHECK(parts_to(ball.start).count == 1);
+    CHECK(parts_to({.translation = Vec3(0.09, 0.2, 0.0)}).count == 1);
+    const MotionParts passing = parts_to({.translation = Vec3(0.0, -0.8, 0.0)});
+    CHECK(passing.count == 10);
+    CHECK(passing.obstacle == 0);
+    CHECK(passing.travel == Approx(1.0));
+    CHECK(parts_to({.translation = Vec3(0.0, 5.2, 0.0)}).count == 1);  // it leaves from where it meets nothing
+    CHECK(parts_to({.translation = Vec3(0.0, -0.2, 0.0), .rotation = {0.0, 1.0, 0.0, 0.0}}).count == 12);
+    CHECK(parts_to({.translation = Vec3(0.0, -1e6, 0.0)}).count > 64);
+    // Cloth that moves along is passed by slowly.
+    for (int i = 0; i < 9; ++i) world.state.cloth.velocities.set(i, Vec3(0.0, -60.0, 0.0));
+    CHECK(parts_to({.translation = Vec3(0.0, -0.8, 0.0)}).count == 1);
+}
+
 }  // namespace percale::test

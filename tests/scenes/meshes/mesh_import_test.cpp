@@ -172,6 +172,8 @@ TEST_CASE("polygons of an imported scene are fanned, those without area too") {
     CHECK(mesh.vertices == std::vector<Vec3>{{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {0, 2, 0}});
     CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
     CHECK(quad("0 0 0 0 0 0 0 0 0 0 0 1e-30").triangles.size() == 2);
+    // An arrow's head, whose fan from the first corner would fold.
+    CHECK(quad("0 0 0 2 1 0 0 2 0 1 1 0").triangles == std::vector<Triangle>{{3, 0, 1}, {2, 3, 1}});
 }
 
 TEST_CASE("files that are missing, empty, folders or of unknown kind are refused by name") {

@@ -1,0 +1,103 @@
+#include "step_parts.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace percale {
+namespace {
+
+/// What steps change of a simulation and its script, as it was before the first part.
+class Beginning {
+public:
+    explicit Beginning(const World& world)
+        : vertices_(world.scene.model.vertex_count()),
+          state_(world.state),
+          rest_(world.rest),
+          obstacles_(world.scene.script.obstacles),
+          pin_targets_(world.scene.script.pin_targets),
+          welds_(world.scene.model.welds) {}
+
+    /// Where obstacles and pins are to be after a share of the step, from where they are now.
+    void aim_at(double share, Script& script) const {
+        for (std::size_t k = 0; k < obstacles_.size(); ++k) {
+            const auto& [start, end] = std::pair(obstacles_[k].start, obstacles_[k].end);
+            script.obstacles[k].end = share == 1.0 || start == end ? end : interpolate(start, end, share);
+        }
+        for (int i = 0; i < vertices_; ++i) {
+            if (script.free[i] > 0.0) continue;
+            const Vec3 start = state_.cloth.positions.at(i), end = pin_targets_.at(i);
+            script.pin_targets.set(i, share == 1.0 ? end : Vec3(start + share * (end - start)));
+        }
+    }
+
+    /// The script leads to the end of the step again.
+    void restore(World& world) && {
+        aim_at(1.0, world.scene.script);
+        world.state = std::move(state_);
+        world.rest = std::move(rest_);
+        world.scene.model.welds = std::move(welds_);
+        for (std::size_t k = 0; k < obstacles_.size(); ++k) {
+            world.scene.script.obstacles[k].start = obstacles_[k].start;
+            world.scene.script.obstacles[k].settled = false;
+        }
+    }
+
+private:
+    int vertices_;
+    StepState state_;
+    RestState rest_;
+    std::vector<ObstacleState> obstacles_;
+    Vectors pin_targets_;
+    std::vector<Weld> welds_;
+};
+
+/// `sum` becomes the report of both: what was done is added, what the end is like is the later part's.
+void add_part(StepReport part, StepReport& sum) {
+    const StepReport before = sum;
+    sum = std::move(part);
+    sum.status = std::max(sum.status, before.status);  // the accepted ones come first, from the best on
+    sum.dt += before.dt;
+    sum.smallest_dt = std::min(sum.smallest_dt, before.smallest_dt);
+    sum.largest_dt = std::max(sum.largest_dt, before.largest_dt);
+    sum.parts += before.parts;
+    sum.rejected += before.rejected;
+    sum.newton_iterations += before.newton_iterations;
+    sum.linear_iterations += before.linear_iterations;
+    sum.line_search_cuts += before.line_search_cuts;
+    sum.halvings += before.halvings;
+    sum.dropped += before.dropped;
+    sum.smallest_fraction = std::min(sum.smallest_fraction, before.smallest_fraction);
+    sum.contact_stiffness = std::max(sum.contact_stiffness, before.contact_stiffness);
+    sum.stages += before.stages;
+    StepEnergy energy = before.energy;
+    add_step_energy(sum.energy, energy);
+    sum.energy = energy;
+}
+
+}  // namespace
+
+StepReport step_in_parts(World& world, int parts, StepReport (*step_once)(World&)) {
+    StepSettings& settings = world.scene.settings;
+    const double whole = settings.time_step;
+    Beginning beginning(world);
+    settings.time_step = whole / parts;
+    scene_changed(world);
+    StepReport sum;
+    for (int part = 0; part < parts; ++part) {
+        beginning.aim_at(part + 1 == parts ? 1.0 : static_cast<double>(part + 1) / parts, world.scene.script);
+        StepReport report = step_once(world);
+        world.work.iterations_left -= report.newton_iterations;
+        if (part == 0) {
+            sum = std::move(report);
+        } else {
+            add_part(std::move(report), sum);
+        }
+        if (!sum.ok()) break;
+    }
+    settings.time_step = whole;
+    if (!sum.ok()) std::move(beginning).restore(world);
+    scene_changed(world);
+    return sum;
+}
+
+}  // namespace percale

@@ -1,0 +1,121 @@
+#include "engine/step/step_parts.h"
+
+#include "percale/simulation.h"
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+#include "tests/support/plane_detector.h"
+
+namespace percale::test {
+namespace {
+
+/// A sheet at rest on a plane, one corner held above it.
+struct RestingSheet {
+    Simulation simulation;
+    ClothId cloth;
+    ObstacleId plane;
+    Vec3 corner = Vec3::Zero();
+
+    explicit RestingSheet(const StepSettings& settings = {}, int steps = 20)
+        : simulation(settings, std::make_unique<PlaneDetector>()) {
+        cloth = simulation.add_cloth(make_grid(0.5, 0.5, 4, 4), sheet_fabric(), {.translation = Vec3(0, 0.01, 0)}, "towel");
+        plane = simulation.add_obstacle(make_plane(1.0), {}, {.friction = 0.3, .name = "floor"});
+        simulation.pin(cloth, 0);
+        for (int n = 0; n < steps; ++n) REQUIRE(simulation.step().ok());
+        corner = simulation.positions(cloth)[0];
+    }
+    /// 0.95 m to the side: 10 parts of less than 0.1 m.
+    void aim(double share) {
+        const Vec3 way(0.95, 0.0, 0.0), target = corner + way;
+        simulation.move_obstacle(plane, {.translation = share * way});
+        simulation.move_pin(cloth, 0, share == 1.0 ? target : Vec3(corner + share * (target - corner)));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("A step in which an obstacle moves far does what as many short ones do, bit for bit") {
+    const StepSettings settings{.measure = StepMeasures::ledger};
+    RestingSheet far(settings), by_hand(settings);
+    far.aim(1.0);
+    const double start = far.simulation.time();
+    const StepReport report = far.simulation.step();
+    REQUIRE(report.ok());
+    CHECK(report.parts == 10);
+    CHECK(report.dt == Approx(1.0 / 60.0));
+    CHECK(report.smallest_dt == Approx(1.0 / 600.0));
+    CHECK(report.time == far.simulation.time());
+    CHECK(far.simulation.time() == Approx(start + 1.0 / 60.0).epsilon(1e-15));
+    CHECK(far.simulation.obstacle_pose(far.plane).translation == Vec3(0.95, 0.0, 0.0));
+    CHECK(far.simulation.positions(far.cloth)[0] == far.corner + Vec3(0.95, 0.0, 0.0));
+
+    by_hand.simulation.set_time_step(1.0 / 60.0 / 10);
+    int newton = 0;
+    double work = 0.0, rubbed = 0.0;
+    for (int part = 1; part <= 10; ++part) {
+        by_hand.aim(part == 10 ? 1.0 : part / 10.0);
+        const StepReport short_one = by_hand.simulation.step();
+        REQUIRE(short_one.ok());
+        newton += short_one.newton_iterations;
+        work += short_one.energy.work;
+        rubbed += short_one.energy.dissipated_friction;
+    }
+    CHECK(far.simulation.state_hash() == by_hand.simulation.state_hash());
+    CHECK(report.newton_iterations == newton);
+    CHECK(report.energy.work == Approx(work));
+    CHECK(report.energy.dissipated_friction == Approx(rubbed));
+    CHECK(report.energy.closure() < 1e-6);
+}
+
+TEST_CASE("Where a part fails, all parts are taken back") {
+    RestingSheet scene;
+    for (int i = 0; i < 16; ++i) scene.simulation.pin(scene.cloth, i);
+    // Away first, so that the plane only meets the sheet after some parts of its way back.
+    scene.simulation.move_obstacle(scene.plane, {.translation = Vec3(0.0, -1.0, 0.0)});
+    REQUIRE(scene.simulation.step().parts == 10);
+    const std::uint64_t hash = scene.simulation.state_hash();
+    const double time = scene.simulation.time();
+    scene.simulation.move_obstacle(scene.plane, {.translation = Vec3(0.0, 0.5, 0.0)});
+    const StepReport report = scene.simulation.step();
+    CHECK(report.status == StepStatus::obstacle_too_fast);
+    CHECK(report.parts > 5);
+    CHECK(report.time == scene.simulation.time());
+    CHECK(scene.simulation.time() == time);
+    CHECK(scene.simulation.state_hash() == hash);
+    CHECK(scene.simulation.obstacle_pose(scene.plane).translation == Vec3(0.0, -1.0, 0.0));
+    scene.simulation.move_obstacle(scene.plane, {.translation = Vec3(0.0, -0.5, 0.0)});
+    CHECK(scene.simulation.step().ok());
+}
+
+TEST_CASE("An obstacle that jumps farther than cloth can follow fails the step at once and says so") {
+    RestingSheet scene;
+    const std::uint64_t hash = scene.simulation.state_hash();
+    scene.simulation.move_obstacle(scene.plane, {.translation = Vec3(50.0, 0.0, 0.0)});
+    const StepReport report = scene.simulation.step();
+    CHECK(report.status == StepStatus::obstacle_too_fast);
+    CHECK(report.newton_iterations == 0);
+    CHECK(report.obstacle_travel == Approx(50.0).epsilon(1e-3));
+    CHECK(mentions(report.explanation(), {"floor", "moves 50 m beside the cloth in one step", "teleport"}));
+    CHECK(scene.simulation.state_hash() == hash);
+    CHECK(scene.simulation.obstacle_pose(scene.plane).translation == Vec3::Zero());
+}
+
+TEST_CASE("A step that takes more Newton iterations than work_limit fails and leaves every bit, in parts as in one") {
+    for (const double way : {0.0, 1.0}) {
+        CAPTURE(way);
+        RestingSheet free, limited({.work_limit = 2}, 0);
+        limited.simulation.restore(free.simulation.save());  // the limit is no part of a state
+        for (RestingSheet* scene : {&limited, &free}) {
+            scene->simulation.move_obstacle(scene->plane, {.translation = Vec3(way, 0.0, 0.0)});
+            scene->simulation.move_pin(scene->cloth, 0, free.corner + Vec3(0.0, 0.5, 0.0));
+        }
+        const std::uint64_t hash = limited.simulation.state_hash();
+        CHECK(free.simulation.step().newton_iterations > 3);
+        const StepReport report = limited.simulation.step();
+        CHECK(report.status == StepStatus::work_limit);
+        CHECK(report.newton_iterations <= 3);  // a trial for rows that were out of reach counts, too
+        CHECK(mentions(report.explanation(), {"work_limit", "Newton iterations"}));
+        CHECK(limited.simulation.state_hash() == hash);
+    }
+}
+
+}  // namespace percale::test
