@@ -14,7 +14,7 @@ std::string numbered(const char* what, int number, const std::string& name) {
 /// Cloth between pins that stay and a body that goes is not too slow.
 std::string stretch_text(const StepReport& report) {
     std::ostringstream text;
-    text << numbered("cloth", report.stretched_cloth, report.stretched_name) << " is stretched to "
+    text << "an edge of " << numbered("cloth", report.stretched_cloth, report.stretched_name) << " is stretched to "
          << std::round(10.0 * (1.0 + report.stretch)) / 10.0 << " times its length between its " << report.stretched_pins
          << " pinned vertices and what moves it; should its pins go along?";
     return text.str();
@@ -24,7 +24,7 @@ std::string stretch_text(const StepReport& report) {
 std::string lag_text(const StepReport& report) {
     std::ostringstream text;
     if (report.stretched_cloth >= 0) return stretch_text(report);
-    if (report.blocked_vertex >= 0) {
+    if (report.blocked_by_pin) {
         text << "vertex " << report.blocked_vertex << " of " << numbered("cloth", report.blocked_cloth, report.blocked_name)
              << ", which is in its way, is pinned; should it go along?";
         return text.str();
@@ -68,7 +68,9 @@ std::string failure_text(const StepReport& report) {
             text << "positions or velocities would become infinite; take a shorter time step or an implicit scheme";
             break;
         case StepStatus::work_limit:
-            text << "more Newton iterations than work_limit allows; take a shorter time step or a slower motion";
+            text << "more Newton iterations than work_limit allows; take a shorter time step, a slower motion or a larger "
+                    "tolerance, or "
+                    "raise the limit";
             break;
         default:
             break;

@@ -30,6 +30,8 @@ void Simulation::move_pin(ClothId cloth, int vertex, const Vec3& target) {
     world.scene.script.pin_targets.set(at, target);
     if (!world.refused) return;
     world.state.cloth.positions.set(at, target);  // no step begins where it is
+    world.state.past.forget();
+    world.load_source = LoadSource::nowhere;
     update_points(world.state.cloth);
     implementation_->update_views();
 }

@@ -157,19 +157,16 @@ constexpr double least_stable_step = 1e-6, stable_step_march = 1.02;
 /// Share of |R| that rounding adds to 1. 0: stable steps are found unstable.
 constexpr double growth_rounding = 1e-12;
 
-/// Where the search ends: no Taylor polynomial of degree 4 or less is stable there.
+/// Where the search ends: no Taylor polynomial of degree 4 or less is stable there. Halvings of the interval in which stability
+/// is lost; 53 exhaust a double.
 constexpr double beyond_stable_step = 4.0;
-
-/// Halvings of the interval in which stability is lost; 53 exhaust a double.
 constexpr int stable_step_halvings = 60;
 
 // ---- linear/
 
-/// Iterations of block Jacobi from which multigrid is cheaper, and after which a solve is left to it. Cost alone.
+/// Iterations of block Jacobi from which multigrid is cheaper, and after which a solve is left to it. Times the iterations of the
+/// first solve with coarser levels, and iterations more: from there on these are made anew. Cost alone.
 constexpr int dear_jacobi_iterations = 25, most_jacobi_iterations = 40;
-
-/// Times the iterations of the first solve with coarser levels, and iterations more: from there on these are made anew. Cost
-/// alone.
 constexpr int stale_level_factor = 2, stale_level_excess = 2;
 
 /// Vertices, up to which `automatic` factorises where iterative solvers are not exact enough. More: steps of seconds. Fewer:
@@ -197,11 +194,9 @@ constexpr double least_galerkin_coefficient = 1e-4;
 /// Share of vertices that a coarser level may keep; with more it gains nothing and the hierarchy ends.
 constexpr double most_coarse_share = 0.8;
 
-/// Levels of multigrid. Fewer: the bottom may be too large to be inverted.
-constexpr int most_multigrid_levels = 12;
-
-/// Vertices of a coarser level that are sorted by degree together. Cost alone.
-constexpr int level_sorting_window = 128;
+/// Levels of multigrid. Fewer: the bottom may be too large to be inverted. Vertices of one that are sorted by degree together:
+/// cost alone.
+constexpr int most_multigrid_levels = 12, level_sorting_window = 128;
 
 /// Share of the strongest pair at one end from which a pair is strong; the second where the first keeps too many vertices.
 /// Larger: coarser levels stay large. Smaller: they are poor where springs differ in stiffness.
@@ -231,7 +226,7 @@ constexpr double float_aim_share = 0.5, most_refined_share = 0.5;
 /// last window alone. Larger: badly conditioned systems count as solved too early. (Inline, as a header reads it.)
 inline constexpr double slow_gain_ratio = 0.8;
 
-/// The largest that the sum of what is to come is taken with. 1: no bound.
+/// The largest ratio that the sum of what is to come is taken with. 1: no bound.
 inline constexpr double most_gain_ratio = 0.99;
 
 // ---- plan/
@@ -314,7 +309,7 @@ constexpr double negligible_allowance_share = 0.1;
 /// Relative. Moves below it are rounding of positions (a few units in the last place of a double).
 constexpr double position_rounding = 1e-15;
 
-/// Just below 1: squares of lengths that are smaller by this factor are smaller but for rounding. Cost alone.
+/// Squares of lengths that are smaller by this factor are smaller but for rounding. Cost alone.
 constexpr double strain_rounding = 1.0 - 1e-12;
 
 /// How much more a cloth's worst vertex may change than its mean: times the share of its time error, times what means nothing.
@@ -398,10 +393,11 @@ constexpr double stopping_time = 2.0 * rest_time;
 constexpr double largest_part_turn = 0.26179938779914943, largest_part_travel = 20.0;
 
 /// Parts of a step. More: steps of many seconds, that fling cloth. And what a count of parts may be above a whole number.
+/// And m, by which a pin that goes with an obstacle may miss its place on it: rounding.
 constexpr int most_step_parts = 64;
-constexpr double part_rounding = 1e-9;
+constexpr double part_rounding = 1e-9, carried_pin_error = 1e-8;
 
-/// Strain of held cloth that the report of a failed step tells of. Smaller: it tells of cloth that is only taut.
+/// Strain of held cloth that the report of a failed step tells of.
 constexpr double told_strain = 1.0;
 
 /// Halvings of one span, one inside the other: the shortest is 1/64 of it. Fewer: hard impacts end as steps that did not

@@ -40,6 +40,7 @@ void name_second_obstacle(const StepScene& scene, const ContactRows& rows, std::
 void name_held_vertex(const StepScene& scene, const std::array<int, 4>& vertices, StepReport& report) {
     for (const int i : vertices) {
         if (i < 0 || scene.is_free(i)) continue;
+        report.blocked_by_pin = true;
         report.blocked_cloth = cloth_of(scene.model, i);
         const ClothRange& cloth = scene.model.cloths[report.blocked_cloth];
         report.blocked_vertex = cloth.user_vertex(i);
@@ -56,27 +57,30 @@ void name_blocking_obstacle(const StepScene& scene, const ContactRows& rows, Ste
     const bool cloth = report.blocking_obstacle < 0;
     report.blocking_name = cloth ? "cloth" : scene.script.obstacles[report.blocking_obstacle].name;
     name_second_obstacle(scene, rows, static_cast<std::size_t>(closest), report);
-    name_held_vertex(scene, rows.vertex[static_cast<std::size_t>(closest)], report);
+    if (!scene.plan.pins_move) name_held_vertex(scene, rows.vertex[static_cast<std::size_t>(closest)], report);
 }
 
-/// Names the cloth that is stretched most between its pins and what moves, if it is to more than twice its length.
+/// Names the cloth whose edges are stretched most between its pins, which stay, and what moves, if to more than twice their
+/// length.
 void name_stretched_cloth(const StepScene& scene, const Workspace& work, StepReport& report) {
     const SpringNetwork& springs = scene.model.springs;
     const Vectors& positions = work.newton.current.positions;
+    std::vector<int> pins(scene.model.cloths.size(), 0);
+    for (std::size_t c = 0; c < pins.size(); ++c) {
+        const ClothRange& cloth = scene.model.cloths[c];
+        for (int i = cloth.first; i < cloth.first + cloth.count; ++i) pins[c] += scene.is_free(i) ? 0 : 1;
+    }
     for (int k = 0; k < springs.size(); ++k) {
         if (springs.kind[k] != SpringKind::structural) continue;
         const double length = (positions.at(springs.first[k]) - positions.at(springs.second[k])).norm();
         const double strain = length / springs.rest_length[k] - 1.0;
-        if (strain <= std::max(report.stretch, told_strain)) continue;
+        if (!(strain > std::max(report.stretch, told_strain))) continue;
         const int c = cloth_of(scene.model, springs.first[k]);
-        const ClothRange& cloth = scene.model.cloths[c];
-        int pins = 0;
-        for (int i = cloth.first; i < cloth.first + cloth.count; ++i) pins += scene.is_free(i) ? 0 : 1;
-        if (pins == 0) continue;
+        if (pins[c] == 0) continue;
         report.stretch = strain;
         report.stretched_cloth = c;
-        report.stretched_name = cloth.name;
-        report.stretched_pins = pins;
+        report.stretched_name = scene.model.cloths[c].name;
+        report.stretched_pins = pins[c];
     }
 }
 
@@ -89,7 +93,7 @@ void tell_failure(const StepScene& scene, SpanEnd end, const Workspace& work, St
     }
     name_blocking_obstacle(scene, work.newton.current.rows, report);
     if (scene.plan.pins_move) name_blocked_pin(scene, work, report);
-    name_stretched_cloth(scene, work, report);
+    if (!scene.plan.pins_move) name_stretched_cloth(scene, work, report);
     report.status = scene.plan.obstacles_move ? StepStatus::obstacle_too_fast : StepStatus::pin_blocked;
 }
 

@@ -41,7 +41,9 @@ MotionParts motion_parts(const StepScene& scene, const ClothState& state) {
         const double turns = angle_between(start.rotation, end.rotation) / largest_part_turn;
         for (const ClothAhead& cloth : cloths) {
             if (!cloth.meets(start.translation, end.translation, obstacle.reach)) continue;
-            const double travel = cloth.beside(end.translation - start.translation).norm();
+            const Vec3 displacement = end.translation - start.translation;
+            // Cloth that falls past a body which hardly moves is the solver's alone.
+            const double travel = std::min(displacement.norm(), cloth.beside(displacement).norm());
             const double asked = std::max(turns, travel / (largest_part_travel * cloth.thickness()));
             if (asked <= parts) continue;
             parts = asked;

@@ -111,16 +111,17 @@ private:
         const StepState* at = &start;
         StepState* end = nullptr;
         while (count > 0) {
-            if (report_.newton_iterations >= work_.iterations_left) {
-                report_.status = StepStatus::work_limit;
-                return nullptr;
-            }
             work_.newton.iterations_left = work_.iterations_left - report_.newton_iterations;
             const auto [fraction, depth] = pending[--count];
             const Span next = span(fraction, depth == most_halvings);
             end = &other_end(*at);
             const SpanResult result = advance(next, *at, work_, *end);
             add_figures(result, report_);
+            const bool worked_out = report_.newton_iterations >= work_.iterations_left;
+            if (worked_out && (result.end != SpanEnd::solved || count > 0)) {
+                report_.status = StepStatus::work_limit;
+                return nullptr;
+            }
             if (result.is_usable(next.last_try)) {
                 keep(result);
                 if (result.end != SpanEnd::solved) report_.status = StepStatus::not_converged;

@@ -90,19 +90,21 @@ StepReport step_once(World& world) {
 /// A step in which an obstacle moves far. Where it moves too far for any number of parts, nothing is tried.
 StepReport step_far(World& world, const MotionParts& motion) {
     StepState& state = world.state;
+    const double dt = world.scene.settings.time_step, time = state.time, time_error = state.time_error;
+    StepReport report = begin_report(dt);
     if (motion.count > most_step_parts) {
-        StepReport report = begin_report(world.scene.settings.time_step);
         tell_too_far(world.scene, motion, report);
-        report.time = state.time;
-        return report;
+    } else {
+        report = step_in_parts(world, motion.count, step_once);
     }
-    const double time = state.time, time_error = state.time_error;
-    StepReport report = step_in_parts(world, motion.count, step_once);
     if (report.ok()) {  // as one step adds it up
         state.time = time;
         state.time_error = time_error;
-        advance_time(world.scene.settings.time_step, state);
+        advance_time(dt, state);
+    } else {
+        StepMeasure(world.scene, state, 0.0).kept(state, report);
     }
+    report.dt = dt;
     report.time = state.time;
     return report;
 }

@@ -3,19 +3,22 @@
 #include <algorithm>
 #include <utility>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
-/// What steps change of a simulation and its script, as it was before the first part.
+/// What steps change of a simulation and its script, as it was before the first part. Cloth at rest is awake by then.
 class Beginning {
 public:
     explicit Beginning(const World& world)
         : vertices_(world.scene.model.vertex_count()),
           state_(world.state),
-          rest_(world.rest),
           obstacles_(world.scene.script.obstacles),
           pin_targets_(world.scene.script.pin_targets),
-          welds_(world.scene.model.welds) {}
+          welds_(world.scene.model.welds) {
+        find_carried_pins(world.scene);
+    }
 
     /// Where obstacles and pins are to be after a share of the step, from where they are now.
     void aim_at(double share, Script& script) const {
@@ -28,13 +31,16 @@ public:
             const Vec3 start = state_.cloth.positions.at(i), end = pin_targets_.at(i);
             script.pin_targets.set(i, share == 1.0 ? end : Vec3(start + share * (end - start)));
         }
+        if (share == 1.0) return;
+        for (const auto& [vertex, obstacle, place] : carried_) {
+            script.pin_targets.set(vertex, transform(script.obstacles[obstacle].end, place));
+        }
     }
 
     /// The script leads to the end of the step again.
     void restore(World& world) && {
         aim_at(1.0, world.scene.script);
         world.state = std::move(state_);
-        world.rest = std::move(rest_);
         world.scene.model.welds = std::move(welds_);
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
             world.scene.script.obstacles[k].start = obstacles_[k].start;
@@ -43,9 +49,31 @@ public:
     }
 
 private:
+    /// A pin that goes with an obstacle, and its place in the mesh.
+    struct Carried {
+        int vertex;
+        std::size_t obstacle;
+        Vec3 place;
+    };
+
+    /// Pins that an obstacle which turns takes to their targets.
+    void find_carried_pins(const StepScene& scene) {
+        for (std::size_t k = 0; k < obstacles_.size(); ++k) {
+            const auto& [start, end] = std::pair(obstacles_[k].start, obstacles_[k].end);
+            if (angle_between(start.rotation, end.rotation) == 0.0) continue;
+            const Rotation& q = start.rotation;
+            const Pose back{.rotation = {q.w, -q.x, -q.y, -q.z}};
+            for (int i = 0; i < vertices_; ++i) {
+                if (scene.is_free(i)) continue;
+                const Vec3 place = transform(back, state_.cloth.positions.at(i) - start.translation) / start.scale;
+                if ((transform(end, place) - pin_targets_.at(i)).norm() < carried_pin_error) carried_.push_back({i, k, place});
+            }
+        }
+    }
+
     int vertices_;
+    std::vector<Carried> carried_;
     StepState state_;
-    RestState rest_;
     std::vector<ObstacleState> obstacles_;
     Vectors pin_targets_;
     std::vector<Weld> welds_;
@@ -56,7 +84,6 @@ void add_part(StepReport part, StepReport& sum) {
     const StepReport before = sum;
     sum = std::move(part);
     sum.status = std::max(sum.status, before.status);  // the accepted ones come first, from the best on
-    sum.dt += before.dt;
     sum.smallest_dt = std::min(sum.smallest_dt, before.smallest_dt);
     sum.largest_dt = std::max(sum.largest_dt, before.largest_dt);
     sum.parts += before.parts;

@@ -1,6 +1,7 @@
 #include "teleport.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace percale {
 namespace {
@@ -49,7 +50,10 @@ void turn_directions(World& world, const Company& company, const Pose& motion) {
 }
 
 Pose moved(const Pose& motion, const Pose& pose) {
-    return {transform(motion, pose.translation), product(motion.rotation, pose.rotation), pose.scale};
+    Rotation q = product(motion.rotation, pose.rotation);
+    const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);  // 1, but for what rounding adds up to
+    q = {q.w / length, q.x / length, q.y / length, q.z / length};
+    return {transform(motion, pose.translation), q, pose.scale};
 }
 
 }  // namespace

@@ -26,8 +26,16 @@ std::vector<Finding> examine_mesh(const std::string& file, MeshRole role, Triang
 std::vector<Finding> examine_mesh_file(const std::string& file, std::optional<MeshRole> asked) {
     std::vector<Finding> found;
     try {
-        const TriangleMesh mesh = import_mesh(file);
+        std::vector<std::string> warnings;
+        const TriangleMesh mesh = import_mesh(file, 1.0, &warnings);
         check_mesh(mesh, file, false);
+        for (const std::string& warning : warnings) {
+            found.push_back({.severity = Severity::warning,
+                             .kind = "left_out",
+                             .place = file,
+                             .what = warning.substr(file.size() + 2),
+                             .fix = "export the frame that is meant as a mesh that does not move"});
+        }
         for (const MeshRole role : {MeshRole::cloth, MeshRole::obstacle}) {
             if (asked && *asked != role) continue;
             const std::vector<Finding> more = examine_mesh(file, role, mesh);

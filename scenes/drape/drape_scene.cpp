@@ -10,6 +10,7 @@
 #include "doctor/doctor_scene.h"
 #include "meshes/mesh_import.h"
 #include "meshes/stitch_file.h"
+#include "pattern/pattern_parts.h"
 #include "percale/error.h"
 #include "tolerances.h"
 
@@ -128,6 +129,8 @@ private:
         const auto& [x, y, z] = options_.move;
         cloth.pose.translation = made_.z_up ? Vec3(x, z, -y) : Vec3(x, y, z);
         cloth.pose.scale = options_.scale;
+        const Rotation back{turn_.w, -turn_.x, -turn_.y, -turn_.z};
+        cloth.pose.rotation = product(product(turn_, turned(options_.rotate)), back);  // about the meshes' axes
         cloth.layer = static_cast<int>(made_.scene.cloths.size());
         if (is_pattern(file)) {
             add_pattern(cloth);
@@ -140,7 +143,7 @@ private:
         const std::string& file = cloth.place.file;
         cloth.mesh = file;
         cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file));
-        cloth.pose.rotation = turn_;
+        cloth.pose.rotation = product(cloth.pose.rotation, turn_);
         const std::size_t stitches = extension_of(file) == ".obj" ? find_obj_stitches(file).size() : 0;
         cloth.fabric = stitches > 0 ? sewn_mesh_fabric : mesh_fabric;
         if (stitches > 0) {

@@ -12,12 +12,13 @@ namespace percale::scenes {
 
 /// What garments are to be draped over what body, and how. Files are told from each other by their endings.
 struct DrapeOptions {
-    std::vector<std::string> files;                // garments from the inside out, then the body
-    std::vector<std::string> outs;                 // one a garment
-    std::string garment_unit, body_unit;           // mm, cm or m; "": guessed by the size (guessed_unit)
-    std::string up;                                // "y" or "z" of the meshes; "": guessed by the body's shape (stands_along_z)
-    double scale = 1.0;                            // of garments
-    std::array<double, 3> move = {0.0, 0.0, 0.0};  // m
+    std::vector<std::string> files;                  // garments from the inside out, then the body
+    std::vector<std::string> outs;                   // one a garment
+    std::string garment_unit, body_unit;             // mm, cm or m; "": guessed by the size (guessed_unit)
+    std::string up;                                  // "y" or "z" of the meshes; "": guessed by the body's shape (stands_along_z)
+    double scale = 1.0;                              // of garments
+    std::array<double, 3> rotate = {0.0, 0.0, 0.0};  // degrees, of garments about x, then y, then z
+    std::array<double, 3> move = {0.0, 0.0, 0.0};    // m
     // A felt with enough bending springs and damping that free hems come to rest within the limit.
     Fabric fabric{.springs = {.structural = 1000.0, .bend = 5.0}, .spring_damping = 2.0};
     std::string preset;  // "" for the felt

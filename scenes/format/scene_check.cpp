@@ -24,7 +24,10 @@ struct Spot {
 [[noreturn]] void fail_kind(const TomlNode& node, const SceneKey& key, const std::string& shown) {
     const std::string unit = key.unit.empty() ? "" : " (" + key.unit + ")";
     const bool one_table = key.kind == KeyKind::table_list && node.kind == TomlKind::table;
-    const std::string advice = one_table ? "; write [[" + shown + "]]" : "";
+    std::string advice = one_table ? "; write [[" + shown + "]]" : "";
+    if (shown.ends_with("rotation") && node.kind == TomlKind::list)
+        advice =
+            "; it is a unit quaternion [w, x, y, z]: a turn by the angle a about the unit vector n is [cos(a/2), sin(a/2) n]";
     fail_at(node.place, shown + " must be " + kind_text(key) + unit + ", not " + described(node) + advice);
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/text.h"
 #include "meshes/mesh_import.h"
+#include "meshes/polygon.h"
 #include "pattern/pattern_file.h"
 #include "pattern/pattern_parts.h"
 #include "percale/error.h"
@@ -65,14 +66,14 @@ std::string path_beside(const Scene& scene, const std::string& path) {
     return (std::filesystem::path(scene.file).parent_path() / path).string();
 }
 
-TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth) {
+TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth, std::vector<std::string>* warnings) {
     TriangleMesh mesh;
     if (!cloth.pattern.empty()) {
         mesh = pattern_mesh(scene, cloth).mesh;
     } else if (cloth.grid) {
         mesh = make_grid(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->vertices[0], cloth.grid->vertices[1]);
     } else {
-        mesh = import_mesh(path_beside(scene, cloth.mesh), cloth.unit);
+        mesh = import_mesh(path_beside(scene, cloth.mesh), cloth.unit, warnings);
     }
     mesh.vertices = transform(cloth.pose, mesh.vertices);
     return mesh;
@@ -84,7 +85,9 @@ RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleM
     if (uv) {
         shape = uv_shape(path_beside(scene, cloth.mesh), cloth, start);
     } else if (!cloth.rest.empty()) {
-        shape = rest_shape_of(start, import_mesh(path_beside(scene, cloth.rest), cloth.unit), "cloth '" + cloth.name + "'");
+        TriangleMesh rest = import_mesh(path_beside(scene, cloth.rest), cloth.unit, &warnings);
+        if (are_same_polygons(start.triangles, rest.triangles)) rest.triangles = start.triangles;
+        shape = rest_shape_of(start, rest, "cloth '" + cloth.name + "'");
     }
     if (cloth.warp) shape.warp = cloth.warp->direction;
     if (uv && !cloth.warp) shape.warp = Vec3::UnitY();
@@ -103,7 +106,7 @@ ClothShape cloth_shape(const Scene& scene, const ClothSpec& cloth, std::vector<s
     ClothShape shape;
     const std::string shown = "cloth '" + cloth.name + "'";
     if (cloth.pattern.empty()) {
-        shape.start = start_mesh(scene, cloth);
+        shape.start = start_mesh(scene, cloth, &warnings);
         check_mesh(shape.start, shown, true);
         shape.rest = rest_shape(scene, cloth, shape.start, warnings);
         return shape;

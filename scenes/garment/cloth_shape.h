@@ -14,7 +14,7 @@ std::string path_beside(const Scene& scene, const std::string& path);
 
 /// A cloth as it starts: mesh file, meshed pattern or grid at its pose, in m; not yet checked (check_mesh). Throws SceneError for
 /// a file that cannot be read.
-TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth);
+TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth, std::vector<std::string>* warnings = nullptr);
 
 /// What a cloth is made from.
 struct ClothShape {

@@ -140,7 +140,8 @@ struct PositionHash {
     }
 };
 
-/// Vertices at the same place become one, at the first one's position in the order.
+/// Vertices at the same place become one, at the first one's position in the order: exporters split vertices at seams of texture
+/// or shading, and STL shares none.
 TriangleMesh weld(const TriangleMesh& split) {
     TriangleMesh mesh;
     std::unordered_map<std::array<double, 3>, int, PositionHash> known;
@@ -155,8 +156,8 @@ TriangleMesh weld(const TriangleMesh& split) {
     return mesh;
 }
 
-/// Exporters split vertices at seams of texture or shading, and STL shares none.
-TriangleMesh read_with_assimp(const std::string& file) {
+/// Reads the mesh as it stands in the file.
+TriangleMesh read_with_assimp(const std::string& file, std::vector<std::string>* warnings) {
     Assimp::Importer importer;
     const aiScene* scene = nullptr;
     try {
@@ -168,6 +169,9 @@ TriangleMesh read_with_assimp(const std::string& file) {
     if (scene->mRootNode == nullptr) throw SceneError(file, "no vertices");
     TriangleMesh mesh;
     append_node(*scene, *scene->mRootNode, aiMatrix4x4(), file, most_vertices(*scene), mesh);
+    if (scene->HasAnimations() && warnings != nullptr) {
+        warnings->push_back(file + ": it is animated, which is left out: the mesh is as it stands in the file");
+    }
     return mesh;
 }
 
@@ -181,14 +185,14 @@ std::string extension_of(const std::string& file) {
 
 bool is_mesh_file(const std::string& file) { return is_read(extension_of(file)); }
 
-TriangleMesh import_mesh(const std::string& file, double unit) {
+TriangleMesh import_mesh(const std::string& file, double unit, std::vector<std::string>* warnings) {
     if (!std::isfinite(unit) || unit <= 0.0) throw SceneError(file, "unit is " + std::to_string(unit) + ", must be above 0");
     check_mesh_file(file);
     const std::string format = format_of(file);
     check_format(file, format);
     if (format == ".stl") check_stl_header(file);
     const Reader own = own_reader(format);
-    TriangleMesh mesh = own != nullptr ? read_with(own, file) : read_with_assimp(file);
+    TriangleMesh mesh = own != nullptr ? read_with(own, file) : read_with_assimp(file, warnings);
     if (mesh.triangles.empty()) throw SceneError(file, "no triangles");
     for (std::size_t k = 0; k < mesh.vertices.size(); ++k) check_finite(mesh.vertices[k] *= unit, k, file);
     return own != nullptr ? mesh : weld(mesh);

@@ -18,8 +18,9 @@ bool is_mesh_file(const std::string& file);
 /// shared vertices are shared again, in the order of first appearance. Coordinates are multiplied by `unit` (m per unit of the
 /// file, > 0). Throws SceneError naming the file, and the line for OBJ, OFF and PLY in text: missing or unreadable file, empty,
 /// NaN or infinite coordinate, index out of range, no triangles, a header that claims more than the file can hold, another
-/// format, copies of parts beyond 64 in the mean and 100000 vertices.
-TriangleMesh import_mesh(const std::string& file, double unit = 1.0);
+/// format, copies of parts beyond 64 in the mean and 100000 vertices. `warnings`, where not null: what of the file is left out
+/// that it moves by.
+TriangleMesh import_mesh(const std::string& file, double unit = 1.0, std::vector<std::string>* warnings = nullptr);
 
 /// A mesh with its texture coordinates, which OBJ files have (vt); vertices times `unit`. Throws SceneError as import_mesh does,
 /// and for another format.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "tolerances.h"
 
@@ -139,7 +141,7 @@ std::vector<Triangle> polygon_triangles(std::span<const Vec3> corners) {
 
 std::vector<Triangle> triangles_of(const PolygonList& polygons, std::span<const Vec3> vertices) {
     std::vector<Triangle> triangles;
-    triangles.reserve(polygons.corner_count());
+    triangles.reserve(polygons.corner_count() - 2 * polygons.size());
     std::vector<Vec3> places;
     for (std::size_t k = 0; k < polygons.size(); ++k) {
         const std::span<const int> corners = polygons.polygon(k);
@@ -148,6 +150,35 @@ std::vector<Triangle> triangles_of(const PolygonList& polygons, std::span<const 
         for (const Triangle& t : polygon_triangles(places)) triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
     }
     return triangles;
+}
+
+bool are_same_polygons(std::span<const Triangle> some, std::span<const Triangle> others) {
+    if (some.size() != others.size()) return false;
+    // Of the triangles since the last polygon's end: sides, one list's counted up, the other's down, opposite ones against each
+    // other, and vertices. Where no side is left, both have gone round the same; n + 2 vertices of n triangles are a polygon's.
+    std::map<std::array<int, 2>, int> sides;
+    std::set<int> vertices;
+    std::size_t count = 0;
+    const auto add = [&](const Triangle& t, int by) {
+        for (int k = 0; k < 3; ++k) {
+            const int a = t[k], b = t[(k + 1) % 3];
+            const auto side = sides.try_emplace({std::min(a, b), std::max(a, b)}).first;
+            side->second += a < b ? by : -by;
+            if (side->second == 0) sides.erase(side);
+            vertices.insert(a);
+        }
+    };
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        if (count == 0 && some[k] == others[k]) continue;
+        add(some[k], 1);
+        add(others[k], -1);
+        ++count;
+        if (!sides.empty()) continue;
+        if (vertices.size() != count + 2) return false;
+        vertices.clear();
+        count = 0;
+    }
+    return count == 0;
 }
 
 }  // namespace percale::scenes

@@ -20,7 +20,7 @@ double least_turn_of(const Point2& a, const Point2& b, const Point2& c);
 double smallest_angle_of(const Point2& a, const Point2& b, const Point2& c);
 
 /// The triangles of a simple polygon, counter-clockwise, by its points' numbers: corners are cut off, the best shaped first.
-/// Nothing where it crosses or touches itself. Time: its number of points squared.
+/// Nothing where it crosses or touches itself. Time: as its number of points squared, or more.
 std::optional<std::vector<Triangle>> cut_ears(std::span<const Point2> outline);
 
 /// Polygons of a mesh file.
@@ -45,10 +45,14 @@ private:
 
 /// The triangles of a polygon in space, by the numbers of its corners (0, 1, ...): a fan from the first where it is one without a
 /// fold, seen along the polygon's normal (Newell 1972: sum of x_k cross x_k+1), else ears. Where there are no ears either, as it
-/// crosses itself, and with more than 10,000 corners, a fan. Fewer than three corners give nothing.
+/// crosses or touches itself, and with more than 10,000 corners, a fan. Fewer than three corners give nothing.
 std::vector<Triangle> polygon_triangles(std::span<const Vec3> corners);
 
 /// Of all polygons, by vertices.
 std::vector<Triangle> triangles_of(const PolygonList& polygons, std::span<const Vec3> vertices);
+
+/// Whether two lists are the triangles of the same polygons in the same order, which may be cut differently where their vertices
+/// lie differently.
+bool are_same_polygons(std::span<const Triangle> some, std::span<const Triangle> others);
 
 }  // namespace percale::scenes

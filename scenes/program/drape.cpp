@@ -104,6 +104,24 @@ Fabric fabric_from_preset(const CLI::App& command, const DrapeOptions& options) 
     return fabric;
 }
 
+void add_fabric_options(CLI::App& command, DrapeOptions& options) {
+    CLI::Option* preset = command
+                              .add_option("--fabric", options.preset,
+                                          "Fabric preset, its moduli the same in all directions on meshes (percale explain "
+                                          "presets; default: a felt of springs)")
+                              ->type_name("NAME");
+    command.add_option("--thickness", options.fabric.thickness, "Gap kept from the body, m (default 0.005)")->type_name("M");
+    command.add_option("--area-density", options.fabric.area_density, "kg/m^2 (default 0.2)")->type_name("D");
+    command.add_option("--structural", options.fabric.springs.structural, "Spring constant of edges, N/m (default 1000)")
+        ->type_name("K")
+        ->excludes(preset);
+    command.add_option("--bend", options.fabric.springs.bend, "Spring constant across edges, N/m (default 5)")
+        ->type_name("K")
+        ->excludes(preset);
+    command.add_option("--damping", options.fabric.spring_damping, "Damping of each spring, N s/m (default 2)")->type_name("C");
+    command.add_option("--friction", options.friction, "Coulomb coefficient (default 0.4)")->type_name("MU");
+}
+
 void add_options(CLI::App& command, DrapeCommand& all) {
     DrapeOptions& options = all.drape;
     command
@@ -128,25 +146,17 @@ void add_options(CLI::App& command, DrapeCommand& all) {
         .add_option("--up", options.up, "Axis of the meshes that points up: y, z (default: y, or z if the body stands along it)")
         ->type_name("AXIS");
     command.add_option("--scale,--size", options.scale, "Factor on the size of garments (default 1)")->type_name("F");
+    command
+        .add_option("--rotate", options.rotate,
+                    "Turn garments about the x, then the y, then the z axis of the meshes before they are moved, degrees")
+        ->type_name("X Y Z")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command.add_option("--move", options.move, "Move garments before they start, m, in the axes of the meshes")
         ->type_name("X Y Z")
         ->delimiter(',')
         ->allow_extra_args(false);
-    CLI::Option* preset = command
-                              .add_option("--fabric", options.preset,
-                                          "Fabric preset, its moduli the same in all directions on meshes (percale explain "
-                                          "presets; default: a felt of springs)")
-                              ->type_name("NAME");
-    command.add_option("--thickness", options.fabric.thickness, "Gap kept from the body, m (default 0.005)")->type_name("M");
-    command.add_option("--area-density", options.fabric.area_density, "kg/m^2 (default 0.2)")->type_name("D");
-    command.add_option("--structural", options.fabric.springs.structural, "Spring constant of edges, N/m (default 1000)")
-        ->type_name("K")
-        ->excludes(preset);
-    command.add_option("--bend", options.fabric.springs.bend, "Spring constant across edges, N/m (default 5)")
-        ->type_name("K")
-        ->excludes(preset);
-    command.add_option("--damping", options.fabric.spring_damping, "Damping of each spring, N s/m (default 2)")->type_name("C");
-    command.add_option("--friction", options.friction, "Coulomb coefficient (default 0.4)")->type_name("MU");
+    add_fabric_options(command, options);
     command.add_option("--edge-length", options.edge_length, "How long the edges of a pattern's mesh are, m (default 0.02)")
         ->type_name("M");
     command.add_option("--seconds", options.seconds, "Simulated time at most, s (default 20)")->type_name("S");

@@ -39,30 +39,41 @@ std::string progress_text(double done, double total, double elapsed, ProgressUni
            text + eta_text(done, total, elapsed);
 }
 
-ProgressBar::ProgressBar(bool wanted, double total, ProgressUnit unit)
-    : active_(wanted && isatty(STDERR_FILENO) == 1),
+ProgressBar::ProgressBar(bool wanted, double total, ProgressUnit unit, ProgressOutput output)
+    : wanted_(wanted),
+      terminal_(isatty(fileno(output.file)) == 1),
       total_(total),
       unit_(unit),
+      output_(output),
       start_(std::chrono::steady_clock::now()),
       last_(start_) {}
 
 ProgressBar::~ProgressBar() { clear(); }
 
 void ProgressBar::show(double done) {
-    if (!active_) return;
+    if (!wanted_) return;
     const auto now = std::chrono::steady_clock::now();
+    if (!terminal_) return show_line(done, now);
     if (drawn_ && seconds_between(last_, now) < 0.1) return;
     last_ = now;
     drawn_ = true;
-    std::fprintf(stderr, "\r%s\033[K", progress_text(done, total_, seconds_between(start_, now), unit_).c_str());
-    std::fflush(stderr);
+    std::fprintf(output_.file, "\r%s\033[K", progress_text(done, total_, seconds_between(start_, now), unit_).c_str());
+    std::fflush(output_.file);
+}
+
+void ProgressBar::show_line(double done, std::chrono::steady_clock::time_point now) {
+    const int tenths = total_ > 0.0 ? static_cast<int>(10.0 * done / total_) : 0;
+    if (tenths <= tenths_ || tenths > 9 || seconds_between(last_, now) < output_.least_seconds) return;
+    last_ = now;
+    tenths_ = tenths;
+    std::fprintf(output_.file, "%s\n", progress_text(done, total_, seconds_between(start_, now), unit_).c_str());
 }
 
 void ProgressBar::clear() {
     if (!drawn_) return;
     drawn_ = false;
-    std::fputs("\r\033[K", stderr);
-    std::fflush(stderr);
+    std::fputs("\r\033[K", output_.file);
+    std::fflush(output_.file);
 }
 
 }  // namespace percale::program

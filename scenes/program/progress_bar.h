@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdio>
 #include <string>
 
 namespace percale::program {
@@ -15,11 +16,17 @@ struct ProgressUnit {
 /// left open.
 std::string progress_text(double done, double total, double elapsed, ProgressUnit unit = {});
 
-/// A bar on the last line of the terminal that stderr is; nothing elsewhere.
+/// Where progress is shown, and how long a line that stays stands at least before the next, s.
+struct ProgressOutput {
+    std::FILE* file = stderr;
+    double least_seconds = 5.0;
+};
+
+/// A bar on the last line of a terminal; elsewhere, as in a log, a line that stays for a tenth of the whole.
 class ProgressBar {
 public:
-    /// `wanted` false: draws nothing on a terminal either. `total`: where the end is, in units.
-    ProgressBar(bool wanted, double total, ProgressUnit unit = {});
+    /// `wanted` false: shows nothing. `total`: where the end is, in units.
+    ProgressBar(bool wanted, double total, ProgressUnit unit = {}, ProgressOutput output = {});
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
@@ -28,9 +35,13 @@ public:
     void clear();
 
 private:
-    bool active_, drawn_ = false;
+    void show_line(double done, std::chrono::steady_clock::time_point now);
+
+    bool wanted_, terminal_, drawn_ = false;
     double total_;
+    int tenths_ = 0;  // that lines have told of
     ProgressUnit unit_;
+    ProgressOutput output_;
     std::chrono::steady_clock::time_point start_, last_;
 };
 

@@ -99,10 +99,10 @@ bool has_pins_in_world(const ClothSpec& cloth) {
 /// Cloth that would have torn, and what often is why.
 std::string strain_text(const Scene& scene, double strain) {
     std::string text = "the largest strain is " + std::to_string(std::lround(100.0 * strain)) + " %: cloth would have torn";
-    const bool moves = std::ranges::any_of(scene.obstacles, obstacle_moves);
+    const auto moving = std::ranges::find_if(scene.obstacles, obstacle_moves);
     for (const ClothSpec& cloth : scene.cloths) {
-        if (!moves || !has_pins_in_world(cloth)) continue;
-        text += "; the pins of " + cloth.name + " stay in the world, pin = { box = ..., to = \"" + scene.obstacles.front().name +
+        if (moving == scene.obstacles.end() || !has_pins_in_world(cloth)) continue;
+        text += "; the pins of " + cloth.name + " stay in the world, pin = { box = ..., to = \"" + moving->name +
                 "\" } holds them to a body";
         break;
     }

@@ -109,7 +109,7 @@ void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
 }
 
 void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
-    TriangleMesh mesh = obstacle_mesh(built.scene, obstacle);
+    TriangleMesh mesh = obstacle_mesh(built.scene, obstacle, &built.warnings);
     check_mesh(mesh, told(obstacle), false);
     const ObstacleSettings settings{.friction = obstacle.friction, .restitution = obstacle.restitution, .name = obstacle.name};
     built.obstacles.push_back(built.simulation.add_obstacle(mesh, obstacle_pose_at(obstacle, 0.0), settings));
@@ -208,8 +208,9 @@ std::vector<ClothStitches> sewn_stitches(const BuiltScene& built) {
     return sewn;
 }
 
-TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle) {
-    return obstacle.mesh.empty() ? shape_mesh(obstacle.shape) : import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit);
+TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings) {
+    if (obstacle.mesh.empty()) return shape_mesh(obstacle.shape);
+    return import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit, warnings);
 }
 
 BuiltScene build_scene(const Scene& given) {

@@ -35,7 +35,7 @@ std::vector<ClothStitches> sewn_stitches(const BuiltScene& built);
 
 /// The mesh of an obstacle with its unit applied, its pose not; not yet checked (check_mesh). Throws SceneError for a file that
 /// cannot be read.
-TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle);
+TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings = nullptr);
 
 /// Reads meshes, selects pins, makes the detector and the simulation, and checks the start (Simulation::prepare), which may move
 /// cloth out of obstacles. Throws SceneError with the place of the cloth, obstacle, event or key in the scene file; where the

@@ -16,7 +16,9 @@ constexpr StepStatus all_statuses[] = {StepStatus::ok,
                                        StepStatus::tolerance_missed,
                                        StepStatus::pin_blocked,
                                        StepStatus::obstacle_too_fast,
-                                       StepStatus::not_finite};
+                                       StepStatus::wrong_derivative,
+                                       StepStatus::not_finite,
+                                       StepStatus::work_limit};
 
 StepReport report_of(StepStatus status) {
     StepReport report;

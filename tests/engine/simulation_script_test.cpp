@@ -225,6 +225,22 @@ TEST_CASE("What stands in the way of a refused start may be moved away, the obst
     }
 }
 
+TEST_CASE("A state that is restored was not refused: obstacles move in steps again") {
+    PlaneScene scene({.start = StartRule::refuse});
+    Simulation& s = scene.simulation;
+    const Pose far_below{.translation = Vec3(0, -1, 0)};
+    const ObstacleId shelf = s.add_obstacle(make_plane(1.0), far_below, {.name = "shelf"});
+    REQUIRE(s.step().ok());
+    const std::vector<std::byte> saved = s.save();
+    s.set_positions(scene.cloth, std::vector<Vec3>(16, Vec3(0, -3, 0)));
+    CHECK_FALSE(scene_error([&] { s.step(); }).empty());
+    s.restore(saved);
+    s.move_obstacle(shelf, {.translation = Vec3(0, -2, 0)});
+    CHECK(s.obstacle_pose(shelf).translation == far_below.translation);
+    CHECK(s.step().ok());
+    CHECK(s.obstacle_pose(shelf).translation.y() == -2.0);
+}
+
 TEST_CASE("A simulation that was moved from says so whatever is asked of it, and may be assigned to") {
     PlaneScene scene;
     Simulation taken(std::move(scene.simulation));

@@ -115,7 +115,7 @@ TEST_CASE("FCL, Bullet and brute force give the same contacts on body scans") {
     const std::string name = GENERATE("bunny00.off", "man.off", "armadillo.off", "refined_elephant.off", "fandisk.off");
     const std::filesystem::path file = real_mesh_folder() / name;
     if (!std::filesystem::exists(file)) {
-        WARN("skipped: there is no " << file.string() << "; .ci/fetch_meshes.sh fetches it");
+        WARN("skipped: no " << file.string() << "; .ci/fetch_meshes.sh fetches it");
         return;
     }
     const TriangleMesh body = unit_size(scenes::import_mesh(file.string()));

@@ -70,8 +70,7 @@ RunHooks counting_hooks(const BuiltScene& built, FrameCounts& counts) {
 void drop_on(const std::string& name, double size) {
     const std::filesystem::path file = test::real_mesh_folder() / name;
     if (!std::filesystem::exists(file)) {
-        WARN("skipped: there is no " << file.string()
-                                     << "; .ci/fetch_meshes.sh fetches it, PERCALE_REAL_MESHES names its folder");
+        WARN("skipped: no " << file.string() << "; .ci/fetch_meshes.sh fetches it, PERCALE_REAL_MESHES names its folder");
         return;
     }
     BuiltScene built = build_scene(parse_scene(drop_scene(file, size), name));

@@ -14,12 +14,12 @@ public:
 
     /// A vertex, m and m/s.
     void add(const Vec3& position, const Vec3& velocity) {
-        const Vec3 way = dt_ * velocity;
-        for (const Vec3& x : {position, Vec3(position + way)}) {
+        const Vec3 displacement = dt_ * velocity;
+        for (const Vec3& x : {position, Vec3(position + displacement)}) {
             low_ = low_.cwiseMin((x.array() - thickness_).matrix());
             high_ = high_.cwiseMax((x.array() + thickness_).matrix());
         }
-        ways_ += way;
+        displacements_ += displacement;
         ++count_;
     }
 
@@ -32,11 +32,11 @@ public:
     }
 
     /// A displacement, m, beside the mean one of the cloth's vertices.
-    Vec3 beside(const Vec3& displacement) const { return displacement - ways_ / static_cast<double>(count_); }
+    Vec3 beside(const Vec3& displacement) const { return displacement - displacements_ / static_cast<double>(count_); }
 
 private:
     double thickness_, dt_;
-    Vec3 low_ = Vec3::Constant(std::numeric_limits<double>::max()), high_ = -low_, ways_ = Vec3::Zero();
+    Vec3 low_ = Vec3::Constant(std::numeric_limits<double>::max()), high_ = -low_, displacements_ = Vec3::Zero();
     int count_ = 0;
 };
 

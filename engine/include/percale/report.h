@@ -119,6 +119,7 @@ struct StepReport {
     double contact_stiffness = 0.0;  // N/m, largest of the step
     double largest_strain = 0.0;     // of structural springs, (l - l0)/l0; NaN unless it is measured
     double largest_speed = 0.0;      // m/s; likewise
+    bool blocked_by_pin = false;     // pins stay, and the blocked vertex is one in an obstacle's way
     int blocked_cloth = -1;          // the cloth and vertex of a blocked pin, or of one in an obstacle's way
     int blocked_vertex = -1;
     int blocking_obstacle = -1;               // -1 where it is cloth, too; blocking_name then says so

@@ -37,8 +37,8 @@ struct StepSettings {
     std::optional<double> newton_tolerance = {};
     double newton_share = 1.0;   // 0.001 ... 100
     int newton_iterations = 50;  // at most; 1 = linearly implicit
-    /// Newton iterations of one step at most, of all that it is divided into and solved again; 0: no limit. Where they do not do,
-    /// the step fails (StepStatus::work_limit).
+    /// Newton iterations of one step, of all that it is divided into and solved again; 0: no limit. Where they do not do, the
+    /// step fails (StepStatus::work_limit), a few iterations later at most.
     int work_limit = 10000;
     LinearSolver linear_solver = LinearSolver::automatic;
     ContactResponse contact_response = ContactResponse::penalty;

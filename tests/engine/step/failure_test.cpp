@@ -63,7 +63,8 @@ TEST_CASE("Cloth that is stretched between its pins and what moves is named, in 
     CHECK(stuck.report.stretched_cloth == 0);
     CHECK(stuck.report.stretched_pins == 1);
     CHECK(stuck.report.stretch == Approx(8.0));
-    CHECK(mentions(stuck.report.explanation(), {"cloth 0 (cloth) is stretched to 9 times", "1 pinned vertices", "go along?"}));
+    CHECK(mentions(stuck.report.explanation(),
+                   {"an edge of cloth 0 (cloth) is stretched to 9 times", "1 pinned vertices", "go along?"}));
     CHECK_FALSE(mentions(stuck.report.explanation(), {"shorter time step"}));
     stuck.world.scene.script.free[4] = 1.0;  // nothing is held: another reason
     stuck.report = {};

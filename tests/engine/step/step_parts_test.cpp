@@ -1,5 +1,7 @@
 #include "engine/step/step_parts.h"
 
+#include <cmath>
+
 #include "percale/simulation.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
@@ -67,9 +69,11 @@ TEST_CASE("A step in which an obstacle moves far does what as many short ones do
 }
 
 TEST_CASE("Where a part fails, all parts are taken back") {
-    RestingSheet scene;
-    for (int i = 0; i < 16; ++i) scene.simulation.pin(scene.cloth, i);
-    // Away first, so that the plane only meets the sheet after some parts of its way back.
+    const StepSettings settings{.measure = StepMeasures::all};
+    RestingSheet scene(settings), other(settings);
+    // Away first, so that the plane only meets the pinned corner after some parts of its way back.
+    other.simulation.move_obstacle(other.plane, {.translation = Vec3(0.0, -1.0, 0.0)});
+    REQUIRE(other.simulation.step().parts == 10);
     scene.simulation.move_obstacle(scene.plane, {.translation = Vec3(0.0, -1.0, 0.0)});
     REQUIRE(scene.simulation.step().parts == 10);
     const std::uint64_t hash = scene.simulation.state_hash();
@@ -78,12 +82,39 @@ TEST_CASE("Where a part fails, all parts are taken back") {
     const StepReport report = scene.simulation.step();
     CHECK(report.status == StepStatus::obstacle_too_fast);
     CHECK(report.parts > 5);
+    CHECK(report.dt == 1.0 / 60.0);
+    CHECK(report.energy.total() == Approx(scene.simulation.energy().total()));
     CHECK(report.time == scene.simulation.time());
     CHECK(scene.simulation.time() == time);
     CHECK(scene.simulation.state_hash() == hash);
     CHECK(scene.simulation.obstacle_pose(scene.plane).translation == Vec3(0.0, -1.0, 0.0));
-    scene.simulation.move_obstacle(scene.plane, {.translation = Vec3(0.0, -0.5, 0.0)});
-    CHECK(scene.simulation.step().ok());
+    for (RestingSheet* either : {&scene, &other}) {  // nothing that later steps go by is left of it
+        either->simulation.move_obstacle(either->plane, {.translation = Vec3(0.0, -0.5, 0.0)});
+        for (int n = 0; n < 5; ++n) CHECK(either->simulation.step().ok());
+    }
+    CHECK(scene.simulation.state_hash() == other.simulation.state_hash());
+}
+
+TEST_CASE("A pin that goes with an obstacle which turns keeps its place on it in every part, another goes straight") {
+    const TriangleMesh sheet = make_grid(0.4, 0.4, 5, 5);
+    World world = make_world(cloth_model(sheet, sheet_fabric()), sheet.vertices, {});
+    const Pose start{.translation = Vec3(0, -0.5, 0)};
+    const Pose end{.translation = Vec3(0.1, -0.5, 0), .rotation = {std::sqrt(0.5), 0.0, std::sqrt(0.5), 0.0}};
+    world.scene.script.obstacles = {{"wheel", start, end}};
+    world.scene.script.free[0] = world.scene.script.free[4] = 0.0;
+    const Vec3 other = world.state.cloth.positions.at(4) + Vec3(0, 0, 0.3);
+    world.scene.script.pin_targets.set(0, transform(end, world.state.cloth.positions.at(0) - start.translation));
+    world.scene.script.pin_targets.set(4, other);
+    const auto arrive = [](World& now) {
+        ObstacleState& wheel = now.scene.script.obstacles[0];
+        const Vec3 place(-0.2, 0.5, -0.2);  // of the sheet's corner, seen from the wheel
+        CHECK((now.scene.script.pin_targets.at(0) - transform(wheel.end, place)).norm() < 1e-12);
+        CHECK(now.scene.script.pin_targets.at(4).x() == 0.2);
+        wheel.start = wheel.end;
+        return StepReport{};
+    };
+    CHECK(step_in_parts(world, 6, arrive).parts == 6);
+    CHECK(world.scene.script.pin_targets.at(4) == other);
 }
 
 TEST_CASE("An obstacle that jumps farther than cloth can follow fails the step at once and says so") {

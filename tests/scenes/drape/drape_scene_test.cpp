@@ -39,6 +39,7 @@ TEST_CASE("meshes in centimetres with z up make the scene that they make in metr
     const TestFolder folder;
     DrapeOptions options = write_files(folder, [](const Vec3& x) { return x; });
     options.move = {0.0, 0.1, 0.02};
+    options.rotate = {0.0, 30.0, 0.0};
     const DrapeScene plain = drape_scene(options);
     CHECK(plain.notes.empty());
     CHECK_FALSE(plain.z_up);
@@ -46,6 +47,7 @@ TEST_CASE("meshes in centimetres with z up make the scene that they make in metr
 
     options = write_files(folder, [](const Vec3& x) { return Vec3(100.0 * Vec3(x.x(), -x.z(), x.y())); });
     options.move = {0.0, -0.02, 0.1};
+    options.rotate = {0.0, 0.0, 30.0};
     const DrapeScene turned = drape_scene(options);
     CHECK(turned.z_up);
     REQUIRE(turned.notes.size() > 2);  // the sheet of 40 units may be one of 40 m, which doctor doubts

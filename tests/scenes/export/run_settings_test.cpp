@@ -33,8 +33,9 @@ TEST_CASE("every field of the step settings is listed under its key, with the va
         INFO(option.key);
         const ordered_json& value = at_dotted(step, std::string(option.key));
         if (option.number) CHECK(value.get<double>() == *option.number(scene.step));
-        if (option.zero_is_auto) CHECK(value == "auto");
-        if (option.integer && !option.zero_is_auto) CHECK(value.get<int>() == *option.integer(scene.step));
+        const bool is_auto = option.zero_is_auto && *option.integer(scene.step) == 0;
+        if (is_auto) CHECK(value == "auto");
+        if (option.integer && !is_auto) CHECK(value.get<int>() == *option.integer(scene.step));
         if (option.get_choice)
             CHECK(value == std::string(option.choices[static_cast<std::size_t>(option.get_choice(scene.step))]));
     }

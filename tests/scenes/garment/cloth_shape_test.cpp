@@ -49,6 +49,15 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 
 }  // namespace
 
+TEST_CASE("a rest mesh is cut as the mesh of the start is, where a polygon is concave in one of them") {
+    const test::TestFolder folder;
+    folder.write("flat.obj", "v 0 0 0\nv 0.1 0 0\nv 0.1 0 0.1\nv 0 0 0.1\nf 1 2 3 4\n");
+    const char* dart = "v 0 0 0\nv 0.1 0 0.05\nv 0 0 0.1\nv 0.05 0 0.05\nf 1 2 3 4\n";
+    const BuiltScene scene = built(folder, dart, "rest = \"flat.obj\"\nwarp = [1, 0, 0]\n");
+    CHECK(scene.rest_shapes[0].corners.size() == 2);
+    CHECK(scene.cloth_meshes[0].triangles != std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+}
+
 TEST_CASE("vt are the rest shape, uv_scale metres a unit, warp along v if not said, panels apart") {
     struct Case {
         const char* keys;

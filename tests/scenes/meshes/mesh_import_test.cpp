@@ -153,7 +153,7 @@ TEST_CASE("a part may be copied, but not without end") {
           ": copies of its parts come to more than 100000 vertices; leave some out");
 }
 
-TEST_CASE("polygons of an imported scene are fanned, those without area too") {
+TEST_CASE("polygons of an imported scene are cut into triangles, those without area too") {
     const TestFolder folder;
     const auto quad = [&](const std::string& points) {
         std::string text = two_nodes;
@@ -174,6 +174,29 @@ TEST_CASE("polygons of an imported scene are fanned, those without area too") {
     CHECK(quad("0 0 0 0 0 0 0 0 0 0 0 1e-30").triangles.size() == 2);
     // An arrow's head, whose fan from the first corner would fold.
     CHECK(quad("0 0 0 2 1 0 0 2 0 1 1 0").triangles == std::vector<Triangle>{{3, 0, 1}, {2, 3, 1}});
+}
+
+TEST_CASE("an animation that is left out is told of") {
+    const TestFolder folder;
+    const std::string still = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+"buffers":[{"byteLength":76,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAAAAAACgQA=="}],
+"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6},
+{"buffer":0,"byteOffset":44,"byteLength":8},{"buffer":0,"byteOffset":52,"byteLength":24}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"},
+{"bufferView":2,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+{"bufferView":3,"componentType":5126,"count":2,"type":"VEC3"}])";
+    const std::string animation = R"(,
+"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":2,"output":3}]}])";
+    std::vector<std::string> warnings;
+    CHECK(import_mesh(folder.write("still.gltf", still + "}"), 1.0, &warnings).triangles.size() == 1);
+    CHECK(warnings.empty());
+    const std::string file = folder.write("moves.gltf", still + animation + "}");
+    CHECK(import_mesh(file, 1.0, &warnings).triangles.size() == 1);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].find(file + ": it is animated") == 0);
+    CHECK(import_mesh(file).triangles.size() == 1);  // nobody asks
 }
 
 TEST_CASE("files that are missing, empty, folders or of unknown kind are refused by name") {

@@ -53,7 +53,7 @@ TEST_CASE("negative indices count back from the vertices read so far, positive o
     CHECK(parse("f 1 2 3\n" + square).triangles == std::vector<Triangle>{{0, 1, 2}});
 }
 
-TEST_CASE("polygons are fanned from their first corner") {
+TEST_CASE("convex polygons are fanned from their first corner") {
     CHECK(parse(square + "v 0 2 0\nf 2 3 4 5 1\n").triangles == std::vector<Triangle>{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}});
 }
 

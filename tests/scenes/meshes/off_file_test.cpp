@@ -46,7 +46,7 @@ TEST_CASE("normals, colours and comments behind the numbers are passed over") {
     CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
 }
 
-TEST_CASE("an OFF polygon is fanned from its first corner") {
+TEST_CASE("a convex OFF polygon is fanned from its first corner") {
     CHECK(parse("OFF 5 1 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 4 3 2 1 0\n").triangles ==
           std::vector<Triangle>{{4, 3, 2}, {4, 2, 1}, {4, 1, 0}});
 }

@@ -80,6 +80,24 @@ TEST_CASE("polygons that cross themselves or have no area are fanned, those with
     CHECK(polygon_triangles(std::vector<Vec3>(2, Vec3(1, 2, 3))).empty());
 }
 
+TEST_CASE("two lists are of the same polygons if every polygon is, however it is cut") {
+    const std::vector<Triangle> fan = {{0, 1, 2}, {0, 2, 3}}, other = {{3, 0, 1}, {1, 2, 3}}, tail = {{3, 2, 4}};
+    const auto joined = [](std::vector<Triangle> first, const std::vector<Triangle>& second) {
+        first.insert(first.end(), second.begin(), second.end());
+        return first;
+    };
+    CHECK(are_same_polygons(fan, fan));
+    CHECK(are_same_polygons(joined(fan, tail), joined(other, tail)));
+    CHECK(are_same_polygons(joined(tail, fan), joined(tail, other)));
+    CHECK_FALSE(are_same_polygons(joined(fan, tail), fan));
+    CHECK_FALSE(are_same_polygons(joined(fan, tail), joined(other, {{2, 3, 4}})));  // on its back
+    CHECK_FALSE(are_same_polygons(fan, std::vector<Triangle>{{0, 1, 2}, {0, 2, 4}}));
+    // Two closed surfaces of the same vertices are two surfaces.
+    const std::vector<Triangle> solid = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
+                                inside_out = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+    CHECK_FALSE(are_same_polygons(solid, inside_out));
+}
+
 TEST_CASE("every format divides a concave face alike, texture coordinates with it") {
     const std::vector<Vec3> corners = turned(ell, 1);
     const std::vector<Triangle> expected = polygon_triangles(corners);

@@ -75,7 +75,29 @@ TEST_CASE("a quiet run draws no bar on a terminal") {
     CHECK(run->text.empty());
 }
 
-TEST_CASE("without a terminal there is no bar") {
+TEST_CASE("in a log every tenth that takes its time has a line, the end none") {
+    for (const double seconds : {0.0, 1000.0}) {
+        std::FILE* file = std::tmpfile();
+        REQUIRE(file != nullptr);
+        {
+            percale::program::ProgressBar bar(true, 4.0, {}, {.file = file, .least_seconds = seconds});
+            for (int k = 0; k <= 400; ++k) bar.show(0.01 * k);
+        }
+        std::rewind(file);
+        std::vector<std::string> lines;
+        for (char line[200]; std::fgets(line, sizeof line, file) != nullptr;) lines.emplace_back(line);
+        std::fclose(file);
+        if (seconds > 0.0) {
+            CHECK(lines.empty());
+            continue;
+        }
+        REQUIRE(lines.size() == 9);
+        CHECK(lines[0].find("[###...........................]  10 %  0.40 of 4.00 s  ETA 0:00\n") == 0);
+        CHECK(lines[8].find("]  90 %  3.60 of 4.00 s") != std::string::npos);
+    }
+}
+
+TEST_CASE("a short run without a terminal shows no progress") {
     const TestFolder folder;
     folder.write("sheet.toml", falling_sheet());
     const ProgramRun run = run_program({"run", "sheet.toml", "-o", "out"}, folder.path());

@@ -84,6 +84,19 @@ TEST_CASE("no text says that a distance is inf") {
     CHECK(report_in(folder, "out").at("smallest_distance").is_null());
 }
 
+TEST_CASE("a run in which cloth would have torn says so, and whose pins stay behind a body") {
+    const TestFolder folder;
+    const std::string scene =
+        "duration = 0.5\ngravity = [0, 0, 0]\n[fabric.f]\nsprings = { structural = 5, bend = 0.01 }\n"
+        "[[cloth]]\nname = \"net\"\nfabric = \"f\"\ngrid = { size = [1, 1], vertices = [9, 9] }\n"
+        "pin = \"boundary\"\n[[obstacle]]\nname = \"ram\"\nshape = { sphere = { radius = 0.1 } }\n"
+        "motion = [{ time = 0, translation = [0, -0.2, 0] }, { time = 0.5, translation = [0, 2, 0] }]\n";
+    folder.write("net.toml", scene);
+    const ProgramRun run = run_program({"run", "net.toml", "-o", "out"}, folder.path());
+    CHECK(run.out.find("warning: the largest strain is ") != std::string::npos);
+    CHECK(run.out.find("the pins of net stay in the world, pin = { box = ..., to = \"ram\" }") != std::string::npos);
+}
+
 TEST_CASE("a disk that is full while frames or steps are written leaves no file of the run") {
     if (!std::filesystem::is_character_file("/dev/full")) return;
     for (const std::string file : {"frames/sheet_00003.obj", "steps.csv", "report.json"}) {
