@@ -43,10 +43,10 @@ std::string garment_name(const std::string& file, const Scene& scene) {
 }
 
 /// Largest edges of a mesh's bounding box, in its unit; 0 where it cannot be read, which building the scene refuses.
-Vec3 extent_of(const std::string& file) {
+Vec3 extent_of(const std::string& file, const std::string& part) {
     Vec3 lowest = Vec3::Zero(), highest = Vec3::Zero();
     try {
-        const TriangleMesh mesh = import_mesh(file);
+        const TriangleMesh mesh = import_mesh(file, 1.0, nullptr, part);
         if (!mesh.vertices.empty()) lowest = highest = mesh.vertices.front();
         for (const Vec3& x : mesh.vertices) {
             lowest = lowest.cwiseMin(x);
@@ -65,7 +65,7 @@ public:
     DrapeScene make() {
         set_up();
         add_fabrics();
-        const Vec3 body = extent_of(options_.body());
+        const Vec3 body = extent_of(options_.body(), options_.body_part);
         guess_up(body);
         for (const std::string& file : options_.garments()) add_garment(file);
         refuse_short_time();
@@ -142,7 +142,8 @@ private:
     void add_mesh(ClothSpec& cloth) {
         const std::string& file = cloth.place.file;
         cloth.mesh = file;
-        cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file));
+        cloth.part = options_.garment_part;
+        cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file, options_.garment_part));
         cloth.pose.rotation = product(cloth.pose.rotation, turn_);
         const std::size_t stitches = extension_of(file) == ".obj" ? find_obj_stitches(file).size() : 0;
         cloth.fabric = stitches > 0 ? sewn_mesh_fabric : mesh_fabric;
@@ -155,6 +156,7 @@ private:
 
     void add_pattern(ClothSpec& cloth) {
         if (!options_.garment_unit.empty()) throw SceneError("--garment-unit: a pattern says its own unit");
+        if (!options_.garment_part.empty()) throw SceneError("--garment-part: a pattern has no objects or groups");
         cloth.fabric = pattern_fabric;
         cloth.pattern = cloth.place.file;
         cloth.edge_length = options_.edge_length;
@@ -182,6 +184,7 @@ private:
         ObstacleSpec body;
         body.name = "body";
         body.mesh = options_.body();
+        body.part = options_.body_part;
         body.unit = unit_of(options_.body(), options_.body_unit, "--body-unit", extent);
         body.pose.rotation = turn_;
         body.friction = options_.friction;

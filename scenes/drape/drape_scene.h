@@ -16,6 +16,7 @@ struct DrapeOptions {
     std::vector<std::string> outs;                   // one a garment
     std::string garment_unit, body_unit;             // mm, cm or m; "": guessed by the size (guessed_unit)
     std::string up;                                  // "y" or "z" of the meshes; "": guessed by the body's shape (stands_along_z)
+    std::string garment_part, body_part;             // objects or groups of the meshes, taken alone; "": all
     double scale = 1.0;                              // of garments
     std::array<double, 3> rotate = {0.0, 0.0, 0.0};  // degrees, of garments about x, then y, then z
     std::array<double, 3> move = {0.0, 0.0, 0.0};    // m

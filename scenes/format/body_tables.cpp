@@ -75,6 +75,17 @@ Field<Spec> unit_field() {
                             &Spec::unit, unit_words, std::vector{0.001, 0.01, 1.0});
 }
 
+template <class Spec>
+Field<Spec> part_field() {
+    return value_field<Spec>(
+        {.path = "part",
+         .sentence = "Object or group of an OBJ file, or node or mesh of a glTF, DAE or FBX file, that is taken "
+                     "alone; without it all are.",
+         .needs = "mesh",
+         .needs_why = "part is one of a mesh file"},
+        &Spec::part);
+}
+
 Field<ClothSpec> pattern_field() {
     Field<ClothSpec> field = value_field<ClothSpec>(
         {.path = "pattern",
@@ -373,7 +384,8 @@ const FieldTable<ClothSpec>& cloth_table() {
                                            .alternative = true},
                                           &ClothSpec::grid, grid_table()),
                    mesh_field<ClothSpec>("Mesh file, relative to the scene file; instead of grid."), unit_field<ClothSpec>(),
-                   pattern_field(), edge_length_field(), panel_offset_field(), rest_field(), uv_scale_field(),
+                   part_field<ClothSpec>(), pattern_field(), edge_length_field(), panel_offset_field(), rest_field(),
+                   uv_scale_field(),
                    value_field<ClothSpec>({.path = "warp",
                                            .sentence = "Where warp runs, of any length: in uv, then v if not said, or in the "
                                                        "axes of the mesh without strain; weft is across.",
@@ -397,27 +409,29 @@ const FieldTable<ClothSpec>& cloth_table() {
 
 const FieldTable<ObstacleSpec>& obstacle_table() {
     static const FieldTable<ObstacleSpec> table = {
-        .fields =
-            {name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
-             mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."), unit_field<ObstacleSpec>(),
-             table_field<ObstacleSpec>({.path = "shape",
-                                        .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",
-                                        .alternative = true},
-                                       &ObstacleSpec::shape, shape_table()),
-             value_field<ObstacleSpec>(
-                 {.path = "friction", .sentence = "Coulomb coefficient against cloth.", .lowest = 0.0, .highest = 10.0},
-                 &ObstacleSpec::friction),
-             value_field<ObstacleSpec>({.path = "restitution",
-                                        .sentence = "Share of its normal speed with which cloth that hits it leaves; slower "
-                                                    "than gravity makes it in a step, it stays.",
-                                        .lowest = 0.0,
-                                        .highest = 1.0},
-                                       &ObstacleSpec::restitution),
-             pose_field<ObstacleSpec>(), motion_field(),
-             table_field<ObstacleSpec>(
-                 {.path = "spin",
-                  .sentence = "A steady turn about an axis through the mesh's origin, on top of pose and motion."},
-                 &ObstacleSpec::spin, spin_table())},
+        .fields = {name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
+                   mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."),
+                   unit_field<ObstacleSpec>(), part_field<ObstacleSpec>(),
+                   table_field<ObstacleSpec>(
+                       {.path = "shape",
+                        .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",
+                        .alternative = true},
+                       &ObstacleSpec::shape, shape_table()),
+                   value_field<ObstacleSpec>(
+                       {.path = "friction", .sentence = "Coulomb coefficient against cloth.", .lowest = 0.0, .highest = 10.0},
+                       &ObstacleSpec::friction),
+                   value_field<ObstacleSpec>(
+                       {.path = "restitution",
+                        .sentence = "Share of its normal speed with which cloth that hits it leaves; slower "
+                                    "than gravity makes it in a step, it stays.",
+                        .lowest = 0.0,
+                        .highest = 1.0},
+                       &ObstacleSpec::restitution),
+                   pose_field<ObstacleSpec>(), motion_field(),
+                   table_field<ObstacleSpec>(
+                       {.path = "spin",
+                        .sentence = "A steady turn about an axis through the mesh's origin, on top of pose and motion."},
+                       &ObstacleSpec::spin, spin_table())},
         .rules = {.shown = obstacle_shown}};
     return table;
 }

@@ -47,6 +47,7 @@ struct ClothSpec {
     std::optional<GridSpec> grid;  // exactly one of grid, mesh and pattern
     std::string mesh;              // path relative to the scene file
     double unit = 1.0;             // m per unit of the mesh file
+    std::string part;              // object or group of it that is taken alone; "": all
     std::string rest;              // path of a mesh without strain, or "uv": the mesh's vt; empty: as it starts
     double uv_scale = 1.0;         // m per unit of vt
     std::optional<Warp> warp;
@@ -78,6 +79,7 @@ struct ObstacleSpec {
     std::string mesh;  // exactly one of mesh and shape
     Shape shape;
     double unit = 1.0;
+    std::string part;
     double friction = 0.3;
     double restitution = 0.0;
     Pose pose;

@@ -15,7 +15,7 @@ namespace percale::scenes {
 namespace {
 
 RestShape uv_shape(const std::string& file, const ClothSpec& cloth, const TriangleMesh& start) {
-    const TexturedMesh textured = import_textured_mesh(file, cloth.unit);
+    const TexturedMesh textured = import_textured_mesh(file, cloth.unit, cloth.part);
     RestShape shape;
     for (const auto& corners : textured.uv) {
         auto& own = shape.corners.emplace_back();
@@ -73,7 +73,7 @@ TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth, std::vector<
     } else if (cloth.grid) {
         mesh = make_grid(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->vertices[0], cloth.grid->vertices[1]);
     } else {
-        mesh = import_mesh(path_beside(scene, cloth.mesh), cloth.unit, warnings);
+        mesh = import_mesh(path_beside(scene, cloth.mesh), cloth.unit, warnings, cloth.part);
     }
     mesh.vertices = transform(cloth.pose, mesh.vertices);
     return mesh;

@@ -22,6 +22,9 @@ std::vector<Stitch> file_stitches(const Scene& scene, const SeamSpec& seam) {
     const ClothSpec& cloth = scene.cloths[first];
     if (first != second) throw SceneError("seam: file = \"mesh\" is of one cloth, but cloths names two");
     if (cloth.mesh.empty()) throw SceneError("seam: file = \"mesh\", but cloth '" + cloth.name + "' has no mesh file");
+    if (!cloth.part.empty())
+        throw SceneError("seam: file = \"mesh\" counts all vertices of the file, but cloth '" + cloth.name + "' takes part \"" +
+                         cloth.part + "\" of it alone");
     return read_obj_stitches(path_beside(scene, cloth.mesh));
 }
 

@@ -11,10 +11,12 @@
 #include <fstream>
 #include <iomanip>
 #include <limits>
+#include <optional>
 #include <span>
 #include <unordered_map>
 
 #include "common/text.h"
+#include "meshes/mesh_part.h"
 #include "meshes/obj_file.h"
 #include "meshes/off_file.h"
 #include "meshes/ply_file.h"
@@ -62,21 +64,24 @@ void check_mesh_file(const std::string& file) {
     if (std::filesystem::file_size(file, status) == 0) throw SceneError(file, "no vertices: the file is empty");
 }
 
-using Reader = TriangleMesh (*)(std::istream&, const std::string&);
-
-/// Null where assimp reads the format.
-Reader own_reader(const std::string& format) {
-    if (format == ".obj") return read_obj;
-    if (format == ".off") return read_off;
-    return format == ".ply" ? read_ply : nullptr;
-}
-
 template <class Read>
 auto read_with(Read read, const std::string& file) {
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in) throw SceneError(file, std::string("cannot be read: ") + std::strerror(errno));
     return read(in, file);
+}
+
+/// By our own reader; nothing where assimp reads the format.
+std::optional<TriangleMesh> read_own(const std::string& format, const std::string& file, const std::string& part) {
+    if (format == ".obj") {
+        return read_with([&](std::istream& in, const std::string& name) { return read_obj(in, name, part); }, file);
+    }
+    const bool has_parts = format != ".off" && format != ".ply" && format != ".stl";
+    if (!part.empty() && !has_parts) throw SceneError(file, "has no objects or groups, so none named '" + part + "'");
+    if (format == ".off") return read_with(read_off, file);
+    if (format == ".ply") return read_with(read_ply, file);
+    return std::nullopt;
 }
 
 template <typename Point>
@@ -123,14 +128,43 @@ std::size_t most_vertices(const aiScene& scene) {
     return std::max(always_allowed_vertices, most_part_copies * own);
 }
 
-void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, const std::string& file, std::size_t most,
-                 TriangleMesh& mesh) {
-    const aiMatrix4x4 to_world = parent * node.mTransformation;
-    for (unsigned k = 0; k < node.mNumMeshes; ++k) append(*scene.mMeshes[node.mMeshes[k]], to_world, file, mesh);
-    if (mesh.vertices.size() > most)
-        throw SceneError(file, "copies of its parts come to more than " + std::to_string(most) + " vertices; leave some out");
-    for (unsigned k = 0; k < node.mNumChildren; ++k) append_node(scene, *node.mChildren[k], to_world, file, most, mesh);
-}
+/// Joins the meshes of a scene's nodes.
+class SceneJoin {
+public:
+    SceneJoin(const aiScene& scene, const std::string& file, const std::string& part)
+        : scene_(scene), file_(file), part_(part), most_(most_vertices(scene)) {}
+
+    TriangleMesh join() {
+        add(*scene_.mRootNode, aiMatrix4x4());
+        if (mesh_.triangles.empty() && !part_.empty()) fail_without_part(file_, part_, known_);
+        return std::move(mesh_);
+    }
+
+private:
+    void add(const aiNode& node, const aiMatrix4x4& parent) {
+        const aiMatrix4x4 to_world = parent * node.mTransformation;
+        for (unsigned k = 0; k < node.mNumMeshes; ++k) {
+            const aiMesh& one = *scene_.mMeshes[node.mMeshes[k]];
+            const std::string node_name = node.mName.C_Str(), mesh_name = one.mName.C_Str();
+            for (const std::string& name : {node_name, mesh_name}) {
+                if (!name.empty() && std::ranges::find(known_, name) == known_.end() && known_.size() < most_known)
+                    known_.push_back(name);
+            }
+            if (part_.empty() || part_ == node_name || part_ == mesh_name) append(one, to_world, file_, mesh_);
+        }
+        if (mesh_.vertices.size() > most_)
+            throw SceneError(file_,
+                             "copies of its parts come to more than " + std::to_string(most_) + " vertices; leave some out");
+        for (unsigned k = 0; k < node.mNumChildren; ++k) add(*node.mChildren[k], to_world);
+    }
+
+    static constexpr std::size_t most_known = 1000;  // for messages
+    const aiScene& scene_;
+    const std::string &file_, &part_;
+    std::size_t most_;
+    std::vector<std::string> known_;
+    TriangleMesh mesh_;
+};
 
 struct PositionHash {
     std::size_t operator()(const std::array<double, 3>& x) const {
@@ -157,7 +191,7 @@ TriangleMesh weld(const TriangleMesh& split) {
 }
 
 /// Reads the mesh as it stands in the file.
-TriangleMesh read_with_assimp(const std::string& file, std::vector<std::string>* warnings) {
+TriangleMesh read_with_assimp(const std::string& file, std::vector<std::string>* warnings, const std::string& part) {
     Assimp::Importer importer;
     const aiScene* scene = nullptr;
     try {
@@ -167,8 +201,7 @@ TriangleMesh read_with_assimp(const std::string& file, std::vector<std::string>*
     }
     if (scene == nullptr) throw SceneError(file, std::string("cannot be imported: ") + importer.GetErrorString());
     if (scene->mRootNode == nullptr) throw SceneError(file, "no vertices");
-    TriangleMesh mesh;
-    append_node(*scene, *scene->mRootNode, aiMatrix4x4(), file, most_vertices(*scene), mesh);
+    TriangleMesh mesh = SceneJoin(*scene, file, part).join();
     if (scene->HasAnimations() && warnings != nullptr) {
         warnings->push_back(file + ": it is animated, which is left out: the mesh is as it stands in the file");
     }
@@ -185,23 +218,24 @@ std::string extension_of(const std::string& file) {
 
 bool is_mesh_file(const std::string& file) { return is_read(extension_of(file)); }
 
-TriangleMesh import_mesh(const std::string& file, double unit, std::vector<std::string>* warnings) {
+TriangleMesh import_mesh(const std::string& file, double unit, std::vector<std::string>* warnings, const std::string& part) {
     if (!std::isfinite(unit) || unit <= 0.0) throw SceneError(file, "unit is " + std::to_string(unit) + ", must be above 0");
     check_mesh_file(file);
     const std::string format = format_of(file);
     check_format(file, format);
     if (format == ".stl") check_stl_header(file);
-    const Reader own = own_reader(format);
-    TriangleMesh mesh = own != nullptr ? read_with(own, file) : read_with_assimp(file, warnings);
+    std::optional<TriangleMesh> own = read_own(format, file, part);
+    TriangleMesh mesh = own ? std::move(*own) : read_with_assimp(file, warnings, part);
     if (mesh.triangles.empty()) throw SceneError(file, "no triangles");
     for (std::size_t k = 0; k < mesh.vertices.size(); ++k) check_finite(mesh.vertices[k] *= unit, k, file);
-    return own != nullptr ? mesh : weld(mesh);
+    return own ? mesh : weld(mesh);
 }
 
-TexturedMesh import_textured_mesh(const std::string& file, double unit) {
+TexturedMesh import_textured_mesh(const std::string& file, double unit, const std::string& part) {
     check_mesh_file(file);
     if (format_of(file) != ".obj") throw SceneError(file, "has no vt, which are read from OBJ files");
-    TexturedMesh textured = read_with(read_textured_obj, file);
+    TexturedMesh textured =
+        read_with([&](std::istream& in, const std::string& name) { return read_textured_obj(in, name, part); }, file);
     for (Vec3& x : textured.mesh.vertices) x *= unit;
     return textured;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/whole_file.h"
+#include "meshes/mesh_part.h"
 #include "meshes/polygon.h"
 #include "meshes/text_scan.h"
 
@@ -25,6 +26,40 @@ struct FaceList {
 /// How many vertices and texture coordinates stand above a line.
 struct ReadSoFar {
     std::size_t vertices = 0, textures = 0;
+};
+
+/// Which faces are taken: all, or those of one object or group.
+class PartChoice {
+public:
+    explicit PartChoice(const std::string& part) : part_(part) {}
+
+    /// A line `o NAME` or `g NAME...`: what the next faces belong to.
+    void enter(std::string_view keyword, std::string_view line) {
+        if (keyword == "o") {
+            const std::size_t first = line.find_first_not_of(" \t"), last = line.find_last_not_of(" \t\r");
+            object_ = first == std::string_view::npos ? "" : std::string(line.substr(first, last - first + 1));
+            know(object_);
+            return;
+        }
+        groups_.clear();
+        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) know(groups_.emplace_back(word));
+    }
+
+    bool takes_next_face() const {
+        return part_.empty() || object_ == part_ || std::ranges::find(groups_, part_) != groups_.end();
+    }
+
+    [[noreturn]] void fail_without_faces(const std::string& file) const { fail_without_part(file, part_, known_); }
+
+private:
+    void know(const std::string& name) {
+        if (std::ranges::find(known_, name) == known_.end() && known_.size() < most_known) known_.push_back(name);
+    }
+
+    static constexpr std::size_t most_known = 1000;  // for messages
+    const std::string& part_;
+    std::string object_;
+    std::vector<std::string> groups_, known_;
 };
 
 /// Indices of one corner as they stand in the file; texture 0: none.
@@ -155,13 +190,14 @@ Eigen::Vector2d read_texture(std::string_view line, const TextPlace& place) {
 }
 
 /// With `textured`, vt are read, too.
-TexturedMesh read_content(std::istream& in, const std::string& name, bool textured) {
+TexturedMesh read_content(std::istream& in, const std::string& name, bool textured, const std::string& part) {
     const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     if (in.bad()) throw SceneError(name, "cannot be read");
     TexturedMesh result;
     TriangleMesh& mesh = result.mesh;
     std::vector<Eigen::Vector2d> textures;
     FaceList faces;
+    PartChoice choice(part);
     std::size_t line_number = 0;
     for (std::string_view text = content; !text.empty();) {
         const TextPlace place{name, line_number + 1};
@@ -170,9 +206,11 @@ TexturedMesh read_content(std::istream& in, const std::string& name, bool textur
         const std::string_view keyword = next_word(rest);
         if (keyword == "v") mesh.vertices.push_back(read_vertex(rest, place));
         if (keyword == "vt" && textured) textures.push_back(read_texture(rest, place));
-        if (keyword == "f") read_face(rest, place, {mesh.vertices.size(), textures.size()}, faces);
+        if (keyword == "o" || keyword == "g") choice.enter(keyword, rest);
+        if (keyword == "f" && choice.takes_next_face()) read_face(rest, place, {mesh.vertices.size(), textures.size()}, faces);
     }
     if (mesh.vertices.empty()) throw SceneError(name, "no vertices");
+    if (faces.ends.empty() && !part.empty()) choice.fail_without_faces(name);
     if (faces.ends.empty()) throw SceneError(name, "no triangles");
     const std::vector<CornerTriangle> triangles = corner_triangles(faces, mesh.vertices, name);
     const auto vertex = [&](std::size_t corner) { return static_cast<int>(faces.corners[corner]); };
@@ -180,6 +218,7 @@ TexturedMesh read_content(std::istream& in, const std::string& name, bool textur
         mesh.triangles.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2])});
     }
     if (textured) result.uv = corner_textures(faces, triangles, textures, name);
+    if (!part.empty()) drop_unused_vertices(mesh);
     return result;
 }
 
@@ -207,9 +246,13 @@ std::string obj_text(std::span<const Vec3> vertices, std::span<const Triangle> t
 
 }  // namespace
 
-TriangleMesh read_obj(std::istream& in, const std::string& name) { return read_content(in, name, false).mesh; }
+TriangleMesh read_obj(std::istream& in, const std::string& name, const std::string& part) {
+    return read_content(in, name, false, part).mesh;
+}
 
-TexturedMesh read_textured_obj(std::istream& in, const std::string& name) { return read_content(in, name, true); }
+TexturedMesh read_textured_obj(std::istream& in, const std::string& name, const std::string& part) {
+    return read_content(in, name, true, part);
+}
 
 void write_obj(const std::string& file, std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
     write_whole_file(file, obj_text(vertices, triangles));

@@ -143,6 +143,10 @@ void add_options(CLI::App& command, DrapeCommand& all) {
     command.add_option("--body-unit", options.body_unit, "Unit of the body's mesh: mm, cm, m (default: likewise)")
         ->type_name("UNIT");
     command
+        .add_option("--garment-part", options.garment_part, "Object or group of the garments' meshes, taken alone (default: all)")
+        ->type_name("NAME");
+    command.add_option("--body-part", options.body_part, "Object or group of the body's mesh (default: all)")->type_name("NAME");
+    command
         .add_option("--up", options.up, "Axis of the meshes that points up: y, z (default: y, or z if the body stands along it)")
         ->type_name("AXIS");
     command.add_option("--scale,--size", options.scale, "Factor on the size of garments (default 1)")->type_name("F");

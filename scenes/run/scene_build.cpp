@@ -210,7 +210,7 @@ std::vector<ClothStitches> sewn_stitches(const BuiltScene& built) {
 
 TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings) {
     if (obstacle.mesh.empty()) return shape_mesh(obstacle.shape);
-    return import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit, warnings);
+    return import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit, warnings, obstacle.part);
 }
 
 BuiltScene build_scene(const Scene& given) {

@@ -131,4 +131,20 @@ TEST_CASE("what doctor warns of is told, and options that are wrong are refused"
     CHECK(refusal([](DrapeOptions& o) { o.outs.clear(); }).find("it takes one for each garment") != std::string::npos);
 }
 
+TEST_CASE("garment and body may be objects of one file") {
+    const TestFolder folder;
+    DrapeOptions options;
+    options.files.assign(2, folder.write("all.obj",
+                                         "o sheet\nv 0 1 0\nv 0.5 1 0\nv 0 1 0.5\nf 1 3 2\no stand\nv 0 0 0\nv 0.5 0 0\n"
+                                         "v 0 0 0.5\nv 0 -0.5 0\nf 4 6 5\nf 4 5 7\nf 4 7 6\nf 5 6 7\n"));
+    options.outs = {folder.path("out.obj")};
+    options.garment_part = "sheet";
+    options.body_part = "stand";
+    const BuiltScene built = build_scene(drape_scene(options).scene);
+    CHECK(built.cloth_meshes[0].triangles.size() == 1);
+    CHECK(built.obstacle_meshes[0].triangles.size() == 4);
+    options.body_part = "stands";
+    CHECK(message_of([&] { build_scene(drape_scene(options).scene); }).find("did you mean 'stand'?") != std::string::npos);
+}
+
 }  // namespace percale::scenes::test

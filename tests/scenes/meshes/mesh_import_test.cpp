@@ -176,6 +176,14 @@ TEST_CASE("polygons of an imported scene are cut into triangles, those without a
     CHECK(quad("0 0 0 2 1 0 0 2 0 1 1 0").triangles == std::vector<Triangle>{{3, 0, 1}, {2, 3, 1}});
 }
 
+TEST_CASE("a node of an imported scene is taken alone, in its place") {
+    const TestFolder folder;
+    const std::string file = folder.write("two.dae", two_nodes);
+    CHECK(import_mesh(file, 1.0, nullptr, "n3").vertices == std::vector<Vec3>{{10, 0, 0}, {12, 0, 0}, {10, 2, 0}});
+    const std::string fault = message_of([&] { import_mesh(file, 1.0, nullptr, "n4"); });
+    CHECK(fault.find(file + ": no object or group 'n4' with faces; did you mean 'n1'? valid: n1, ") == 0);
+}
+
 TEST_CASE("an animation that is left out is told of") {
     const TestFolder folder;
     const std::string still = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],

@@ -152,6 +152,24 @@ TEST_CASE("events are checked before anything runs") {
               .starts_with("t:8:1: event: "));
 }
 
+TEST_CASE("cloth and obstacle may be parts of one mesh file") {
+    const percale::scenes::test::TestFolder folder;
+    folder.write("all.obj",
+                 "o sheet\nv 0 1 0\nv 1 1 0\nv 0 1 1\nf 1 3 2\no stand\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 -1 0\n"
+                 "f 4 5 6\nf 4 7 5\nf 4 6 7\nf 5 7 6\n");
+    const std::string text =
+        "[fabric.f]\nsprings = { structural = 100 }\n[[cloth]]\nname = \"c\"\nfabric = \"f\"\n"
+        "mesh = \"all.obj\"\npart = \"sheet\"\n[[obstacle]]\nname = \"o\"\nmesh = \"all.obj\"\n"
+        "part = \"stand\"\n";
+    const BuiltScene scene = build_scene(load_scene(folder.write("scene.toml", text)));
+    CHECK(scene.cloth_meshes[0].vertices == std::vector<Vec3>{{0, 1, 0}, {1, 1, 0}, {0, 1, 1}});
+    CHECK(scene.obstacle_meshes[0].triangles.size() == 4);
+    CHECK(scene.obstacle_meshes[0].vertices.size() == 4);
+    const std::string seam = text + "[[seam]]\nfile = \"mesh\"\ncloths = [\"c\", \"c\"]\n";
+    CHECK(error_of([&] { build_scene(load_scene(folder.write("sewn.toml", seam))); }).find("takes part \"sheet\" of it alone") !=
+          std::string::npos);
+}
+
 TEST_CASE("obstacles need a detector, a scene without obstacles needs none") {
     const std::string none = "[step]\ndetector = \"none\"\n";
     CHECK(fault(none + small_scene() + body("plane = {}")) ==
