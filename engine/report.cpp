@@ -32,6 +32,15 @@ std::string lag_text(const StepReport& report) {
     return "take a shorter time step or a slower motion";
 }
 
+/// What moves too far for a step.
+std::string far_text(const std::string& mover, double travel) {
+    std::ostringstream text;
+    text << mover << " moves " << travel
+         << " m beside the cloth in one step, farther than cloth can follow; take a shorter time step or a slower motion, or "
+            "teleport cloth and obstacles together and set their targets anew";
+    return text.str();
+}
+
 std::string failure_text(const StepReport& report) {
     std::ostringstream text;
     const bool by_cloth = report.blocking_obstacle < 0 && !report.blocking_name.empty();
@@ -42,8 +51,12 @@ std::string failure_text(const StepReport& report) {
     switch (report.status) {
         case StepStatus::pin_blocked:
             text << "pinned vertex " << report.blocked_vertex << " of "
-                 << numbered("cloth", report.blocked_cloth, report.blocked_name)
-                 << " cannot reach its target without taking the cloth through " << blocker;
+                 << numbered("cloth", report.blocked_cloth, report.blocked_name);
+            if (report.travel > 0.0) {
+                text << far_text("", report.travel);
+                break;
+            }
+            text << " cannot reach its target without taking the cloth through " << blocker;
             break;
         case StepStatus::obstacle_too_fast:
             if (report.second_obstacle >= 0) {
@@ -52,10 +65,8 @@ std::string failure_text(const StepReport& report) {
                      << report.smallest_fraction;
                 break;
             }
-            if (report.obstacle_travel > 0.0) {
-                text << blocker << " moves " << report.obstacle_travel
-                     << " m beside the cloth in one step, farther than cloth can follow; take a shorter time step or a slower "
-                        "motion, or teleport cloth and obstacle together";
+            if (report.travel > 0.0) {
+                text << far_text(blocker, report.travel);
                 break;
             }
             text << blocker << " moves faster than the cloth can follow, smallest safe fraction of a move "
@@ -68,9 +79,8 @@ std::string failure_text(const StepReport& report) {
             text << "positions or velocities would become infinite; take a shorter time step or an implicit scheme";
             break;
         case StepStatus::work_limit:
-            text << "more Newton iterations than work_limit allows; take a shorter time step, a slower motion or a larger "
-                    "tolerance, or "
-                    "raise the limit";
+            text << "more Newton iterations than work_limit allows; take a shorter time step or a slower motion, teleport what "
+                    "jumps, or raise the limit (set_work_limit)";
             break;
         default:
             break;

@@ -125,9 +125,7 @@ void Simulation::prepare() {
     check_scheme(implementation_->world.scene);
     const bool obstacles = !world.scene.script.obstacles.empty() && !world.scene.model.cloths.empty();
     if (world.scene.detector && (obstacles || cloth_meets_now(world))) {
-        world.refused = true;  // unless it comes to another end
         std::vector<StartMove> moves = clear_start(world, sewn_now ? " is sewn " : " starts ");
-        world.refused = false;
         std::vector<StartMove>& known = implementation_->start_moves;
         if (!sewn_now) known.clear();
         if (sewn_now && !moves.empty()) world.state.past.forget();

@@ -28,7 +28,7 @@ void Simulation::move_pin(ClothId cloth, int vertex, const Vec3& target) {
     World& world = implementation_->world;
     if (target != world.state.cloth.positions.at(at)) wake(world.rest);
     world.scene.script.pin_targets.set(at, target);
-    if (!world.refused) return;
+    if (std::ranges::find(world.refused.vertices, at) == world.refused.vertices.end()) return;
     world.state.cloth.positions.set(at, target);  // no step begins where it is
     world.state.past.forget();
     world.load_source = LoadSource::nowhere;
@@ -44,7 +44,7 @@ void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
     }
     state.end = normalised(end);
     if (state.end != state.start) wake(implementation_->world.rest);
-    if (!implementation_->world.refused) return;
+    if (implementation_->world.refused.obstacle != obstacle.index) return;
     state.start = state.end;  // no step begins where it is
     state.settled = false;
 }
@@ -137,6 +137,13 @@ void Simulation::set_time_step(double time_step) {
     settings.time_step = time_step;
     check_options(settings, "set_time_step");
     implementation_->change(settings);
+}
+
+void Simulation::set_work_limit(int iterations) {
+    StepSettings settings = implementation_->world.scene.settings;
+    settings.work_limit = iterations;
+    check_options(settings, "set_work_limit");
+    implementation_->world.scene.settings = settings;
 }
 
 void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {

@@ -388,9 +388,9 @@ constexpr double rest_force_share = 0.02;
 constexpr int unrest_of_rise = 3, most_unrest = 12;
 constexpr double stopping_time = 2.0 * rest_time;
 
-/// Radians, and times the thickness: what an obstacle turns and moves by in one part of a step. Larger: parts that the path of
-/// vertices on straight lines does not follow, and lists of contacts that grow. Smaller: more parts.
-constexpr double largest_part_turn = 0.26179938779914943, largest_part_travel = 20.0;
+/// Radians, and times the thickness: what an obstacle turns and moves by in one part of a step, and what a pin moves by. Larger:
+/// parts that vertices on straight lines do not follow, and lists of contacts that grow. Smaller: more parts.
+constexpr double largest_part_turn = 0.26179938779914943, largest_part_travel = 20.0, largest_pin_travel = 80.0;
 
 /// Parts of a step. More: steps of many seconds, that fling cloth. And what a count of parts may be above a whole number.
 /// And m, by which a pin that goes with an obstacle may miss its place on it: rounding.

@@ -105,8 +105,10 @@ void place_obstacles(World& world) {
 std::vector<StartMove> clear_start(World& world, std::string_view verb) {
     const Names names(world, verb);
     place_obstacles(world);
+    world.refused = {};
     const StartFault fault = world.scene.detector->check_start(world.state.cloth.points);
     if (!fault.any()) return {};
+    world.refused = {fault.obstacle, fault.inside_vertices};  // unless it can be repaired
     const std::string what = names.start_text(fault);
     const std::string advice =
         fault.between_cloths() ? "; move them apart, or let self_contact be false" : "; move the cloth or the obstacle apart";
@@ -123,6 +125,7 @@ std::vector<StartMove> clear_start(World& world, std::string_view verb) {
     if (!repair.obstruction.empty()) {
         refuse_start(names, what + ", and " + repair.obstruction + advice, fault);
     }
+    world.refused = {};
     return std::move(repair.moves);
 }
 

@@ -340,7 +340,7 @@ void put_solver(const SavedWorld& saved, const StepScene& scene, NewtonSpace& ne
 
 void put_state(SavedWorld& saved, World& world) {
     world.changed = saved.changed;
-    world.refused = false;
+    world.refused = {};
     world.plan_outdated = saved.plan_outdated;
     world.waiting = std::move(saved.waiting);
     StepSettings& settings = world.scene.settings;

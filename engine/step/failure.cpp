@@ -36,16 +36,19 @@ void name_second_obstacle(const StepScene& scene, const ContactRows& rows, std::
     if (report.second_obstacle >= 0) report.second_name = scene.script.obstacles[report.second_obstacle].name;
 }
 
+void name_vertex(const StepScene& scene, int vertex, StepReport& report) {
+    report.blocked_cloth = cloth_of(scene.model, vertex);
+    const ClothRange& cloth = scene.model.cloths[report.blocked_cloth];
+    report.blocked_vertex = cloth.user_vertex(vertex);
+    report.blocked_name = cloth.name;
+}
+
 /// Of a contact whose cloth is held: a pinned vertex, which cannot get out of the way.
 void name_held_vertex(const StepScene& scene, const std::array<int, 4>& vertices, StepReport& report) {
     for (const int i : vertices) {
         if (i < 0 || scene.is_free(i)) continue;
         report.blocked_by_pin = true;
-        report.blocked_cloth = cloth_of(scene.model, i);
-        const ClothRange& cloth = scene.model.cloths[report.blocked_cloth];
-        report.blocked_vertex = cloth.user_vertex(i);
-        report.blocked_name = cloth.name;
-        return;
+        return name_vertex(scene, i, report);
     }
 }
 
@@ -98,10 +101,15 @@ void tell_failure(const StepScene& scene, SpanEnd end, const Workspace& work, St
 }
 
 void tell_too_far(const StepScene& scene, const MotionParts& motion, StepReport& report) {
+    report.travel = motion.travel;
+    if (motion.vertex >= 0) {
+        report.status = StepStatus::pin_blocked;
+        name_vertex(scene, motion.vertex, report);
+        return;
+    }
     report.status = StepStatus::obstacle_too_fast;
     report.blocking_obstacle = motion.obstacle;
     report.blocking_name = scene.script.obstacles[motion.obstacle].name;
-    report.obstacle_travel = motion.travel;
 }
 
 }  // namespace percale

@@ -18,12 +18,14 @@ ClothAhead cloth_ahead(const StepScene& scene, const ClothRange& cloth, const Cl
 /// Into how many equal parts the coming step is divided, and what asks for them.
 struct MotionParts {
     int count = 1;
-    int obstacle = -1;    // the one that asks for most
-    double travel = 0.0;  // m: how far it goes beside the cloth that it meets
+    int obstacle = -1;    // the one that asks for most, or
+    int vertex = -1;      // the pinned vertex that does
+    double travel = 0.0;  // m: how far it goes beside the cloth that it meets, or that it holds
 };
 
 /// No obstacle that may meet a cloth turns by more than 15 degrees in a part, as its vertices go straight there, nor moves by
-/// more than 20 thicknesses of that cloth beside its mean motion, so that the cloth can follow.
+/// more than 20 thicknesses of that cloth beside its mean motion, so that the cloth can follow. No pin of cloth with contact
+/// moves by more than 80.
 MotionParts motion_parts(const StepScene& scene, const ClothState& state);
 
 }  // namespace percale

@@ -20,6 +20,12 @@ struct UserViews {
 /// Where the contact forces of the present state are known from.
 enum class LoadSource { nowhere, last_solve, saved_state };
 
+/// What of a start may not be simulated.
+struct RefusedStart {
+    int obstacle = -1;          // cloth that crosses it, is inside of it or touches it; -1: nothing, or cloth alone
+    std::vector<int> vertices;  // inside it
+};
+
 /// Everything one simulation holds. Only what owns it knows it as a whole: the simulation, the step at its top, and saving.
 struct World {
     std::shared_ptr<Workers> workers;  // null: the caller's thread alone
@@ -31,7 +37,7 @@ struct World {
     UserViews views;
     bool plan_outdated = true;  // the scene has changed since the plan was made
     bool changed = true;        // cloth or obstacles were added since the last preparation
-    bool refused = false;       // the last preparation found a start that may not be simulated
+    RefusedStart refused;       // what stood in the way of the last preparation
     LoadSource load_source = LoadSource::nowhere;
     std::vector<ContactLoad> saved_loads;  // of a state that was restored
     std::vector<Vec3> holds_before;        // N: of the welds, before the step that is being made

@@ -124,7 +124,7 @@ struct StepReport {
     int blocked_vertex = -1;
     int blocking_obstacle = -1;               // -1 where it is cloth, too; blocking_name then says so
     std::string blocked_name, blocking_name;  // of that cloth and obstacle
-    double obstacle_travel = 0.0;             // m, beside the cloth, where the blocking obstacle moves too far for a step
+    double travel = 0.0;                      // m, beside the cloth, of an obstacle or a pin that moves too far for a step
     int second_obstacle = -1;                 // pushes the cloth towards the blocking one
     std::string second_name;
     int stretched_cloth = -1;  // of a failed step: held by pins and stretched to more than twice its length

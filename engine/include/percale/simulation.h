@@ -61,12 +61,14 @@ public:
 
     void pin(ClothId cloth, int vertex);
     void unpin(ClothId cloth, int vertex);
-    /// Where a pinned vertex is at the end of the next step, m; it then stays there. After `prepare` has refused the start, it is
-    /// there at once, as an obstacle that is moved then.
+    /// Where a pinned vertex is at the end of the next step, m; it then stays there. What is said of far motion at move_obstacle
+    /// holds for pins of cloth with contact from 80 thicknesses on, and what is said of refused starts for pins inside that
+    /// obstacle.
     void move_pin(ClothId cloth, int vertex, const Vec3& target);
     /// Where an obstacle is at the end of the next step; it then stays there. The scale must not change. Where obstacles move by
     /// more than 20 thicknesses beside cloth that they may meet, or turn by more than 15 degrees, the step is made in equal parts
-    /// (StepReport::parts); beyond 64 it fails at once. What jumps is no motion: `teleport`.
+    /// (StepReport::parts); beyond 64 it fails at once. What jumps is no motion, nor is a character's first place: `teleport`.
+    /// Where `prepare` has refused the start for this obstacle, it is there at once.
     void move_obstacle(ObstacleId obstacle, const Pose& end);
     void set_gravity(const Vec3& gravity);  // m/s^2
     /// Velocity of the air, m/s; before the first call there is no air (StepSettings::wind). Drag: Fabric::drag_normal,
@@ -86,17 +88,21 @@ public:
     /// Where self_contact cloth is worn, -1000 ... 1000, from the inside out, 0 before the first call: of cloths that start
     /// through each other, or do when seams have closed, that of the higher layer is moved outside of the other (`prepare`).
     void set_layer(ClothId cloth, int layer);
-    void set_time_step(double time_step);  // s, > 0
+    void set_time_step(double time_step);  // s, 1e-7 ... 1
+    /// StepSettings::work_limit, 0 (none) ... 50000. Steps of a scene at 1/60 s take some 1 to 10 Newton iterations.
+    void set_work_limit(int iterations);
     /// All vertices of a cloth; m and m/s. For starts that are not at rest.
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
     /// Moves cloths and obstacles together by a rigid motion x -> translation + rotation x of the world (scale 1), in no time:
-    /// pins, their targets and all that contact and seams remember go along; velocities turn along, or are cleared. The next
+    /// pins, targets that no step has reached yet and all that contact and seams remember go along; velocities turn along, or are
+    /// cleared. The next
     /// step checks as `prepare` does whether they are clear of what did not move.
     void teleport(std::span<const ClothId> cloths, std::span<const ObstacleId> obstacles, const Pose& motion,
                   TeleportVelocities velocities = TeleportVelocities::keep);
 
-    /// Checks the scene as a whole; the first step calls it, and that in which seams have closed without contact. Cloth that
+    /// Checks the scene as a whole; the first step calls it, the first after cloth or obstacles were added, set_positions,
+    /// set_pair or teleport, and that in which seams have closed without contact. Cloth that
     /// starts through, inside or touching an obstacle, or cloth with self_contact that does so with such cloth, is moved out
     /// (StepSettings::start): its free vertices only, no structural spring longer than by half; velocities stay. Throws
     /// StartError, and leaves everything as it was, where that is not possible or not wanted, or where a pinned vertex is inside
@@ -105,7 +111,9 @@ public:
     /// What the last `prepare` that found something to check moved, and what was when seams had closed; empty where all was
     /// clear.
     std::span<const StartMove> start_repair() const;
-    /// Advances by the time step. Throws what `prepare` does, before anything moves; where seams close in this step without
+    /// Advances by the time step. A step that fails (StepReport::ok) leaves the state as it was and keeps the targets of pins and
+    /// obstacles; a long frame is best made as several steps with targets between, or what all moves together is teleported and
+    /// the step made short. Throws what `prepare` does, before anything moves; where seams close in this step without
     /// contact and their cloth does not come apart, StartError after all has been put back as it was before the step
     /// (where the detector can save its state; else the step is made).
     StepReport step();
@@ -126,7 +134,7 @@ public:
     double largest_strain() const;
     /// What obstacles do to the vertices of a cloth at the end of the last step that was solved, friction included: sorted by
     /// vertex and obstacle, vertices that nothing presses left out. Of a step made in spans it is what the last span ended with.
-    /// Empty before the first step, after a failed one and after set_positions. Costs nothing unless it is asked for.
+    /// Empty before the first step, after a failed one, set_positions and teleport. Costs nothing unless it is asked for.
     std::vector<ContactLoad> contact_loads(ClothId cloth) const;
     /// What all cloth does to an obstacle, N: the sum of those forces with the other sign. Cloth at rest that nothing else holds
     /// presses with its weight.

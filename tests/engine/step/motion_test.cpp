@@ -71,6 +71,7 @@ TEST_CASE("An obstacle that only turns is on the move too") {
 
 TEST_CASE("Parts go by turns of 15 degrees, and by 20 thicknesses beside cloth that an obstacle may meet") {
     World world = sheet_world();  // 1 m wide, 5 mm thick
+    world.scene.detector = std::make_unique<PlaneDetector>();
     ObstacleState ball;
     ball.reach = 0.1;
     ball.start.translation = ball.end.translation = Vec3(0.0, 0.2, 0.0);

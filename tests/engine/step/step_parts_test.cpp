@@ -124,10 +124,39 @@ TEST_CASE("An obstacle that jumps farther than cloth can follow fails the step a
     const StepReport report = scene.simulation.step();
     CHECK(report.status == StepStatus::obstacle_too_fast);
     CHECK(report.newton_iterations == 0);
-    CHECK(report.obstacle_travel == Approx(50.0).epsilon(1e-3));
+    CHECK(report.travel == Approx(50.0).epsilon(1e-3));
     CHECK(mentions(report.explanation(), {"floor", "moves 50 m beside the cloth in one step", "teleport"}));
     CHECK(scene.simulation.state_hash() == hash);
     CHECK(scene.simulation.obstacle_pose(scene.plane).translation == Vec3::Zero());
+}
+
+TEST_CASE("A pin that jumps farther than cloth with contact can follow fails the step at once, too") {
+    RestingSheet scene;
+    const std::uint64_t hash = scene.simulation.state_hash();
+    scene.simulation.move_pin(scene.cloth, 0, scene.corner + Vec3(0.0, 30.0, 0.0));
+    const StepReport report = scene.simulation.step();
+    CHECK(report.status == StepStatus::pin_blocked);
+    CHECK(report.newton_iterations == 0);
+    CHECK(mentions(report.explanation(), {"pinned vertex 0 of cloth 0 (towel) moves 30", "teleport"}));
+    CHECK(scene.simulation.state_hash() == hash);
+    scene.simulation.move_pin(scene.cloth, 0, scene.corner + Vec3(0.0, 0.95, 0.0));
+    CHECK(scene.simulation.step().parts == 3);
+    // Without anything to meet, cloth may be pulled as fast as anyone likes.
+    Simulation free(StepSettings{});
+    const ClothId cloth = free.add_cloth(make_grid(0.5, 0.5, 4, 4), sheet_fabric());
+    free.pin(cloth, 0);
+    free.move_pin(cloth, 0, free.positions(cloth)[0] + Vec3(0.0, 30.0, 0.0));
+    CHECK(free.step().parts == 1);
+}
+
+TEST_CASE("The limit of work may be changed on the way") {
+    RestingSheet scene;
+    scene.simulation.move_pin(scene.cloth, 0, scene.corner + Vec3(0.0, 0.05, 0.0));
+    scene.simulation.set_work_limit(1);
+    CHECK(scene.simulation.step().status == StepStatus::work_limit);
+    CHECK(mentions(scene_error([&] { scene.simulation.set_work_limit(-1); }), {"set_work_limit", "work_limit = -1"}));
+    scene.simulation.set_work_limit(0);
+    CHECK(scene.simulation.step().ok());
 }
 
 TEST_CASE("A step that takes more Newton iterations than work_limit fails and leaves every bit, in parts as in one") {
