@@ -86,6 +86,8 @@ MotionParts motion_parts(const StepScene& scene, const ClothState& state) {
         if (moves(scene.script.obstacles[k])) asked.by_obstacle(scene, k, cloths);
     }
     for (const int i : pins) {
+        const ClothRange& cloth = scene.model.cloths[cloth_of(scene.model, i)];
+        if (scene.script.obstacles.empty() && !cloth.fabric.self_contact) continue;
         const Vec3 displacement = scene.script.pin_targets.at(i) - state.positions.at(i);
         asked.by_pin(i, displacement, cloths[cloth_of(scene.model, i)]);
     }

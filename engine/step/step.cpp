@@ -94,6 +94,7 @@ StepReport step_far(World& world, const MotionParts& motion) {
     StepReport report = begin_report(dt);
     if (motion.count > most_step_parts) {
         tell_too_far(world.scene, motion, report);
+        world.load_source = LoadSource::nowhere;
     } else {
         report = step_in_parts(world, motion.count, step_once);
     }

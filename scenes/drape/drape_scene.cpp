@@ -65,11 +65,10 @@ public:
     DrapeScene make() {
         set_up();
         add_fabrics();
-        const Vec3 body = extent_of(options_.body(), options_.body_part);
-        guess_up(body);
+        guess_up(extent_of(options_.body(), options_.body_part));
         for (const std::string& file : options_.garments()) add_garment(file);
         refuse_short_time();
-        add_body(body);
+        add_body();
         ask_doctor();
         return std::move(made_);
     }
@@ -143,9 +142,13 @@ private:
         const std::string& file = cloth.place.file;
         cloth.mesh = file;
         cloth.part = options_.garment_part;
-        cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file, options_.garment_part));
+        cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file, ""));
         cloth.pose.rotation = product(cloth.pose.rotation, turn_);
-        const std::size_t stitches = extension_of(file) == ".obj" ? find_obj_stitches(file).size() : 0;
+        std::size_t stitches = extension_of(file) == ".obj" ? find_obj_stitches(file).size() : 0;
+        if (stitches > 0 && !cloth.part.empty()) {
+            note(file + " has stitches, which count all its vertices: with --garment-part it is not sewn");
+            stitches = 0;
+        }
         cloth.fabric = stitches > 0 ? sewn_mesh_fabric : mesh_fabric;
         if (stitches > 0) {
             note(file + " has " + std::to_string(stitches) + " stitches, by which it is sewn");
@@ -180,12 +183,12 @@ private:
         scene.seams.push_back(seam);
     }
 
-    void add_body(const Vec3& extent) {
+    void add_body() {
         ObstacleSpec body;
         body.name = "body";
         body.mesh = options_.body();
         body.part = options_.body_part;
-        body.unit = unit_of(options_.body(), options_.body_unit, "--body-unit", extent);
+        body.unit = unit_of(options_.body(), options_.body_unit, "--body-unit", extent_of(options_.body(), ""));
         body.pose.rotation = turn_;
         body.friction = options_.friction;
         body.place = {.file = options_.body()};

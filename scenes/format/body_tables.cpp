@@ -80,7 +80,7 @@ Field<Spec> part_field() {
     return value_field<Spec>(
         {.path = "part",
          .sentence = "Object or group of an OBJ file, or node or mesh of a glTF, DAE or FBX file, that is taken "
-                     "alone; without it all are.",
+                     "alone; vertices are counted in it.",
          .needs = "mesh",
          .needs_why = "part is one of a mesh file"},
         &Spec::part);

@@ -20,7 +20,8 @@ bool is_mesh_file(const std::string& file);
 /// NaN or infinite coordinate, index out of range, no triangles, a header that claims more than the file can hold, another
 /// format, copies of parts beyond 64 in the mean and 100000 vertices. `warnings`, where not null: what of the file is left out
 /// that it moves by.
-/// `part`: an object or group of an OBJ file, or a node or mesh of what assimp reads (but STL), that is taken alone; "": all.
+/// `part`: an object or group of an OBJ file, or a node or mesh of what assimp reads (but STL), that is taken alone, with
+/// its own vertices; "": all.
 TriangleMesh import_mesh(const std::string& file, double unit = 1.0, std::vector<std::string>* warnings = nullptr,
                          const std::string& part = {});
 

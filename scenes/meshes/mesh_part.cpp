@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/nearest_name.h"
+#include "common/text.h"
 #include "percale/error.h"
 
 namespace percale::scenes {
@@ -14,8 +15,13 @@ constexpr std::size_t most_named = 20;
 }  // namespace
 
 void fail_without_part(const std::string& file, const std::string& part, std::span<const std::string> known) {
-    const std::string others =
-        known.empty() ? "; the file names none" : suggestion(part, known.first(std::min(known.size(), most_named)));
+    const auto named = known.first(std::min(known.size(), most_named));
+    std::string others = "; the file names none";
+    if (!known.empty()) {
+        const std::string nearest = did_you_mean(part, known);
+        others =
+            nearest + (nearest.empty() ? "; valid: " : " valid: ") + joined(named) + (named.size() < known.size() ? ", ..." : "");
+    }
     throw SceneError(file, "no object or group '" + part + "' with faces" + others);
 }
 

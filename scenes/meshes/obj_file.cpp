@@ -5,6 +5,7 @@
 #include <istream>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "common/whole_file.h"
 #include "meshes/mesh_part.h"
@@ -35,31 +36,38 @@ public:
 
     /// A line `o NAME` or `g NAME...`: what the next faces belong to.
     void enter(std::string_view keyword, std::string_view line) {
+        told_ = false;
         if (keyword == "o") {
             const std::size_t first = line.find_first_not_of(" \t"), last = line.find_last_not_of(" \t\r");
             object_ = first == std::string_view::npos ? "" : std::string(line.substr(first, last - first + 1));
-            know(object_);
             return;
         }
         groups_.clear();
-        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) know(groups_.emplace_back(word));
+        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) groups_.emplace_back(word);
     }
 
-    bool takes_next_face() const {
-        return part_.empty() || object_ == part_ || std::ranges::find(groups_, part_) != groups_.end();
+    bool takes_next_face() {
+        if (part_.empty()) return true;
+        if (!std::exchange(told_, true)) {
+            know(object_);
+            for (const std::string& group : groups_) know(group);
+        }
+        return object_ == part_ || std::ranges::find(groups_, part_) != groups_.end();
     }
 
     [[noreturn]] void fail_without_faces(const std::string& file) const { fail_without_part(file, part_, known_); }
 
 private:
     void know(const std::string& name) {
-        if (std::ranges::find(known_, name) == known_.end() && known_.size() < most_known) known_.push_back(name);
+        const bool is_new = !name.empty() && std::ranges::find(known_, name) == known_.end();
+        if (is_new && known_.size() < most_known) known_.push_back(name);
     }
 
     static constexpr std::size_t most_known = 1000;  // for messages
     const std::string& part_;
     std::string object_;
-    std::vector<std::string> groups_, known_;
+    std::vector<std::string> groups_, known_;  // known: those that have faces
+    bool told_ = false;                        // these are among them
 };
 
 /// Indices of one corner as they stand in the file; texture 0: none.

@@ -14,7 +14,7 @@ enum class StepStatus {  // those up to tolerance_missed are accepted
     halved,             // ok, but only after the step was redone as shorter ones
     not_converged,      // accepted at the iteration limit; the residual says how far off
     tolerance_missed,   // adaptive: accepted at the shortest length there is, smallest_dt, with an error above the tolerance
-    pin_blocked,        // failed: a pin could not reach its target without crossing an obstacle
+    pin_blocked,        // failed: a pin could not reach its target without crossing an obstacle, or is to jump too far
     obstacle_too_fast,  // failed: the cloth could not follow a moving obstacle
     wrong_derivative,   // failed: StepSettings::check_derivatives found forces that do not fit energy or matrix
     not_finite,         // failed: a state would have become infinite or NaN; the state is that of the step's start
@@ -101,8 +101,8 @@ struct StepReport {
     double dt = 0.0;           // s
     double smallest_dt = 0.0;  // s, of the parts the step was solved in
     double largest_dt = 0.0;   // s, likewise
-    int parts = 1;             // accepted lengths that an adaptive step, or one in which an obstacle moves far, consists of
-    int rejected = 0;          // lengths that it tried and found too inexact
+    int parts = 1;     // accepted lengths that an adaptive step, or one in which an obstacle or a pin moves far, consists of
+    int rejected = 0;  // lengths that it tried and found too inexact
     int newton_iterations = 0;
     int linear_iterations = 0;
     int line_search_cuts = 0;

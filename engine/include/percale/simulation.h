@@ -102,7 +102,7 @@ public:
                   TeleportVelocities velocities = TeleportVelocities::keep);
 
     /// Checks the scene as a whole; the first step calls it, the first after cloth or obstacles were added, set_positions,
-    /// set_pair or teleport, and that in which seams have closed without contact. Cloth that
+    /// set_pair, set_layer or teleport, and that in which seams have closed without contact. Cloth that
     /// starts through, inside or touching an obstacle, or cloth with self_contact that does so with such cloth, is moved out
     /// (StepSettings::start): its free vertices only, no structural spring longer than by half; velocities stay. Throws
     /// StartError, and leaves everything as it was, where that is not possible or not wanted, or where a pinned vertex is inside

@@ -143,6 +143,13 @@ TEST_CASE("garment and body may be objects of one file") {
     const BuiltScene built = build_scene(drape_scene(options).scene);
     CHECK(built.cloth_meshes[0].triangles.size() == 1);
     CHECK(built.obstacle_meshes[0].triangles.size() == 4);
+    // The unit is the file's, whatever the size of the part.
+    options.files.assign(2, folder.write("cm.obj",
+                                         "o pin\nv 0 50 0\nv 5 50 0\nv 0 50 5\nf 1 3 2\no stand\nv 0 0 0\n"
+                                         "v 170 0 0\nv 0 0 50\nv 0 -50 0\nf 4 6 5\nf 4 5 7\nf 4 7 6\nf 5 6 7\n"));
+    options.garment_part = "pin";
+    CHECK(drape_scene(options).scene.cloths[0].unit == 0.01);
+    CHECK(drape_scene(options).scene.obstacles[0].unit == 0.01);
     options.body_part = "stands";
     CHECK(message_of([&] { build_scene(drape_scene(options).scene); }).find("did you mean 'stand'?") != std::string::npos);
 }

@@ -37,12 +37,16 @@ TEST_CASE("an object or a group of an OBJ file is taken with its own vertices, i
     std::istringstream in(body);
     const TexturedMesh leg = read_textured_obj(in, "body.obj", "leg");
     CHECK(leg.mesh.vertices == part_of("leg").vertices);
-    CHECK(leg.uv.size() == 1);
+    REQUIRE(leg.uv.size() == 1);
+    CHECK(leg.uv[0] == std::array<Eigen::Vector2d, 3>{Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1)});
 }
 
 TEST_CASE("a part that a file does not have is told of with those that it has") {
     CHECK(error_of([] { part_of("eyes"); }) ==
           "body.obj: no object or group 'eyes' with faces; did you mean 'Eyes'? valid: The Body, skin, arm, leg, Eyes");
+    std::istringstream bare("o none\no\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK(error_of([&] { read_obj(bare, "bare.obj", "none"); }) ==
+          "bare.obj: no object or group 'none' with faces; the file names none");
     std::istringstream in("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     CHECK(error_of([&] { read_obj(in, "plain.obj", "skin"); }) ==
           "plain.obj: no object or group 'skin' with faces; the file names none");
