@@ -6,21 +6,23 @@
 namespace percale {
 namespace {
 
+/// Of a pin that is blocked, or blocks.
+void name_vertex(const StepScene& scene, int vertex, StepReport& report) {
+    report.blocked_cloth = cloth_of(scene.model, vertex);
+    const ClothRange& cloth = scene.model.cloths[report.blocked_cloth];
+    report.blocked_vertex = cloth.user_vertex(vertex);
+    report.blocked_name = cloth.name;
+}
+
 /// Names the pin that is farthest from where it should be.
 void name_blocked_pin(const StepScene& scene, const Workspace& work, StepReport& report) {
     double farthest = 0.0;
-    for (std::size_t c = 0; c < scene.model.cloths.size(); ++c) {
-        const ClothRange& cloth = scene.model.cloths[c];
-        for (int vertex = 0; vertex < cloth.count; ++vertex) {
-            const int i = cloth.index_of(vertex);
-            if (scene.is_free(i)) continue;
-            const double missing = (work.newton.current.positions.at(i) - work.targets.at(i)).norm();
-            if (missing <= farthest) continue;
-            farthest = missing;
-            report.blocked_cloth = static_cast<int>(c);
-            report.blocked_vertex = vertex;
-            report.blocked_name = cloth.name;
-        }
+    for (int i = 0; i < scene.model.vertex_count(); ++i) {
+        if (scene.is_free(i)) continue;
+        const double missing = (work.newton.current.positions.at(i) - work.targets.at(i)).norm();
+        if (missing <= farthest) continue;
+        farthest = missing;
+        name_vertex(scene, i, report);
     }
 }
 
@@ -34,13 +36,6 @@ void name_second_obstacle(const StepScene& scene, const ContactRows& rows, std::
         report.second_obstacle = rows.obstacle[row];
     }
     if (report.second_obstacle >= 0) report.second_name = scene.script.obstacles[report.second_obstacle].name;
-}
-
-void name_vertex(const StepScene& scene, int vertex, StepReport& report) {
-    report.blocked_cloth = cloth_of(scene.model, vertex);
-    const ClothRange& cloth = scene.model.cloths[report.blocked_cloth];
-    report.blocked_vertex = cloth.user_vertex(vertex);
-    report.blocked_name = cloth.name;
 }
 
 /// Of a contact whose cloth is held: a pinned vertex, which cannot get out of the way.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "percale/cloth_ahead.h"
 #include "tolerances.h"
-#include "world.h"
 
 namespace percale {
 
@@ -22,13 +22,16 @@ void finish_motion(StepScene& scene) {
     for (ObstacleState& obstacle : scene.script.obstacles) obstacle.start = obstacle.end;
 }
 
+namespace {
+
+Vec3 displacement_of(const ObstacleState& obstacle) { return obstacle.end.translation - obstacle.start.translation; }
+
+/// A cloth during the coming step if it went on as it moves.
 ClothAhead cloth_ahead(const StepScene& scene, const ClothRange& cloth, const ClothState& state) {
     ClothAhead ahead(scene.model.thickness[cloth.first], scene.settings.time_step);
     for (int i = cloth.first; i < cloth.first + cloth.count; ++i) ahead.add(state.positions.at(i), state.velocities.at(i));
     return ahead;
 }
-
-namespace {
 
 /// The largest number of parts that anything asks for so far, and what does.
 struct PartsAsked {
@@ -41,7 +44,7 @@ struct PartsAsked {
         const double turns = angle_between(start.rotation, end.rotation) / largest_part_turn;
         for (const ClothAhead& cloth : cloths) {
             if (!cloth.meets(start.translation, end.translation, obstacle.reach)) continue;
-            const double travel = travel_beside(cloth, end.translation - start.translation);
+            const double travel = travel_beside(cloth, displacement_of(obstacle));
             const double asked = std::max(turns, travel / (largest_part_travel * cloth.thickness()));
             if (asked <= parts) continue;
             parts = asked;
@@ -63,34 +66,43 @@ private:
     }
 };
 
-/// The numbers of pinned vertices that are to be somewhere else.
-std::vector<int> moving_pins(const StepScene& scene, const ClothState& state) {
-    std::vector<int> pins;
-    for (int i = 0; i < scene.model.vertex_count(); ++i) {
-        if (!scene.is_free(i) && state.positions.at(i) != scene.script.pin_targets.at(i)) pins.push_back(i);
+/// Whether an obstacle goes or turns farther than a part allows, whatever the cloth, of which this is the least thickness, does.
+bool goes_far(const ObstacleState& obstacle, double least_thickness) {
+    if (obstacle.start == obstacle.end) return false;
+    return displacement_of(obstacle).norm() > largest_part_travel * least_thickness ||
+           angle_between(obstacle.start.rotation, obstacle.end.rotation) > largest_part_turn;
+}
+
+/// Calls `work` with every pin of cloth with contact that goes farther than a part allows, and its displacement, m.
+template <class Work>
+void for_far_pins(const StepScene& scene, const ClothState& state, Work work) {
+    for (const ClothRange& cloth : scene.model.cloths) {
+        if (scene.script.obstacles.empty() && !cloth.fabric.self_contact) continue;
+        const double most = largest_pin_travel * scene.model.thickness[cloth.first];
+        for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
+            if (scene.is_free(i)) continue;
+            const Vec3 displacement = scene.script.pin_targets.at(i) - state.positions.at(i);
+            if (displacement.norm() > most) work(i, displacement);
+        }
     }
-    return pins;
 }
 
 }  // namespace
 
 MotionParts motion_parts(const StepScene& scene, const ClothState& state) {
-    if (!scene.detector || (scene.script.obstacles.empty() && !meets_cloth(scene))) return {};
-    const auto moves = [](const ObstacleState& obstacle) { return !(obstacle.start == obstacle.end); };
-    const std::vector<int> pins = moving_pins(scene, state);
-    if (pins.empty() && std::ranges::none_of(scene.script.obstacles, moves)) return {};
+    if (!scene.detector || scene.model.cloths.empty()) return {};
+    const double thinnest = *std::ranges::min_element(scene.model.thickness);
+    bool far = std::ranges::any_of(scene.script.obstacles, [&](const ObstacleState& o) { return goes_far(o, thinnest); });
+    for_far_pins(scene, state, [&](int, const Vec3&) { far = true; });
+    if (!far) return {};  // nearly always: what moves along with cloth may still go far
     std::vector<ClothAhead> cloths;
     for (const ClothRange& cloth : scene.model.cloths) cloths.push_back(cloth_ahead(scene, cloth, state));
     PartsAsked asked;
     for (int k = 0; k < static_cast<int>(scene.script.obstacles.size()); ++k) {
-        if (moves(scene.script.obstacles[k])) asked.by_obstacle(scene, k, cloths);
+        if (goes_far(scene.script.obstacles[k], thinnest)) asked.by_obstacle(scene, k, cloths);
     }
-    for (const int i : pins) {
-        const ClothRange& cloth = scene.model.cloths[cloth_of(scene.model, i)];
-        if (scene.script.obstacles.empty() && !cloth.fabric.self_contact) continue;
-        const Vec3 displacement = scene.script.pin_targets.at(i) - state.positions.at(i);
-        asked.by_pin(i, displacement, cloths[cloth_of(scene.model, i)]);
-    }
+    for_far_pins(scene, state,
+                 [&](int i, const Vec3& displacement) { asked.by_pin(i, displacement, cloths[cloth_of(scene.model, i)]); });
     asked.most.count = static_cast<int>(std::ceil(std::min(asked.parts, 2.0 * most_step_parts) - part_rounding));
     return asked.most;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "model/cloth_state.h"
-#include "percale/cloth_ahead.h"
 #include "plan/scene.h"
 
 namespace percale {
@@ -11,9 +10,6 @@ void tell_obstacles(StepScene& scene);
 
 /// After a good step: obstacles stay where they arrived.
 void finish_motion(StepScene& scene);
-
-/// A cloth during the coming step if it went on as it moves.
-ClothAhead cloth_ahead(const StepScene& scene, const ClothRange& cloth, const ClothState& state);
 
 /// Into how many equal parts the coming step is divided, and what asks for them.
 struct MotionParts {

@@ -136,7 +136,7 @@ public:
 
     TriangleMesh join() {
         add(*scene_.mRootNode, aiMatrix4x4());
-        if (mesh_.triangles.empty() && !part_.empty()) fail_without_part(file_, part_, known_);
+        if (mesh_.triangles.empty() && !part_.empty()) names_.fail(file_, part_);
         return std::move(mesh_);
     }
 
@@ -146,10 +146,7 @@ private:
         for (unsigned k = 0; k < node.mNumMeshes; ++k) {
             const aiMesh& one = *scene_.mMeshes[node.mMeshes[k]];
             const std::string node_name = node.mName.C_Str(), mesh_name = one.mName.C_Str();
-            for (const std::string& name : {node_name, mesh_name}) {
-                if (!name.empty() && std::ranges::find(known_, name) == known_.end() && known_.size() < most_known)
-                    known_.push_back(name);
-            }
+            for (const std::string& name : {node_name, mesh_name}) names_.add(name);
             if (part_.empty() || part_ == node_name || part_ == mesh_name) append(one, to_world, file_, mesh_);
         }
         if (mesh_.vertices.size() > most_)
@@ -158,11 +155,10 @@ private:
         for (unsigned k = 0; k < node.mNumChildren; ++k) add(*node.mChildren[k], to_world);
     }
 
-    static constexpr std::size_t most_known = 1000;  // for messages
     const aiScene& scene_;
     const std::string &file_, &part_;
     std::size_t most_;
-    std::vector<std::string> known_;
+    PartNames names_;
     TriangleMesh mesh_;
 };
 

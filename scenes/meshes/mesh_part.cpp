@@ -1,6 +1,7 @@
 #include "meshes/mesh_part.h"
 
 #include <algorithm>
+#include <span>
 
 #include "common/nearest_name.h"
 #include "common/text.h"
@@ -9,18 +10,23 @@
 namespace percale::scenes {
 namespace {
 
-/// In a message.
-constexpr std::size_t most_named = 20;
+/// Kept, and listed in a message.
+constexpr std::size_t most_kept = 1000, most_listed = 20;
 
 }  // namespace
 
-void fail_without_part(const std::string& file, const std::string& part, std::span<const std::string> known) {
-    const auto named = known.first(std::min(known.size(), most_named));
+void PartNames::add(const std::string& name) {
+    const bool is_new = !name.empty() && std::ranges::find(names_, name) == names_.end();
+    if (is_new && names_.size() < most_kept) names_.push_back(name);
+}
+
+void PartNames::fail(const std::string& file, const std::string& part) const {
+    const auto listed = std::span(names_).first(std::min(names_.size(), most_listed));
     std::string others = "; the file names none";
-    if (!known.empty()) {
-        const std::string nearest = did_you_mean(part, known);
-        others =
-            nearest + (nearest.empty() ? "; valid: " : " valid: ") + joined(named) + (named.size() < known.size() ? ", ..." : "");
+    if (!names_.empty()) {
+        const std::string nearest = did_you_mean(part, names_);
+        others = nearest + (nearest.empty() ? "; valid: " : " valid: ") + joined(listed) +
+                 (listed.size() < names_.size() ? ", ..." : "");
     }
     throw SceneError(file, "no object or group '" + part + "' with faces" + others);
 }

@@ -1,14 +1,23 @@
 #pragma once
 
-#include <span>
 #include <string>
+#include <vector>
 
 #include "percale/mesh.h"
 
 namespace percale::scenes {
 
-/// Throws SceneError: the file has no such object or group with faces; `known`: those that it names.
-[[noreturn]] void fail_without_part(const std::string& file, const std::string& part, std::span<const std::string> known);
+/// The objects and groups with faces that a file names, for the message where one that is wanted is not among them.
+class PartNames {
+public:
+    /// Once each, "" not at all; a thousand at most.
+    void add(const std::string& name);
+    /// Throws SceneError: the file has no such part.
+    [[noreturn]] void fail(const std::string& file, const std::string& part) const;
+
+private:
+    std::vector<std::string> names_;
+};
 
 /// Leaves out vertices that no triangle has; the others keep their order.
 void drop_unused_vertices(TriangleMesh& mesh);

@@ -49,25 +49,20 @@ public:
     bool takes_next_face() {
         if (part_.empty()) return true;
         if (!std::exchange(told_, true)) {
-            know(object_);
-            for (const std::string& group : groups_) know(group);
+            names_.add(object_);
+            for (const std::string& group : groups_) names_.add(group);
         }
         return object_ == part_ || std::ranges::find(groups_, part_) != groups_.end();
     }
 
-    [[noreturn]] void fail_without_faces(const std::string& file) const { fail_without_part(file, part_, known_); }
+    [[noreturn]] void fail_without_faces(const std::string& file) const { names_.fail(file, part_); }
 
 private:
-    void know(const std::string& name) {
-        const bool is_new = !name.empty() && std::ranges::find(known_, name) == known_.end();
-        if (is_new && known_.size() < most_known) known_.push_back(name);
-    }
-
-    static constexpr std::size_t most_known = 1000;  // for messages
     const std::string& part_;
     std::string object_;
-    std::vector<std::string> groups_, known_;  // known: those that have faces
-    bool told_ = false;                        // these are among them
+    std::vector<std::string> groups_;
+    PartNames names_;
+    bool told_ = false;  // what the next faces belong to is among the names
 };
 
 /// Indices of one corner as they stand in the file; texture 0: none.

@@ -96,8 +96,7 @@ public:
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
     /// Moves cloths and obstacles together by a rigid motion x -> translation + rotation x of the world (scale 1), in no time:
     /// pins, targets that no step has reached yet and all that contact and seams remember go along; velocities turn along, or are
-    /// cleared. The next
-    /// step checks as `prepare` does whether they are clear of what did not move.
+    /// cleared. The next step checks as `prepare` does whether they are clear of what did not move.
     void teleport(std::span<const ClothId> cloths, std::span<const ObstacleId> obstacles, const Pose& motion,
                   TeleportVelocities velocities = TeleportVelocities::keep);
 

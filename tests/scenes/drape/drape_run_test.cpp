@@ -2,6 +2,7 @@
 
 #include "scenes/drape/drape_verdict.h"
 #include "scenes/meshes/obj_file.h"
+#include "tests/scenes/drape/open_seam.h"
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
@@ -48,13 +49,7 @@ TEST_CASE("a drape ends at rest, when it is stopped, and when all has fallen bel
 
 TEST_CASE("a garment that cannot be sewn is given up a second after its seams should have closed, if it is tried again") {
     const TestFolder folder;
-    // Two strips on both sides of a plate that is wider than they are.
-    const std::string strip = "points = [[-10, 0], [10, 0], [10, 10], [-10, 10]]\n";
-    folder.write("strips.toml", "unit = \"cm\"\n[[panel]]\nname = \"a\"\n" + strip + "at = [0, 0, 5]\n[[panel]]\nname = \"b\"\n" +
-                                    strip + "at = [0, 0, -5]\nturn = [0, 180, 0]\n[[seam]]\nname = \"side\"\n" +
-                                    "sides = [[\"a.1\"], [\"b.3\"]]\n");
-    const TriangleMesh plate = make_box(Vec3(2.0, 2.0, 0.02));
-    write_obj(folder.path("plate.obj"), plate.vertices, plate.triangles);
+    write_open_seam(folder, "side");
     DrapeOptions options;
     options.files = {folder.path("strips.toml"), folder.path("plate.obj")};
     options.outs = {folder.path("out.obj")};

@@ -4,6 +4,7 @@
 #include "meshes/obj_file.h"
 #include "percale/certify.h"
 #include "percale/mesh.h"
+#include "tests/scenes/drape/open_seam.h"
 #include "tests/scenes/program/run_program.h"
 #include "tests/support/catch.h"
 
@@ -88,13 +89,7 @@ TEST_CASE("a pattern is sewn around the body first, and then hangs on it") {
 
 TEST_CASE("a seam that the body keeps open is named, with its gap and its place") {
     const TestFolder folder;
-    // Two strips on both sides of a plate that is wider than they are.
-    const std::string strip = "points = [[-10, 0], [10, 0], [10, 10], [-10, 10]]\n";
-    folder.write("strips.toml", "unit = \"cm\"\n[[panel]]\nname = \"a\"\n" + strip + "at = [0, 0, 5]\n[[panel]]\nname = \"b\"\n" +
-                                    strip + "at = [0, 0, -5]\nturn = [0, 180, 0]\n[[seam]]\nname = \"left side\"\n" +
-                                    "sides = [[\"a.1\"], [\"b.3\"]]\n");
-    const TriangleMesh plate = make_box(Vec3(2.0, 2.0, 0.02));
-    scenes::write_obj(folder.path("plate.obj"), plate.vertices, plate.triangles);
+    scenes::test::write_open_seam(folder, "left side");
     const ProgramRun run = run_program({"drape", "strips.toml", "plate.obj", "-o", "out.obj", "--seconds", "2.2"}, folder.path());
     CAPTURE(run.out, run.error);
     CHECK(run.exit_code == 1);
