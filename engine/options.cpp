@@ -102,6 +102,15 @@ constexpr Option<Fabric> fabric_list[] = {
      .choices = membrane_words,
      .get_choice = [](const Fabric& f) { return static_cast<int>(f.membrane); },
      .set_choice = [](Fabric& f, int i) { f.membrane = static_cast<Membrane>(i); }},
+    {.key = "strain_limit",
+     .unit = "",
+     .sentence =
+         "Strain beyond which every edge holds back, along rows and columns of a grid or every edge of a mesh; implicit schemes "
+         "only. Passed for some steps where load comes suddenly, and for good where an edge is pulled with more than twice its "
+         "stiffness.",
+     .lowest = 1e-3,
+     .highest = 1.0,
+     .optional_number = [](Fabric& f) { return &f.strain_limit; }},
     {.key = "bend_stiffness",
      .unit = "N m",
      .sentence = "Moment per width and curvature; instead of springs.bend.",

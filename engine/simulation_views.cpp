@@ -41,6 +41,12 @@ double Simulation::largest_strain() const {
     return percale::largest_strain(implementation_->world.scene.model.springs, implementation_->world.state.cloth.positions);
 }
 
+double Simulation::largest_strain(ClothId cloth) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    return percale::largest_strain(implementation_->world.scene.model.springs, implementation_->world.state.cloth.positions,
+                                   range.first, range.count);
+}
+
 double Simulation::largest_speed() const {
     return percale::largest_speed(implementation_->world.state.cloth.velocities,
                                   implementation_->world.scene.model.vertex_count());

@@ -26,11 +26,8 @@ constexpr double unit_length_error = 1e-6, unit_square_error = 1e-6;
 constexpr std::chrono::microseconds longest_spin(20);
 constexpr int spins_between_looks = 8;
 
-/// Of one pool.
-constexpr int most_threads = 64;
-
-/// What a thread should have to do before `threads = auto` uses another one. Cost alone.
-constexpr int least_vertices_a_thread = 1000;
+/// Of one pool. And what a thread should have to do before `threads = auto` uses another one (cost alone).
+constexpr int most_threads = 64, least_vertices_a_thread = 1000;
 
 // ---- mesh/
 
@@ -392,8 +389,8 @@ constexpr double stopping_time = 2.0 * rest_time;
 /// parts that vertices on straight lines do not follow, and lists of contacts that grow. Smaller: more parts.
 constexpr double largest_part_turn = 0.26179938779914943, largest_part_travel = 20.0, largest_pin_travel = 80.0;
 
-/// Parts of a step. More: steps of many seconds, that fling cloth. And what a count of parts may be above a whole number.
-/// And m, by which a pin that goes with an obstacle may miss its place on it: rounding.
+/// Parts of a step. More: steps of many seconds, that fling cloth. Rounding: what a count of parts may be above a whole number;
+/// m, by which a pin that goes with an obstacle may miss its place on it.
 constexpr int most_step_parts = 64;
 constexpr double part_rounding = 1e-9, carried_pin_error = 1e-8;
 
@@ -408,6 +405,10 @@ constexpr int most_halvings = 6;
 /// stitches swing. Wider: a seam that something keeps open pulls harder and harder.
 constexpr double weld_time = 0.05, widest_weld = 0.01;
 
+/// Strain limits: k and the most hold over an edge's own stiffness; s, in which a hold takes up what is too much. Larger k: more
+/// iterations. Smaller: more steps until the limit is kept. Larger hold: what cannot be kept pulls ever harder.
+constexpr double limit_stiffness = 10.0, most_held_strain = 2.0, limit_time = 1.0 / 60.0;
+
 // ---- checks/: derivatives against differences, for settings.check_derivatives. Smaller: right forces are found wrong. Larger:
 // wrong ones pass.
 
@@ -420,11 +421,9 @@ constexpr double derivative_rounding = 1e-12;
 /// Stretches of vertices whose energy slope is compared by itself. Fewer: a wrong force hides among more right ones.
 constexpr int derivative_stretches = 16;
 
-/// Share of the shortest spring, by which vertices are moved.
-constexpr double derivative_reach_share = 1e-5;
-
-/// Times that reach: how near the kinks of wind (as a distance in dt) and of contact a vertex is left out.
-constexpr double wind_kink_reaches = 1e3, contact_kink_reaches = 10.0;
+/// Share of the shortest spring, by which vertices are moved. Times that reach: how near the kinks of wind (as a distance in dt),
+/// of contact and of strain limits a vertex is left out.
+constexpr double derivative_reach_share = 1e-5, wind_kink_reaches = 1e3, contact_kink_reaches = 10.0, limit_kink_reaches = 4.0;
 
 // ---- start/
 

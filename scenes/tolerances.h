@@ -114,6 +114,9 @@ constexpr double whole_steps_rounding = 1e-9, least_last_step = 1e-3;
 /// Strain from which a run warns that cloth would have torn. Smaller: it warns of knits that stretch.
 constexpr double torn_strain = 1.0;
 
+/// Share of a strain limit by which cloth may pass it untold.
+constexpr double passed_limit_share = 0.1;
+
 // ---- doctor/: from where on it warns. Smaller or larger: warnings of what is right, or none of what is wrong.
 
 /// Elements that a finding names.

@@ -6,15 +6,65 @@
 
 #include "blocks.h"
 #include "kernels/compute.h"
+#include "kernels/kernels.h"
+#include "model/adjacency.h"
 #include "model/cloth_facts.h"
 #include "model/cloth_model.h"
+#include "model/vectors.h"
+#include "percale/mesh.h"
 #include "percale/plan.h"
 #include "percale/report.h"
-#include "spring_terms.h"
 #include "support/list_hash.h"
-#include "wind_terms.h"
 
 namespace percale {
+
+/// What the springs are during one step, in the layout of the adjacency: tension T = k (l - l_rest) + c (v_ij . d), with
+/// d = x_ij / |x_ij|.
+struct StepSprings {
+    const Adjacency* adjacency = nullptr;
+    SpringEntries entries;                         // k N/m, l_rest m, c N s/m
+    bool velocity_damping = false;                 // there is a c
+    AlignedVector<double> stiffness, rest_length;  // of this step, where they are not those of the model
+    AlignedVector<double> seam_rest_length;        // m, where seams have changed theirs
+    const double* undamped_rest_length = nullptr;  // m, of each place: without damping
+    AlignedVector<double> points;                  // work space
+};
+
+/// What an evaluation leaves behind: the blocks of the step matrix, and work space.
+struct SpringTerms {
+    /// kg: -dt^2 Jq - dt Jv between the two vertices of each spring, made positive definite, is a I + w w^T (spring_block).
+    AlignedVector<float> values;
+    AlignedVector<float> corners;  // what couples the edges of membrane triangles (CornerFillPass); empty without
+    AlignedVector<double> points, motion, scratch;
+};
+
+/// The state that springs see; dt in s scales the matrix terms.
+struct SpringMotion {
+    const Vectors& positions;
+    const Vectors& velocities;
+    double dt;
+};
+
+/// One triangle in the air, as it lay when the stage began.
+struct WindTriangle {
+    Vec3 normal = Vec3::Zero();  // unit; zero if it has no area
+    double area = 0.0;           // m^2
+};
+
+/// Air around all cloth during one stage.
+struct StepWind {
+    bool blows = false;                   // false: there is no air, nothing else is set
+    Vec3 velocity = Vec3::Zero();         // m/s
+    double density = 0.0;                 // kg/m^3
+    std::vector<WindTriangle> triangles;  // in the order of the model's
+};
+
+/// What the wind leaves behind besides forces.
+struct WindTerms {
+    double power = 0.0;                  // W, of the air on the cloth
+    double potential = 0.0;              // J, dt times the dissipation potential
+    std::vector<SymmetricBlock> blocks;  // kg, -dt Jv of each vertex
+};
 
 /// What forces act on in one evaluation.
 struct ForceInput {

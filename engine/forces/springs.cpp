@@ -183,4 +183,13 @@ double largest_strain(const SpringNetwork& network, const Vectors& positions) {
     return largest;
 }
 
+double largest_strain(const SpringNetwork& network, const Vectors& positions, int first, int count) {
+    double largest = 0.0;
+    for (int k = next_structural(network, 0); k < network.size(); k = next_structural(network, k + 1)) {
+        if (network.first[k] < first || network.first[k] >= first + count) continue;
+        largest = std::max(largest, length(network, positions, k) / network.rest_length[k] - 1.0);
+    }
+    return largest;
+}
+
 }  // namespace percale

@@ -52,6 +52,8 @@ double elastic_energy(const SpringNetwork& network, const Vectors& positions, st
 
 /// Largest (l - l0)/l0 over structural springs; 0 without any.
 double largest_strain(const SpringNetwork& network, const Vectors& positions);
+/// The same of springs at `count` vertices from number `first` on.
+double largest_strain(const SpringNetwork& network, const Vectors& positions, int first, int count);
 
 /// Of all kinds, seams among them, and with them the flat part of hinges.
 const ForceTerm& spring_term();

@@ -8,13 +8,15 @@
 #include "pressure.h"
 #include "sewing.h"
 #include "springs.h"
+#include "strain_limit.h"
 #include "wind.h"
 
 namespace percale {
 
 std::span<const ForceTerm* const> force_terms() {
-    static const std::array<const ForceTerm*, 8> terms = {&gravity_term(), &spring_term(),  &membrane_term(), &hinge_term(),
-                                                          &sewing_term(),  &welding_term(), &wind_term(),     &pressure_term()};
+    static const std::array<const ForceTerm*, 9> terms = {&gravity_term(),      &spring_term(), &membrane_term(),
+                                                          &strain_limit_term(), &hinge_term(),  &sewing_term(),
+                                                          &welding_term(),      &wind_term(),   &pressure_term()};
     return terms;
 }
 

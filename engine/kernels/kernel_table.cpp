@@ -25,6 +25,8 @@ namespace {
 
 #include "membrane_kernel.inl"
 
+#include "limit_kernel.inl"
+
 #include "band_kernel.inl"
 
 #include "layout_kernel.inl"
@@ -61,6 +63,7 @@ const Kernels baseline_kernels
        .coarse_diagonal = coarse_diagonal,
        .galerkin = galerkin,
        .membrane = membrane,
+       .limits = limits,
        .fill_corners = fill_corners,
        .multiply_corners = multiply_corners,
        .multiply_float_corners = multiply_float_corners,

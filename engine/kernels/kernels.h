@@ -161,6 +161,23 @@ struct MembranePass {
     float* values;         // SpringPass::values, added to; null without matrix
 };
 
+/// Edges that hold back beyond a length, at the entries of their springs: T = max(0, h + k (l - L)). No edge shorter than the root
+/// of `slack_square` pulls; the largest number where nothing is limited.
+struct LimitEntries {
+    const double *slack_square, *length, *stiffness, *hold;  // m^2, L m, k N/m, h N
+};
+
+/// One evaluation of them, after that of the springs: the force on the own vertex is -T/l x.
+struct LimitPass {
+    EntryPattern pattern;  // in slices
+    LimitEntries limits;
+    ConstAxes positions;   // m
+    const double* points;  // the same as x y z 0 a vertex
+    double dt;             // s
+    Axes forces;           // N, added to
+    float* values;         // SpringPass::values, added to; null without matrix
+};
+
 /// Floats a corner.
 constexpr int corner_values = 12;
 
@@ -220,6 +237,7 @@ struct Kernels {
     void (*coarse_diagonal)(const DiagonalPass& pass, Slices range);
     void (*galerkin)(const GalerkinPass& pass, int first, int last);
     double (*membrane)(const MembranePass& pass, Slices range);  // returns their energy, J
+    double (*limits)(const LimitPass& pass, Slices range);       // returns their energy, J
     void (*fill_corners)(const CornerFillPass& pass, Slices range);
     double (*multiply_corners)(const CornerProduct& pass, const WideProduct& product, Slices range);  // returns what x . y gains
     void (*multiply_float_corners)(const CornerProduct& pass, const FloatPass& product, Slices range);

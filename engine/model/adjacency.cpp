@@ -158,12 +158,18 @@ void copy_bending(const SpringNetwork& network, Adjacency& adjacency) {
 
 void put_rest_length(const Adjacency& adjacency, const SpringNetwork& network, int spring, double length,
                      AlignedVector<double>& list) {
-    list[adjacency.place[spring]] = length;
-    if (adjacency.bands.count > 0) return;
-    const int other = network.second[spring], slice = other / slice_lanes;
-    for (int e = adjacency.start[slice] + other % slice_lanes; e < adjacency.start[slice + 1]; e += slice_lanes) {
-        if (adjacency.spring[e] == spring) list[e] = length;
+    if (adjacency.bands.count > 0) {
+        list[adjacency.place[spring]] = length;
+        return;
     }
+    for (const int entry : adjacency.entries_of(network, spring)) list[entry] = length;
+}
+
+std::array<int, 2> Adjacency::entries_of(const SpringNetwork& network, int k) const {
+    const int end = network.second[k];
+    int entry = start[end / slice_lanes] + end % slice_lanes;
+    while (spring[entry] != k) entry += slice_lanes;
+    return {place[k], entry};
 }
 
 std::size_t Adjacency::value_count() const {

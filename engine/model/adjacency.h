@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "kernels/compute.h"
@@ -33,6 +34,8 @@ struct Adjacency {
         std::size_t first, apart;
     };
     ValuePlace value_place(int k) const;
+    /// The entries of a spring at both of its ends, in slices.
+    std::array<int, 2> entries_of(const SpringNetwork& network, int k) const;
     /// What a spring resists with when it alone becomes longer, its triangles included, but hinges left out, N/m.
     double strength(int k) const;
     /// The size of a vector as kernels want it (pack_points).

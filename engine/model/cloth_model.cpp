@@ -38,6 +38,15 @@ std::vector<Body> make_bodies(const ClothModel& model) {
     return bodies;
 }
 
+/// Of each spring; 0: none.
+std::vector<double> strain_limits_of(const ClothModel& model) {
+    std::vector<double> strain;
+    for (const int vertex : model.springs.first) {
+        strain.push_back(model.cloths[cloth_of(model, vertex)].fabric.strain_limit.value_or(0.0));
+    }
+    return strain;
+}
+
 }  // namespace
 
 void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const std::string& name,
@@ -106,10 +115,24 @@ void set_bending(ClothModel& model) {
 
 void finish_model(ClothModel& model) {
     set_bending(model);
-    const SpringLayout layout = model.membrane.empty() ? SpringLayout::best : SpringLayout::slices;
+    const bool limited = std::ranges::any_of(model.cloths, [](const ClothRange& c) { return c.fabric.strain_limit.has_value(); });
+    const SpringLayout layout = model.membrane.empty() && !limited ? SpringLayout::best : SpringLayout::slices;
     model.adjacency = make_adjacency(model.springs, model.vertex_count(), layout);
     if (!model.membrane.empty()) add_membrane(model.adjacency, model.springs, model.membrane);
+    if (limited) set_strain_limits(model.springs, strain_limits_of(model), model.adjacency, model.limits);
     model.bodies = make_bodies(model);
+}
+
+void copy_holds(const ClothModel& model, Holds& holds) {
+    holds.welds.clear();
+    holds.limits.clear();
+    for (const Weld& weld : model.welds) holds.welds.push_back(weld.hold);
+    for (const LimitedEdge& edge : model.limits.edges) holds.limits.push_back(edge.hold);
+}
+
+void put_holds(const Holds& holds, ClothModel& model) {
+    for (std::size_t k = 0; k < holds.welds.size(); ++k) model.welds[k].hold = holds.welds[k];
+    for (std::size_t k = 0; k < holds.limits.size(); ++k) model.limits.set_hold(model.limits.edges[k], holds.limits[k]);
 }
 
 void set_model_clamps(std::span<const double> free, ClothModel& model) {

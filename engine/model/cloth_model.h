@@ -12,6 +12,7 @@
 #include "percale/mesh.h"
 #include "sewn_points.h"
 #include "spring_network.h"
+#include "strain_limits.h"
 #include "vectors.h"
 #include "weld.h"
 
@@ -52,10 +53,21 @@ struct ClothModel {
     std::vector<Weld> welds;
     std::vector<MembraneTriangle> membrane;
     Adjacency adjacency;
+    StrainLimits limits;  // empty where no fabric has one
     std::vector<Body> bodies;
 
+    /// What no explicit scheme takes.
+    bool has_holds() const { return !welds.empty() || !limits.empty(); }
     int vertex_count() const { return static_cast<int>(mass.size()); }
 };
+
+/// What a model holds with besides its springs: the multipliers, which steps change.
+struct Holds {
+    std::vector<Vec3> welds;     // N, Weld::hold
+    std::vector<double> limits;  // N, LimitedEdge::hold
+};
+void copy_holds(const ClothModel& model, Holds& holds);
+void put_holds(const Holds& holds, ClothModel& model);
 
 /// Appends a cloth, its vertices in the user's order; `mesh` in m, world, without strain unless `shape` says where. Throws
 /// SceneError naming `name`. The adjacency is made anew by finish_model.

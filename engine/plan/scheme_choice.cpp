@@ -122,6 +122,7 @@ SchemeChoice choose_scheme(const StepScene& scene, const ClothState& state, cons
     const Scheme implicit = implicit_choice(scene), short_steps = explicit_choice(scene);
     if (has_contact(scene)) return {implicit, 1, "explicit schemes take no contact"};
     if (!scene.model.welds.empty()) return {implicit, 1, "explicit schemes take no welded seams"};
+    if (!scene.model.limits.empty()) return {implicit, 1, "explicit schemes take no strain limit"};
     const double stable = stable_step_share * stable_step(scene, state, short_steps), dt = scene.settings.time_step;
     const double parts = adaptive ? 1.0 : std::max(1.0, std::ceil(dt / stable));
     const double tries = adaptive ? 3.0 : 1.0;  // a whole step and two halves
@@ -138,7 +139,7 @@ SchemeChoice choose_scheme(const StepScene& scene, const ClothState& state, cons
 bool can_be_chosen(const StepScene& scene, Scheme scheme, int parts) {
     const Scheme wish = scene.settings.scheme;
     if (wish != Scheme::automatic) return scheme == wish && parts == 1;
-    if (scheme == explicit_choice(scene) && !has_contact(scene) && scene.model.welds.empty())
+    if (scheme == explicit_choice(scene) && !has_contact(scene) && !scene.model.has_holds())
         return parts >= 1 && parts <= (scene.settings.adaptive ? 1 : most_explicit_parts);
     return scheme == implicit_choice(scene) && parts == 1;
 }

@@ -40,8 +40,8 @@ struct SavedWorld {
     std::vector<SavedObstacle> obstacles;
     std::vector<Seam> seams;            // without their stitches, which are the cloth's
     std::vector<Vec3> sewn_directions;  // of the points sewn to
-    std::vector<Vec3> holds;            // of the welds
-    std::vector<double> clamps;         // of the hinges
+    Holds holds;
+    std::vector<double> clamps;  // of the hinges
     StepPlan plan;
     RestState rest;
     bool solver_is_set = false;
@@ -137,7 +137,7 @@ void exchange(Archive& archive, Value& saved) {
     archive(saved.changed, saved.plan_outdated, saved.waiting);
     archive(saved.settings.time_step, saved.settings.gravity, saved.settings.wind);
     archive(saved.state, saved.contact, saved.free, saved.pin_targets, saved.obstacles, saved.seams, saved.sewn_directions,
-            saved.holds, saved.clamps);
+            saved.holds.welds, saved.holds.limits, saved.clamps);
     archive(saved.plan, saved.rest, saved.solver_is_set);
     archive.choice(saved.solver.first, 4);
     archive.choice(saved.solver.in_use, 4);
@@ -161,7 +161,7 @@ SavedWorld state_of(const World& world) {
     for (const ObstacleState& o : scene.script.obstacles) saved.obstacles.push_back({o.start, o.end, o.settled});
     saved.seams = scene.script.seams;
     for (const SewnPoint& point : scene.model.sewn_points) saved.sewn_directions.push_back(point.direction);
-    for (const Weld& weld : scene.model.welds) saved.holds.push_back(weld.hold);
+    copy_holds(scene.model, saved.holds);
     for (const Hinge& hinge : scene.model.hinges.all) saved.clamps.push_back(hinge.clamp);
     saved.loads = {world.load_source != LoadSource::nowhere, contact_loads(world)};
     saved.plan = scene.plan;
@@ -263,8 +263,12 @@ private:
         const auto springs = static_cast<std::size_t>(world_.scene.model.springs.size());
         reader_.demand(same && (lengths.empty() || (lengths.size() == springs && !saved_.seams.empty())), "other seams");
         reader_.demand(saved_.sewn_directions.size() == world_.scene.model.sewn_points.size(), "a wrong number of sewn points");
-        reader_.demand(saved_.holds.size() == world_.scene.model.welds.size(), "a wrong number of welds");
-        reader_.demand(std::ranges::all_of(saved_.holds, [](const Vec3& h) { return h.norm() < 1e300; }),
+        const Holds& holds = saved_.holds;
+        reader_.demand(holds.welds.size() == world_.scene.model.welds.size(), "a wrong number of welds");
+        reader_.demand(holds.limits.size() == world_.scene.model.limits.edges.size(), "a wrong number of limited edges");
+        reader_.demand(std::ranges::all_of(holds.limits, [](double h) { return h >= 0.0 && h < 1e300; }),
+                       "a strain limit that pushes");
+        reader_.demand(std::ranges::all_of(holds.welds, [](const Vec3& h) { return h.norm() < 1e300; }),
                        "a weld without a force");
         reader_.demand(std::ranges::all_of(saved_.sewn_directions, [](const Vec3& d) { return d.allFinite(); }),
                        "a seam that closes in no direction");
@@ -327,7 +331,7 @@ void put_script(SavedWorld& saved, Script& script) {
 void put_model(const SavedWorld& saved, ClothModel& model) {
     for (std::size_t k = 0; k < saved.clamps.size(); ++k) model.hinges.all[k].clamp = saved.clamps[k];
     for (std::size_t k = 0; k < saved.sewn_directions.size(); ++k) model.sewn_points[k].direction = saved.sewn_directions[k];
-    for (std::size_t k = 0; k < saved.holds.size(); ++k) model.welds[k].hold = saved.holds[k];
+    put_holds(saved.holds, model);
     set_bending(model);
     copy_bending(model.springs, model.adjacency);
 }

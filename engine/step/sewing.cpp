@@ -17,24 +17,22 @@ bool joins_itself(const Stitch& stitch) {
     return stitch.vertex == stitch.from || stitch.vertex == stitch.to;
 }
 
-double tighten_welds(World& world) {
+double tighten_holds(World& world) {
     StepScene& scene = world.scene;
-    if (scene.model.welds.empty()) return 0.0;
-    world.holds_before.clear();
-    for (const Weld& weld : scene.model.welds) world.holds_before.push_back(weld.hold);
-    const double share = std::min(1.0, scene.settings.time_step / weld_time);
-    double work = 0.0;
+    ClothModel& model = scene.model;
+    if (model.welds.empty() && model.limits.empty()) return 0.0;
+    copy_holds(model, world.holds_before);
+    const double dt = scene.settings.time_step, share = std::min(1.0, dt / weld_time);
+    double work = tighten(model.limits, model.springs, world.state.cloth.positions, std::min(1.0, dt / limit_time));
     for (const Seam& seam : scene.script.seams) {
         if (seam.closes_after(world.state.time)) continue;
-        work += tighten(welds_of(seam, scene.model), world.state.cloth.positions, share, widest_weld);
+        work += tighten(welds_of(seam, model), world.state.cloth.positions, share, widest_weld);
     }
     if (world.rest.potential) *world.rest.potential += work;
     return work;
 }
 
-void loosen_welds(World& world) {
-    for (std::size_t k = 0; k < world.scene.model.welds.size(); ++k) world.scene.model.welds[k].hold = world.holds_before[k];
-}
+void loosen_holds(World& world) { put_holds(world.holds_before, world.scene.model); }
 
 int sew(World& world, std::span<const Stitch> stitches, const SeamSettings& settings) {
     ClothModel model = world.scene.model;

@@ -32,7 +32,7 @@ void advance_time(double time_step, StepState& state) {
 }
 
 /// Renews an outdated plan and sets what moves in this step. contact_dt, which sets the stiffness of contact, grows at once with
-/// the time step and falls gradually. Returns the work of pins that came or went and of welds, J.
+/// the time step and falls gradually. Returns the work of pins that came or went, of welds and of strain limits, J.
 double plan_step(World& world) {
     StepScene& scene = world.scene;
     const double pins = world.plan_outdated ? renew_plan(scene, world.state.cloth) : 0.0;
@@ -40,7 +40,7 @@ double plan_step(World& world) {
     set_motion_of_step(scene, world.state.cloth, world.state.time);
     const double dt = scene.settings.time_step;
     if (scene.plan.solve) world.state.contact_dt = std::max(dt, world.state.contact_dt - fastest_contact_shortening * dt);
-    return pins + tighten_welds(world);
+    return pins + tighten_holds(world);
 }
 
 /// Whether the end that was found is one: nothing infinite, no force that contradicts its energy.
@@ -77,7 +77,7 @@ StepReport step_once(World& world) {
         update_rest(scene, end->cloth.velocities, state.cloth, rest, report);
         damp_kinetic_energy(scene, state, rest, report);
     } else {
-        loosen_welds(world);
+        loosen_holds(world);
         state.past.forget();
         wake(rest);
         measure.kept(state, report);

@@ -15,8 +15,8 @@ public:
         : vertices_(world.scene.model.vertex_count()),
           state_(world.state),
           obstacles_(world.scene.script.obstacles),
-          pin_targets_(world.scene.script.pin_targets),
-          welds_(world.scene.model.welds) {
+          pin_targets_(world.scene.script.pin_targets) {
+        copy_holds(world.scene.model, holds_);
         find_carried_pins(world.scene);
     }
 
@@ -41,7 +41,7 @@ public:
     void restore(World& world) && {
         aim_at(1.0, world.scene.script);
         world.state = std::move(state_);
-        world.scene.model.welds = std::move(welds_);
+        put_holds(holds_, world.scene.model);
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
             world.scene.script.obstacles[k].start = obstacles_[k].start;
             world.scene.script.obstacles[k].settled = false;
@@ -76,7 +76,7 @@ private:
     StepState state_;
     std::vector<ObstacleState> obstacles_;
     Vectors pin_targets_;
-    std::vector<Weld> welds_;
+    Holds holds_;
 };
 
 /// `sum` becomes the report of both: what was done is added, what the end is like is the later part's.

@@ -101,8 +101,10 @@ void pass_cloth_to_detector(World& world) {
 void check_scheme(const StepScene& scene) {
     if (scene.settings.scheme == Scheme::automatic) return;
     const SchemeFacts& scheme = facts_of(scene.settings.scheme);
-    if (!scene.model.welds.empty() && !scheme.contact)
-        throw SceneError(std::string(scheme.word) + " takes no welded seams; use scheme backward_euler or tr_bdf2");
+    if (scene.model.has_holds() && !scheme.contact) {
+        const std::string what = scene.model.limits.empty() ? "welded seams" : "strain limit";
+        throw SceneError(std::string(scheme.word) + " takes no " + what + "; use scheme backward_euler or tr_bdf2");
+    }
     const bool meets = meets_cloth(scene);
     if (!meets && scene.script.obstacles.empty()) return;
     if (!scheme.contact) {

@@ -40,7 +40,7 @@ struct World {
     RefusedStart refused;       // what stood in the way of the last preparation
     LoadSource load_source = LoadSource::nowhere;
     std::vector<ContactLoad> saved_loads;  // of a state that was restored
-    std::vector<Vec3> holds_before;        // N: of the welds, before the step that is being made
+    Holds holds_before;                    // before the step that is being made
     /// Of each cloth that waits for seams to close: cloths with the same number are joined by such seams and do not meet each
     /// other, nor themselves, before; -1: it waits for none. Empty where none waits.
     std::vector<int> waiting;

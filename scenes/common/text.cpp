@@ -24,6 +24,12 @@ std::string short_number(double value) {
     return text;
 }
 
+std::string percent_text(double share) {
+    const double percent = 100.0 * share;
+    return (std::abs(percent) < 10.0 ? short_number(std::round(10.0 * percent) / 10.0) : std::to_string(std::lround(percent))) +
+           " %";
+}
+
 std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
 
 std::string nearness_text(double smallest_distance) {

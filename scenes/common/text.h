@@ -12,6 +12,9 @@ std::string number_text(double value);
 /// Three digits: 0.0167, 1.2e+07.
 std::string short_number(double value);
 
+/// A share in percent: "12 %", "0.4 %".
+std::string percent_text(double share);
+
 /// "1 step", "12 steps".
 std::string counted(long count, const std::string& what);
 

@@ -83,11 +83,14 @@ DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, co
         verdict.lines.push_back("without self-contact: cloth crosses cloth in " + std::to_string(files.own_crossings) +
                                 " triangle pairs");
     }
-    verdict.lines.push_back(joined(options.outs) + ": " + (drape.end == DrapeEnd::settled ? "at rest, " : "") +
-                            short_number(drape.last.time) + " s simulated, fastest vertex " +
-                            short_number(drape.rest.largest_speed) + " m/s, " + std::to_string(check.intersections) +
-                            " intersecting pairs" + (options.no_self_contact ? " with the body, " : ", ") +
-                            nearness_text(check.smallest_distance));
+    verdict.lines.push_back(
+        joined(options.outs) + ": " + (drape.end == DrapeEnd::settled ? "at rest, " : "") + short_number(drape.last.time) +
+        " s simulated, fastest vertex " + short_number(drape.rest.largest_speed) + " m/s, " +
+        std::to_string(check.intersections) + " intersecting pairs" + (options.no_self_contact ? " with the body, " : ", ") +
+        nearness_text(check.smallest_distance) + ", largest strain " + percent_text(built.simulation.largest_strain()));
+    for (const std::string& text : strain_warnings(built, built.simulation.largest_strain())) {
+        verdict.lines.push_back("warning: " + text);
+    }
     const WidestGap gap = widest_gap(built);
     if (gap.stitches > 0) verdict.lines.push_back(seam_text(gap, check));
     tell_of_sliding(built, drape, verdict);

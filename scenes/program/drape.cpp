@@ -97,6 +97,7 @@ Fabric fabric_from_preset(const CLI::App& command, const DrapeOptions& options) 
     Fabric fabric = fabric_preset(options.preset);
     const auto given = [&](const std::string& option) { return command.get_option(option)->count() > 0; };
     if (given("--thickness")) fabric.thickness = options.fabric.thickness;
+    if (given("--strain-limit")) fabric.strain_limit = options.fabric.strain_limit;
     if (given("--area-density")) fabric.area_density = options.fabric.area_density;
     if (!given("--damping")) return fabric;
     fabric.damping_time.reset();
@@ -119,6 +120,11 @@ void add_fabric_options(CLI::App& command, DrapeOptions& options) {
         ->type_name("K")
         ->excludes(preset);
     command.add_option("--damping", options.fabric.spring_damping, "Damping of each spring, N s/m (default 2)")->type_name("C");
+    command
+        .add_option_function<double>(
+            "--strain-limit", [&options](double strain) { options.fabric.strain_limit = strain; },
+            "Strain beyond which edges hold back, 0.001 ... 1 (default: none)")
+        ->type_name("E");
     command.add_option("--friction", options.friction, "Coulomb coefficient (default 0.4)")->type_name("MU");
 }
 

@@ -19,10 +19,8 @@
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
-#include "run/obstacle_motion.h"
 #include "run/scene_plan.h"
 #include "run/start_fault.h"
-#include "tolerances.h"
 
 namespace percale::program {
 
@@ -90,25 +88,6 @@ BuiltScene built_scene(const RunOptions& options, const Checkpoint* from) {
     }
 }
 
-bool has_pins_in_world(const ClothSpec& cloth) {
-    if (const auto* indices = std::get_if<VertexIndices>(&cloth.pin)) return !indices->vertices.empty();
-    const auto* box = std::get_if<VertexBox>(&cloth.pin);
-    return box == nullptr || box->to.empty();
-}
-
-/// Cloth that would have torn, and what often is why.
-std::string strain_text(const Scene& scene, double strain) {
-    std::string text = "the largest strain is " + std::to_string(std::lround(100.0 * strain)) + " %: cloth would have torn";
-    const auto moving = std::ranges::find_if(scene.obstacles, obstacle_moves);
-    for (const ClothSpec& cloth : scene.cloths) {
-        if (moving == scene.obstacles.end() || !has_pins_in_world(cloth)) continue;
-        text += "; the pins of " + cloth.name + " stay in the world, pin = { box = ..., to = \"" + moving->name +
-                "\" } holds them to a body";
-        break;
-    }
-    return text;
-}
-
 void print_summary(const RunOptions& options, const BuiltScene& built, const RunResult& result,
                    std::span<const ExpectationResult> expectations) {
     const Measures& m = result.measures;
@@ -123,7 +102,7 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
     const bool finished = result.status == RunStatus::finished;
     if (finished && !built.obstacles.empty() && std::isinf(m.smallest_distance) && !maybe_met)
         std::printf("warning: no cloth ever met an obstacle; is everything in its place, and in one unit?\n");
-    if (m.largest_strain > torn_strain) std::printf("warning: %s\n", strain_text(built.scene, m.largest_strain).c_str());
+    for (const std::string& text : strain_warnings(built, m.largest_strain)) std::printf("warning: %s\n", text.c_str());
     for (const ExpectationResult& expectation : expectations) std::printf("  %s\n", expectation.text.c_str());
 }
 

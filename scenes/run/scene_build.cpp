@@ -200,7 +200,42 @@ void check_start(BuiltScene& built) {
     }
 }
 
+bool has_pins_in_world(const ClothSpec& cloth) {
+    if (const auto* indices = std::get_if<VertexIndices>(&cloth.pin)) return !indices->vertices.empty();
+    const auto* box = std::get_if<VertexBox>(&cloth.pin);
+    return box == nullptr || box->to.empty();
+}
+
+/// Cloth that would have torn, and what often is why.
+std::string torn_text(const Scene& scene, double strain) {
+    std::string text = "the largest strain is " + percent_text(strain) + ": cloth would have torn";
+    const auto moving = std::ranges::find_if(scene.obstacles, obstacle_moves);
+    for (const ClothSpec& cloth : scene.cloths) {
+        if (moving == scene.obstacles.end() || !has_pins_in_world(cloth)) continue;
+        text += "; the pins of " + cloth.name + " stay in the world, pin = { box = ..., to = \"" + moving->name +
+                "\" } holds them to a body";
+        break;
+    }
+    return text;
+}
+
 }  // namespace
+
+std::vector<std::string> strain_warnings(const BuiltScene& built, double largest_strain) {
+    std::vector<std::string> warnings;
+    if (largest_strain > torn_strain) warnings.push_back(torn_text(built.scene, largest_strain));
+    for (std::size_t k = 0; k < built.cloths.size(); ++k) {
+        const ClothSpec& cloth = built.scene.cloths[k];
+        const std::optional<double> limit = built.scene.fabrics.at(cloth.fabric).strain_limit;
+        if (!limit) continue;
+        const double strain = built.simulation.largest_strain(built.cloths[k]);
+        if (strain <= (1.0 + passed_limit_share) * *limit) continue;
+        warnings.push_back("an edge of '" + cloth.name + "' is strained by " + percent_text(strain) +
+                           ", beyond its strain_limit of " + percent_text(*limit) +
+                           ": load came just then, or pulls with more than twice the edge's stiffness");
+    }
+    return warnings;
+}
 
 std::vector<ClothStitches> sewn_stitches(const BuiltScene& built) {
     std::vector<ClothStitches> sewn;

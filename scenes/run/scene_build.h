@@ -30,6 +30,10 @@ struct BuiltScene {
     std::vector<std::string> warnings;  // what is not quite as the scene file says
 };
 
+/// What to tell of cloth that would have torn at the largest strain of a run, and of cloth that is now strained beyond its
+/// strain_limit by more than a tenth of it.
+std::vector<std::string> strain_warnings(const BuiltScene& built, double largest_strain);
+
 /// What all seams have sewn.
 std::vector<ClothStitches> sewn_stitches(const BuiltScene& built);
 

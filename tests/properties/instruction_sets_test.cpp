@@ -30,6 +30,9 @@ std::vector<Scene> some_scenes() {
     std::vector<Scene> scenes = {{"grid", sheet(true), {0, 32}, {}}, {"free mesh", sheet(false), {0, 32}, {}}};
     scenes.push_back({"grid, multigrid", sheet(true), {0, 32}, {.linear_solver = LinearSolver::multigrid}});
     scenes.push_back({"grid, block Jacobi, damping by velocity", sheet(true), {0}, velocity});
+    Fabric limited = free_fabric();
+    limited.strain_limit = 0.02;
+    scenes.push_back({"grid with a strain limit", cloth_model(make_grid(1.0, 1.0, 33, 33), limited), {0, 32}, {}});
     scenes.push_back({"grid on a plane", sheet(true), {}, {}, true});
     scenes.push_back({"free mesh, explicit", sheet(false), {5}, {.time_step = 1e-4, .scheme = Scheme::rk4}});
     return scenes;

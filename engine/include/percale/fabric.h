@@ -32,6 +32,7 @@ struct Fabric {
     std::optional<double> shear_stiffness = {};                   // N/m; unset: that of isotropic cloth
     double poisson_ratio = 0.0;                                   // sqrt(nu_12 nu_21)
     Membrane membrane = Membrane::triangle_springs;
+    std::optional<double> strain_limit = {};    // of structural springs, (l - l0)/l0; unset: none
     std::optional<double> bend_stiffness = {};  // N m
     double drag_normal = 1.2;                   // C_n, against air that meets the surface; of both sides together
     double drag_tangential = 0.05;              // C_t, against air that passes along it

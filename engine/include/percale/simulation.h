@@ -131,6 +131,7 @@ public:
     StepEnergy energy() const;
     /// Of structural springs, (l - l0)/l0, in the current state; 0 without any.
     double largest_strain() const;
+    double largest_strain(ClothId cloth) const;
     /// What obstacles do to the vertices of a cloth at the end of the last step that was solved, friction included: sorted by
     /// vertex and obstacle, vertices that nothing presses left out. Of a step made in spans it is what the last span ended with.
     /// Empty before the first step, after a failed one, set_positions and teleport. Costs nothing unless it is asked for.

@@ -48,16 +48,16 @@ TEST_CASE(
     sew(world, std::vector<Stitch>{{0, 8, 8}}, {.over = 0.0, .stiffness = 3.0, .weld = true});
     sew(world, std::vector<Stitch>{{2, 6, 6}}, {.over = 9.0, .weld = true});
     world.rest.potential = 1.0;
-    const double work = tighten_welds(world), gap = std::sqrt(2.0);
+    const double work = tighten_holds(world), gap = std::sqrt(2.0);
     const Vec3 held = world.scene.model.welds[0].hold;
     CHECK(held.norm() == Approx(3.0 * 0.01));  // bounded
     CHECK(work == Approx(0.03 * gap));
     CHECK(*world.rest.potential == Approx(1.0 + work));
     CHECK(world.scene.model.welds[1].hold == Vec3::Zero());
     world.state.cloth.positions.set(0, {3.0, 0.0, 0.0});
-    tighten_welds(world);
+    tighten_holds(world);
     CHECK((world.scene.model.welds[0].hold - held).norm() > 1e-3);
-    loosen_welds(world);
+    loosen_holds(world);
     CHECK(world.scene.model.welds[0].hold == held);
 }
 
