@@ -34,9 +34,15 @@ public:
     void set_self_contact(const SelfContact& cloth) override { between_cloths_.emplace(triangles_, thickness_, cloth); }
 
     int add_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) override {
-        obstacles_.push_back(std::make_unique<Obstacle>(mesh, pose, friction, make_tree_));
-        lists_.reset();
-        return static_cast<int>(obstacles_.size()) - 1;
+        return add(mesh, pose, friction, SurfaceShape::rigid);
+    }
+
+    int add_deforming_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) override {
+        return add(mesh, pose, friction, SurfaceShape::deforming);
+    }
+
+    void deform_obstacle(int obstacle, std::span<const Vec3> start, std::span<const Vec3> end) override {
+        obstacles_[obstacle]->deform(start, end);
     }
 
     void move_obstacle(int obstacle, const Pose& start, const Pose& end) override { obstacles_[obstacle]->move(start, end); }
@@ -89,7 +95,7 @@ public:
 
     void save(StateWriter& state) const override {
         state(scene_hash(triangles_, thickness_, obstacles_));
-        for (const auto& obstacle : obstacles_) state(obstacle->start_pose(), obstacle->end_pose());
+        save_motions(obstacles_, state);
         state(forgotten_at_, smallest_distance_, lists_.has_value());
         if (lists_) percale::save(*lists_, obstacles_, state);
         if (between_cloths_) between_cloths_->save(state);
@@ -100,7 +106,7 @@ public:
         state(hash);
         if (hash != scene_hash(triangles_, thickness_, obstacles_))
             throw SceneError("saved state: it is of other cloth or other obstacles than the detector has");
-        const std::vector<std::array<Pose, 2>> poses = restored_poses(obstacles_, state);
+        const std::vector<SavedMotion> motions = restored_motions(obstacles_, state);
         std::vector<Vec3> forgotten_at;
         double smallest_distance = 0.0;
         bool listed = false;
@@ -111,7 +117,7 @@ public:
         std::optional<SelfContactDetection> between_cloths = between_cloths_;
         if (between_cloths) between_cloths->restore(state);
         state.demand(state.at_end(), "there is more than belongs to it");
-        for (std::size_t i = 0; i < obstacles_.size(); ++i) obstacles_[i]->move(poses[i][0], poses[i][1]);
+        set_motions(motions, obstacles_);
         forgotten_at_ = std::move(forgotten_at);
         smallest_distance_ = smallest_distance;
         lists_ = std::move(lists);
@@ -120,6 +126,12 @@ public:
     }
 
 private:
+    int add(const TriangleMesh& mesh, const Pose& pose, double friction, SurfaceShape shape) {
+        obstacles_.push_back(std::make_unique<Obstacle>(mesh, pose, friction, make_tree_, shape));
+        lists_.reset();
+        return static_cast<int>(obstacles_.size()) - 1;
+    }
+
     /// Near clusters in stretches, each on a thread; what they found is joined in the order of the clusters, so rows do not
     /// depend on the threads.
     void add_rows(std::span<const Vec3> positions, double fraction, ContactRows& rows) {

@@ -100,10 +100,18 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
     const Pose placed = normalised(pose);
     double square = 0.0;
     for (const Vec3& x : mesh.vertices) square = std::max(square, x.squaredNorm());
-    world.scene.detector->add_obstacle(mesh, placed, settings.friction);
+    Shape shape;
+    if (settings.deforming) {
+        world.scene.detector->add_deforming_obstacle(mesh, placed, settings.friction);
+        shape = std::make_shared<const std::vector<Vec3>>(mesh.vertices);
+    } else {
+        world.scene.detector->add_obstacle(mesh, placed, settings.friction);
+    }
     world.scene.script.obstacles.push_back({.name = settings.name,
                                             .start = placed,
                                             .end = placed,
+                                            .start_shape = shape,
+                                            .end_shape = shape,
                                             .triangles = static_cast<int>(mesh.triangles.size()),
                                             .restitution = settings.restitution,
                                             .reach = placed.scale * std::sqrt(square)});

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 
 #include "percale/options.h"
 #include "simulation_implementation.h"
@@ -46,6 +47,23 @@ void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
     if (state.end != state.start) wake(implementation_->world.rest);
     if (implementation_->world.refused.obstacle != obstacle.index) return;
     state.start = state.end;  // no step begins where it is
+    state.settled = false;
+}
+
+void Simulation::move_obstacle(ObstacleId obstacle, std::span<const Vec3> end) {
+    ObstacleState& state = implementation_->obstacle(obstacle);
+    if (!state.start_shape) throw SceneError(state.name, "is rigid; to move its vertices add it with deforming = true");
+    if (end.size() != state.start_shape->size()) {
+        throw SceneError(state.name, std::to_string(end.size()) + " positions for the " +
+                                         std::to_string(state.start_shape->size()) + " vertices of its mesh");
+    }
+    for (std::size_t i = 0; i < end.size(); ++i) check_finite(end[i], state.name + ": vertex " + std::to_string(i));
+    state.go_to(std::make_shared<const std::vector<Vec3>>(end.begin(), end.end()));
+    World& world = implementation_->world;
+    if (state.deforms()) wake(world.rest);
+    if (world.refused.obstacle != obstacle.index) return;
+    state.start_shape = state.end_shape;  // no step begins where it is
+    state.shape_travel = 0.0;
     state.settled = false;
 }
 

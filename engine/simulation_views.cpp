@@ -35,6 +35,11 @@ std::span<const double> Simulation::masses(ClothId cloth) const {
 
 Pose Simulation::obstacle_pose(ObstacleId obstacle) const { return implementation_->obstacle(obstacle).start; }
 
+std::span<const Vec3> Simulation::obstacle_shape(ObstacleId obstacle) const {
+    const Shape& shape = implementation_->obstacle(obstacle).start_shape;
+    return shape ? std::span<const Vec3>(*shape) : std::span<const Vec3>();
+}
+
 StepEnergy Simulation::energy() const { return energy_of(implementation_->world.scene, implementation_->world.state); }
 
 double Simulation::largest_strain() const {

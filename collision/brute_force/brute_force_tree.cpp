@@ -9,11 +9,9 @@ namespace {
 /// No tree: every triangle's box is compared with every asked box.
 class BruteForceTree : public ObstacleTree {
 public:
-    BruteForceTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
-        boxes_.resize(triangles.size());
-        for (std::size_t i = 0; i < triangles.size(); ++i) {
-            for (const int vertex : triangles[i]) boxes_[i].add(vertices[vertex]);
-        }
+    BruteForceTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles)
+        : vertices_(vertices), triangles_(triangles) {
+        BruteForceTree::refit();
     }
 
     void find(std::span<const Box> boxes, IdLists& found) const override {
@@ -27,7 +25,16 @@ public:
         }
     }
 
+    void refit() override {
+        boxes_.assign(triangles_.size(), {});
+        for (std::size_t i = 0; i < triangles_.size(); ++i) {
+            for (const int vertex : triangles_[i]) boxes_[i].add(vertices_[vertex]);
+        }
+    }
+
 private:
+    std::span<const Vec3> vertices_;
+    std::span<const Triangle> triangles_;
     std::vector<Box> boxes_;
 };
 

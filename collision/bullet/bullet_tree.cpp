@@ -27,16 +27,18 @@ btVector3 to_bullet(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
 /// Bullet's quantized tree: 16 bytes a node; boxes are rounded outwards, so it finds a few triangles more.
 class BulletTree : public ObstacleTree {
 public:
-    BulletTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+    BulletTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) : vertices_(vertices), triangles_(triangles) {
         static_assert(sizeof(Triangle) == 3 * sizeof(int) && sizeof(Vec3) == 3 * sizeof(double));
-        for (const Vec3& x : vertices) bounds_.add(x);
-        // Bullet's interface asks for mutable pointers and only reads.
-        btTriangleIndexVertexArray mesh(static_cast<int>(triangles.size()), const_cast<int*>(triangles[0].data()),
-                                        sizeof(Triangle), static_cast<int>(vertices.size()),
-                                        const_cast<double*>(vertices[0].data()), sizeof(Vec3));
-        const double margin = tolerances::quantised_box * (bounds_.high - bounds_.low).norm();
-        bounds_.grow(margin);
-        tree_.build(&mesh, true, to_bullet(bounds_.low), to_bullet(bounds_.high));
+        set_bounds();
+        btTriangleIndexVertexArray faces = mesh();
+        tree_.build(&faces, true, to_bullet(bounds_.low), to_bullet(bounds_.high));
+    }
+
+    /// From the leaves to the root, the tree's shape as it is, its boxes rounded within new bounds.
+    void refit() override {
+        set_bounds();
+        btTriangleIndexVertexArray faces = mesh();
+        tree_.refit(&faces, to_bullet(bounds_.low), to_bullet(bounds_.high));
     }
 
     void find(std::span<const Box> boxes, IdLists& found) const override {
@@ -50,6 +52,20 @@ public:
     }
 
 private:
+    void set_bounds() {
+        bounds_ = {};
+        for (const Vec3& x : vertices_) bounds_.add(x);
+        bounds_.grow(tolerances::quantised_box * (bounds_.high - bounds_.low).norm());
+    }
+
+    /// Bullet's interface asks for mutable pointers and only reads.
+    btTriangleIndexVertexArray mesh() const {
+        return {static_cast<int>(triangles_.size()), const_cast<int*>(triangles_[0].data()),   sizeof(Triangle),
+                static_cast<int>(vertices_.size()),  const_cast<double*>(vertices_[0].data()), sizeof(Vec3)};
+    }
+
+    std::span<const Vec3> vertices_;
+    std::span<const Triangle> triangles_;
     btOptimizedBvh tree_;
     Box bounds_;
 };

@@ -1,5 +1,6 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/AABB.h>
+#include <fcl/math/bv/utility.h>
 
 #include "detector.h"
 #include "fcl/fcl_tree.h"
@@ -15,8 +16,8 @@ static_assert(sizeof(fcl::AABBd) == 6 * sizeof(double), "FCL must be compiled wi
 /// wrong signs (collision/obstacle/README.md).
 class FclTree : public ObstacleTree {
 public:
-    FclTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
-        std::vector<fcl::Vector3d> points(vertices.begin(), vertices.end());
+    FclTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) : vertices_(vertices) {
+        const std::vector<fcl::Vector3d> points(vertices.begin(), vertices.end());
         std::vector<fcl::Triangle> faces;
         faces.reserve(triangles.size());
         for (const auto& [a, b, c] : triangles) faces.emplace_back(a, b, c);
@@ -34,6 +35,13 @@ public:
             find_one(box, found.ids);
             found.start.push_back(static_cast<int>(found.ids.size()));
         }
+    }
+
+    /// From the leaves to the root, the tree's shape as it is.
+    void refit() override {
+        model_.beginReplaceModel();
+        for (const Vec3& x : vertices_) model_.replaceVertex(x);
+        model_.endReplaceModel(true, true);
     }
 
 private:
@@ -55,6 +63,7 @@ private:
         }
     }
 
+    std::span<const Vec3> vertices_;
     fcl::BVHModel<fcl::AABBd> model_;
 };
 

@@ -110,14 +110,38 @@ std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vect
     return checksum(writer.take());
 }
 
-std::vector<std::array<Pose, 2>> restored_poses(const Obstacles& obstacles, StateReader& state) {
-    std::vector<std::array<Pose, 2>> poses;
+void save_motions(const Obstacles& obstacles, StateWriter& state) {
     for (const auto& obstacle : obstacles) {
-        state(poses.emplace_back());
-        const double scale = obstacle->start_pose().scale;
-        state.demand(poses.back()[0].scale == scale && poses.back()[1].scale == scale, "an obstacle of another size");
+        state(obstacle->start_pose(), obstacle->end_pose());
+        for (const std::span<const Vec3> shape : {obstacle->start_shape(), obstacle->end_shape()}) {
+            for (const Vec3& x : shape) state(x);
+        }
     }
-    return poses;
+}
+
+void set_motions(std::span<const SavedMotion> motions, const Obstacles& obstacles) {
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
+        if (obstacles[i]->deforms()) obstacles[i]->deform(motions[i].start_shape, motions[i].end_shape);
+        obstacles[i]->move(motions[i].start, motions[i].end);
+    }
+}
+
+std::vector<SavedMotion> restored_motions(const Obstacles& obstacles, StateReader& state) {
+    std::vector<SavedMotion> motions;
+    for (const auto& obstacle : obstacles) {
+        SavedMotion& motion = motions.emplace_back();
+        state(motion.start, motion.end);
+        const double scale = obstacle->start_pose().scale;
+        state.demand(motion.start.scale == scale && motion.end.scale == scale, "an obstacle of another size");
+        for (auto* shape : {&motion.start_shape, &motion.end_shape}) {
+            shape->resize(obstacle->start_shape().size());
+            for (Vec3& x : *shape) {
+                state(x);
+                state.demand(x.allFinite(), "an obstacle that is nowhere");
+            }
+        }
+    }
+    return motions;
 }
 
 void save(const CandidateLists& candidates, const Obstacles& obstacles, StateWriter& state) {

@@ -14,8 +14,17 @@ namespace percale {
 std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vector<double>& vertex_thickness,
                          const Obstacles& obstacles);
 
-/// Poses of the obstacles at the start and the end of a step, as they were saved. Throws SceneError for those of another size.
-std::vector<std::array<Pose, 2>> restored_poses(const Obstacles& obstacles, StateReader& state);
+/// Where an obstacle is at the start and the end of a step; shapes of deforming ones alone.
+struct SavedMotion {
+    Pose start, end;
+    std::vector<Vec3> start_shape, end_shape;  // m, of the given vertices before the pose
+};
+
+void save_motions(const Obstacles& obstacles, StateWriter& state);
+/// As they were saved. Throws SceneError for those of another size.
+std::vector<SavedMotion> restored_motions(const Obstacles& obstacles, StateReader& state);
+/// Puts the obstacles there.
+void set_motions(std::span<const SavedMotion> motions, const Obstacles& obstacles);
 
 /// Everything that later calls depend on, all bounds and standing contacts: a resumed run does not depend on when lists were
 /// made. With the obstacles as they are now.

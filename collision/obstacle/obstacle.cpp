@@ -1,8 +1,10 @@
 #include "obstacle/obstacle.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "percale/certify.h"
+#include "percale/error.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -17,10 +19,14 @@ Vec3 inverse_transform(const Pose& pose, const Vec3& x) {
 
 }  // namespace
 
-Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree)
-    : mesh_(mesh), built_(pose), start_pose_(pose), end_pose_(pose), friction_(friction) {
+Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree, SurfaceShape shape)
+    : mesh_(mesh), built_(pose), start_pose_(pose), end_pose_(pose), friction_(friction), shape_(shape) {
     placing_ = std::make_unique<std::array<std::mutex, 16>>();
-    surface_ = make_surface(mesh.vertices, mesh.triangles);
+    surface_ = make_surface(mesh.vertices, mesh.triangles, shape);
+    if (deforms()) {
+        start_shape_ = end_shape_ = mesh.vertices;
+        find_doubles();
+    }
     local_ = surface_.vertices;
     start_ = transform(pose, local_);
     end_ = start_;
@@ -49,23 +55,69 @@ void Obstacle::set_pack_boxes() {
 }
 
 void Obstacle::move(const Pose& start, const Pose& end) {
-    const bool stays = start == start_pose_ && end == end_pose_ && start == end;
+    const bool stays = start == start_pose_ && end == end_pose_ && start == end && !reshaped_;
     if (stays && !moves_) return;
     ++version_;
     start_pose_ = start;
     end_pose_ = end;
-    moves_ = start != end;
+    moves_ = start != end || start_shape_ != end_shape_;
     away_ = start != built_;
+    reshaped_ = false;
+    place_vertices();
+    set_pack_boxes();
+    if (deforms()) refit();
+}
+
+void Obstacle::deform(std::span<const Vec3> start, std::span<const Vec3> end) {
+    for (const std::span<const Vec3> shape : {start, end}) {
+        for (const auto& [one, other] : doubles_) {
+            if (shape[one] == shape[other]) continue;
+            throw SceneError("vertices " + std::to_string(one) + " and " + std::to_string(other) +
+                             " of an obstacle, which its mesh has at one place, part by " +
+                             std::to_string((shape[one] - shape[other]).norm()) + " m");
+        }
+    }
+    start_shape_.assign(start.begin(), start.end());
+    end_shape_.assign(end.begin(), end.end());
+    reshaped_ = true;
+}
+
+/// Given vertices that make one of the surface's.
+void Obstacle::find_doubles() {
+    std::vector<int> order(mesh_.vertices.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto place = [&](int i) {
+        const Vec3& x = mesh_.vertices[i];
+        return std::array{x.x(), x.y(), x.z()};
+    };
+    std::ranges::stable_sort(order, {}, place);
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        if (place(order[i - 1]) == place(order[i])) doubles_.push_back({order[i - 1], order[i]});
+    }
+}
+
+void Obstacle::place_vertices() {
     largest_displacement_ = 0.0;
     for (std::size_t i = 0; i < local_.size(); ++i) {
-        start_[i] = transform(start, local_[i]);
-        end_[i] = moves_ ? transform(end, local_[i]) : start_[i];
+        const int given = surface_.given[i];
+        start_[i] = transform(start_pose_, deforms() ? start_shape_[given] : local_[i]);
+        end_[i] = moves_ ? transform(end_pose_, deforms() ? end_shape_[given] : local_[i]) : start_[i];
         largest_displacement_ = std::max(largest_displacement_, (end_[i] - start_[i]).norm());
     }
-    set_pack_boxes();
+}
+
+/// The tree holds the patches' boxes of the whole step.
+void Obstacle::refit() {
+    boxes_ = packs_.box;
+    for (std::size_t patch = 0; patch < boxes_.size(); ++patch) {
+        stand_in_corners_[2 * patch] = boxes_[patch].low;
+        stand_in_corners_[2 * patch + 1] = boxes_[patch].high;
+    }
+    tree_->refit();
 }
 
 Box Obstacle::to_tree(const Box& box) const {
+    if (deforms()) return box;
     Box grown = box;
     grown.grow(largest_displacement_);
     if (!away_) return grown;
@@ -106,7 +158,7 @@ void Obstacle::find(std::span<const Box> boxes, IdLists& found) {
 
 TriangleMesh Obstacle::given_mesh() const {
     TriangleMesh placed = mesh_;
-    placed.vertices = transform(start_pose_, mesh_.vertices);
+    placed.vertices = transform(start_pose_, std::span<const Vec3>(deforms() ? start_shape_ : mesh_.vertices));
     return placed;
 }
 

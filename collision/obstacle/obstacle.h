@@ -15,10 +15,15 @@ namespace percale {
 /// One obstacle in motion. Within a step each vertex runs straight from its place at the start to its place at the end.
 class Obstacle {
 public:
-    /// `pose` places the mesh (its scale included); the tree is built there, once.
-    Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree);
+    /// `pose` places the mesh (its scale included); the tree is built there, once. That of a deforming obstacle is refitted to
+    /// each step.
+    Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree,
+             SurfaceShape shape = SurfaceShape::rigid);
 
     void move(const Pose& start, const Pose& end);
+    /// Where the given vertices of a deforming obstacle are before its pose, m, at both ends of the step that `move` tells of
+    /// next. Throws SceneError where vertices that the mesh has at one place part.
+    void deform(std::span<const Vec3> start, std::span<const Vec3> end);
 
     const ObstacleSurface& surface() const { return surface_; }
     double friction() const { return friction_; }
@@ -28,8 +33,12 @@ public:
     /// At the two ends of the coming step.
     const Pose& start_pose() const { return start_pose_; }
     const Pose& end_pose() const { return end_pose_; }
-    /// The cleaned vertices without the pose, m.
+    /// The cleaned vertices without the pose, m, as they were given first.
     std::span<const Vec3> local_vertices() const { return local_; }
+    bool deforms() const { return shape_ == SurfaceShape::deforming; }
+    /// The given vertices before the pose at the two ends of the coming step, m. Empty of rigid obstacles.
+    std::span<const Vec3> start_shape() const { return start_shape_; }
+    std::span<const Vec3> end_shape() const { return end_shape_; }
     /// Counts the poses it has had: lists made for another one are no longer good.
     int version() const { return version_; }
 
@@ -55,14 +64,19 @@ public:
 
 private:
     Box to_tree(const Box& box) const;
+    void find_doubles();
+    void place_vertices();
+    void refit();
     void set_pack_boxes();
     void make_patch_tree(TreeFactory make_tree);
     VertexPaths paths() const { return {start_, moves_ ? end_ : start_}; }
 
     TriangleMesh mesh_;
-    ObstacleSurface surface_;        // vertices where the tree was built
-    std::vector<Vec3> local_;        // cleaned vertices before the pose
-    std::vector<Vec3> start_, end_;  // m, world
+    ObstacleSurface surface_;  // vertices where the tree was built
+    std::vector<Vec3> local_;  // cleaned vertices before the pose
+    std::vector<Vec3> start_shape_, end_shape_;
+    std::vector<std::array<int, 2>> doubles_;  // given vertices at one place, of a deforming obstacle
+    std::vector<Vec3> start_, end_;            // m, world
     ObstaclePacks packs_;
     Box whole_box_;
     std::vector<Box> boxes_;  // of the patches where the tree was built
@@ -76,8 +90,10 @@ private:
     double friction_ = 0.0;
     double largest_displacement_ = 0.0;
     int version_ = 0;
+    SurfaceShape shape_ = SurfaceShape::rigid;
     bool moves_ = false;
-    bool away_ = false;  // not where the tree was built
+    bool away_ = false;      // not where the tree was built
+    bool reshaped_ = false;  // `deform` came after the last `move`
 };
 
 }  // namespace percale

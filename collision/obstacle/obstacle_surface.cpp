@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -55,17 +56,19 @@ void keep_good_triangles(std::span<const Vec3> vertices, std::span<const Triangl
     }
 }
 
-/// Keeps of `vertices` those that a triangle of the surface uses.
-void keep_used_vertices(std::span<const Vec3> vertices, ObstacleSurface& surface) {
+/// Keeps of `vertices`, which have these numbers in the given mesh, those that a triangle of the surface uses.
+void keep_used_vertices(std::span<const Vec3> vertices, std::span<const int> given, ObstacleSurface& surface) {
     std::vector<int> number(vertices.size(), -1);
     for (const Triangle& t : surface.triangles) {
         for (const int vertex : t) number[vertex] = 0;
     }
     surface.vertices.clear();
+    surface.given.clear();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         if (number[i] < 0) continue;
         number[i] = static_cast<int>(surface.vertices.size());
         surface.vertices.push_back(vertices[i]);
+        surface.given.push_back(given[i]);
     }
     for (Triangle& t : surface.triangles) {
         for (int& vertex : t) vertex = number[vertex];
@@ -73,7 +76,9 @@ void keep_used_vertices(std::span<const Vec3> vertices, ObstacleSurface& surface
 }
 
 void drop_unused_vertices(std::span<const Vec3> vertices, ObstacleSurface& surface) {
-    keep_used_vertices(vertices, surface);
+    std::vector<int> all(vertices.size());
+    std::iota(all.begin(), all.end(), 0);
+    keep_used_vertices(vertices, all, surface);
     surface.cleaning.unreferenced_vertices =
         static_cast<int>(vertices.size() - surface.vertices.size()) - surface.cleaning.merged_vertices;
 }
@@ -243,16 +248,20 @@ void drop_internal_faces(ObstacleSurface& surface) {
     if (surface.cleaning.internal_triangles == 0) return;
     surface.triangles = std::move(left);
     surface.cleaning.triangles = static_cast<int>(surface.triangles.size());
-    keep_used_vertices(std::vector<Vec3>(surface.vertices), surface);
+    keep_used_vertices(std::vector<Vec3>(surface.vertices), std::vector<int>(surface.given), surface);
     connect(surface);
     surface.watertight = true;
 }
 
 }  // namespace
 
-ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles, SurfaceShape shape) {
     ObstacleSurface surface = clean(vertices, triangles);
     connect(surface);
+    if (shape == SurfaceShape::deforming) {
+        surface.vertex_can_touch.assign(surface.vertices.size(), true);
+        return surface;
+    }
     const bool valleys_are_safe = surface.watertight && faces_outwards(surface);
     if (surface.watertight) drop_internal_faces(surface);
     mark_touchable(surface, valleys_are_safe);

@@ -22,6 +22,7 @@ struct SurfaceEdge {
 /// A cleaned obstacle mesh and its connectivity. Positions are those it was made from; a moving obstacle moves its own copy.
 struct ObstacleSurface {
     std::vector<Vec3> vertices;
+    std::vector<int> given;  // of each vertex: its number in the given mesh, the first of those at its place
     std::vector<Triangle> triangles;
     std::vector<SurfaceEdge> edges;
     std::vector<std::array<int, 3>> triangle_edges;  // edge k joins corners k and k + 1
@@ -40,10 +41,14 @@ struct ObstacleSurface {
     }
 };
 
-/// Merges vertices at the same place, drops triangles without area and repeated ones, those inside a closed surface
-/// (internal_faces.h), and unused vertices.
-/// Throws SceneError if nothing is left.
-ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+/// Whether the surface keeps its shape.
+enum class SurfaceShape { rigid, deforming };
+
+/// Merges vertices at the same place, drops triangles without area and repeated ones, and unused vertices. Of a rigid surface
+/// those inside a closed one (internal_faces.h) as well, and edges that cannot touch are marked; of a deforming one nothing is
+/// known. Throws SceneError if nothing is left.
+ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                             SurfaceShape shape = SurfaceShape::rigid);
 
 /// Whether a point at `foot` on an edge, seen along the unit vector `direction`, is locally the surface's closest: no face at the
 /// edge rises towards the viewer. `at` gives the current position of a vertex.

@@ -16,15 +16,17 @@ struct IdLists {
     std::vector<int> ids;
 };
 
-/// Finds the triangles of one rigid mesh near boxes: all that a backend does. Every triangle whose own box overlaps the asked
+/// Finds the triangles of one mesh near boxes: all that a backend does. Every triangle whose own box overlaps the asked
 /// box is found; more may be, in any order (the caller filters and sorts). Const calls are thread-safe.
 class ObstacleTree {
 public:
     virtual ~ObstacleTree() = default;
     virtual void find(std::span<const Box> boxes, IdLists& found) const = 0;
+    /// The vertices that the tree was made over have other positions now.
+    virtual void refit() = 0;
 };
 
-/// Makes a tree over a mesh; both spans outlive the tree.
+/// Makes a tree over a mesh; both spans outlive the tree, at the same place.
 using TreeFactory = std::unique_ptr<ObstacleTree> (*)(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
 }  // namespace percale

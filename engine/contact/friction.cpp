@@ -67,7 +67,7 @@ void set_slip(const FrictionStart& start, const Vec3& position, double fraction,
     const Vec3 held = start.positions->at(touch.vertex) - (grip ? grip->stretch : Vec3(Vec3::Zero()));
     if (touch.obstacle < static_cast<int>(start.flows.size())) {
         const ObstacleFlow& flow = start.flows[touch.obstacle];
-        touch.flow = flow.turn * held + flow.shift;
+        touch.flow = flow.deforms ? Vec3(touch.carried / touch.load) : Vec3(flow.turn * held + flow.shift);
     }
     touch.slip = tangential(position - held - (fraction - start.fraction) * touch.flow, touch.press.normalized());
 }

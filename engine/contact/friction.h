@@ -13,6 +13,7 @@ namespace percale {
 struct ObstacleFlow {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
     Vec3 shift = Vec3::Zero();
+    bool deforms = false;  // none: each of its points goes its own way, as the rows say
 };
 
 /// Of an obstacle whose vertices go straight from `start` to `end`, for a stage that begins at `fraction` of the step.
@@ -34,6 +35,8 @@ struct Touch {
     double reach = 0.0;           // m, slip up to which it sticks
     bool old = false;             // it held on when the stage began
     Vec3 flow = Vec3::Zero();     // m, how far the point held moves in the whole step
+    Vec3 carried = Vec3::Zero();  // m N, of a deforming obstacle: sum of the rows' displacements times their press
+    double load = 0.0;            // N, sum of the rows' presses likewise
     Vec3 slip = Vec3::Zero();     // m, along the surface, from the point held
     Vec3 heading = Vec3::Zero();  // unit, where the matrix lets it slide; zero: nowhere
 };
@@ -48,7 +51,8 @@ struct Touches {
     const Touch* find(int vertex, int obstacle) const;
 };
 
-/// Sets flow and slip of a touch whose press is known, for the vertex being at `position` at `fraction` of the step.
+/// Sets flow and slip of a touch whose press is known. A point of a deforming obstacle moves as the points that press do in the
+/// mean. For the vertex being at `position` at `fraction` of the step.
 void set_slip(const FrictionStart& start, const Vec3& position, double fraction, Touch& touch);
 
 /// Coulomb's law with a spring that sticks: -press/reach slip up to the reach, press against the slip beyond.

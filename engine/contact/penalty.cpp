@@ -49,13 +49,18 @@ double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep
 
 /// Gives the vertices of a row their share of what presses them to the obstacle. Normals that point apart, of the two sides of a
 /// gap, press both.
-void add_press(const ContactRows& rows, std::size_t row, double normal_force, Touches& touches) {
+void add_press(const ContactRows& rows, std::size_t row, double normal_force, const ContactStep& step, Touches& touches) {
+    const std::span<const ObstacleFlow> flows = step.friction->flows;
+    const bool deforms = rows.obstacle[row] < static_cast<int>(flows.size()) && flows[rows.obstacle[row]].deforms;
     const Vec3 press = rows.friction[row] * normal_force * rows.direction[row];
     for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
         if (rows.weight[row][k] <= 0.0) continue;
         Touch& touch = touches.get(rows.vertex[row][k], rows.obstacle[row]);
         touch.press += (touch.press.dot(press) < 0.0 ? -1.0 : 1.0) * rows.weight[row][k] * press;
         touch.reach = stick_reach_share * rows.thickness[row];
+        if (!deforms) continue;
+        touch.load += rows.weight[row][k] * normal_force;
+        touch.carried += rows.weight[row][k] * normal_force * rows.obstacle_displacement[row];
     }
 }
 
@@ -180,7 +185,7 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
         terms.energy += potential.energy;
         terms.largest_stiffness = std::max(terms.largest_stiffness, stiffness);
         terms.obstacle_power += force.dot(rows.obstacle_displacement[row]) * step.obstacle_rate;
-        if (rubs && on_obstacle) add_press(rows, row, potential.slope, terms.touches);
+        if (rubs && on_obstacle) add_press(rows, row, potential.slope, step, terms.touches);
     }
     for (Touch& touch : terms.touches.all) add_friction(step, positions, touch, forces, terms);
 }

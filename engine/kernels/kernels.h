@@ -161,8 +161,8 @@ struct MembranePass {
     float* values;         // SpringPass::values, added to; null without matrix
 };
 
-/// Edges that hold back beyond a length, at the entries of their springs: T = max(0, h + k (l - L)). No edge shorter than the root
-/// of `slack_square` pulls; the largest number where nothing is limited.
+/// Edges that hold back beyond a length, at the entries of their springs: T = max(0, h + k (l - L)). No edge shorter than the
+/// root of `slack_square` pulls; the largest number where nothing is limited.
 struct LimitEntries {
     const double *slack_square, *length, *stiffness, *hold;  // m^2, L m, k N/m, h N
 };

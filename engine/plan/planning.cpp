@@ -19,7 +19,7 @@ bool pins_move(const StepScene& scene, const ClothState& state) {
 
 bool obstacles_move(const StepScene& scene) {
     return std::any_of(scene.script.obstacles.begin(), scene.script.obstacles.end(),
-                       [](const ObstacleState& obstacle) { return obstacle.start != obstacle.end; });
+                       [](const ObstacleState& obstacle) { return obstacle.moves(); });
 }
 
 bool seams_close(const StepScene& scene, double time) {

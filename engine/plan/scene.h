@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernels/compute.h"
@@ -13,13 +16,38 @@
 
 namespace percale {
 
+/// Where the vertices of a deforming obstacle's mesh are before its pose, m.
+using Shape = std::shared_ptr<const std::vector<Vec3>>;
+
 struct ObstacleState {
     std::string name;
-    Pose start, end;  // of the coming step
+    Pose start, end;                         // of the coming step
+    Shape start_shape = {}, end_shape = {};  // likewise; null: it is rigid
+    double shape_travel = 0.0;               // m, largest displacement between them, the pose's scale included
     int triangles = 0;
     double restitution = 0.0;
     double reach = 0.0;   // m, of its farthest vertex from the mesh's origin, the pose's scale included
     bool settled = true;  // the detector knows that it stays at `start`
+
+    bool deforms() const { return start_shape != end_shape; }
+    bool moves() const { return start != end || deforms(); }
+    /// Sets the shape at the end of the step.
+    void go_to(Shape shape) {
+        double travel = 0.0, farthest = 0.0;
+        for (std::size_t i = 0; i < shape->size(); ++i) {
+            travel = std::max(travel, ((*shape)[i] - (*start_shape)[i]).squaredNorm());
+            farthest = std::max(farthest, (*shape)[i].squaredNorm());
+        }
+        end_shape = travel > 0.0 ? std::move(shape) : start_shape;
+        shape_travel = start.scale * std::sqrt(travel);
+        reach = std::max(reach, start.scale * std::sqrt(farthest));
+    }
+    /// It is at the end of its motion.
+    void arrive() {
+        start = end;
+        start_shape = end_shape;
+        shape_travel = 0.0;
+    }
 };
 
 /// What the script says about the coming step.

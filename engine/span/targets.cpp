@@ -26,6 +26,7 @@ void set_flows(const StepScene& scene, double fraction, std::vector<ObstacleFlow
     if (!scene.plan.obstacles_move) return;
     for (const ObstacleState& obstacle : scene.script.obstacles) {
         flows.push_back(obstacle_flow(obstacle.start, obstacle.end, fraction));
+        flows.back().deforms = obstacle.deforms();
     }
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "start_repair.h"
+#include "step/motion.h"
 
 namespace percale {
 namespace {
@@ -95,7 +96,10 @@ void place_obstacles(World& world) {
     for (std::size_t k = 0; k < world.scene.script.obstacles.size(); ++k) {
         ObstacleState& obstacle = world.scene.script.obstacles[k];
         if (obstacle.settled) continue;
-        world.scene.detector->move_obstacle(static_cast<int>(k), obstacle.start, obstacle.start);
+        ObstacleState there = obstacle;
+        there.end = there.start;
+        there.end_shape = there.start_shape;
+        tell_obstacle(there, static_cast<int>(k), *world.scene.detector);
         obstacle.settled = true;
     }
 }

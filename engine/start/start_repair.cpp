@@ -31,7 +31,10 @@ public:
         world.scene.settings.newton_tolerance.reset();
         world.scene.settings.newton_iterations = 1;  // linearly implicit: a share of the way, at a bounded cost
         world.scene.script.pin_targets = world.state.cloth.positions;
-        for (ObstacleState& obstacle : world.scene.script.obstacles) obstacle.end = obstacle.start;
+        for (ObstacleState& obstacle : world.scene.script.obstacles) {
+            obstacle.end = obstacle.start;
+            obstacle.end_shape = obstacle.start_shape;
+        }
         scene_changed(world);
     }
     ~Paused() {
@@ -41,7 +44,10 @@ public:
         world_.state.cloth.velocities = velocities_;
         world_.state.cloth.grips.clear();
         world_.scene.script.pin_targets = targets_;
-        for (std::size_t k = 0; k < obstacles_.size(); ++k) world_.scene.script.obstacles[k].end = obstacles_[k].end;
+        for (std::size_t k = 0; k < obstacles_.size(); ++k) {
+            world_.scene.script.obstacles[k].end = obstacles_[k].end;
+            world_.scene.script.obstacles[k].end_shape = obstacles_[k].end_shape;
+        }
         world_.state.contact_energy = 0.0;
         scene_changed(world_);
     }

@@ -20,6 +20,7 @@ namespace percale {
 struct SavedObstacle {
     Pose start, end;
     bool settled = true;
+    std::vector<Vec3> start_shape, end_shape;  // empty: it is rigid; the second, too, where it is the first
 };
 
 /// Forces by row, in the order of their keys.
@@ -73,7 +74,7 @@ void exchange(Archive& archive, Value& state) {
 
 template <class Archive, OfType<SavedObstacle> Value>
 void exchange(Archive& archive, Value& obstacle) {
-    archive(obstacle.start, obstacle.end, obstacle.settled);
+    archive(obstacle.start, obstacle.end, obstacle.settled, obstacle.start_shape, obstacle.end_shape);
 }
 
 template <class Archive, OfType<Seam> Value>
@@ -158,7 +159,11 @@ SavedWorld state_of(const World& world) {
     saved.contact = {contact.last.all(), contact.lasting.all(), contact.least_distance};
     saved.free = scene.script.free;
     saved.pin_targets = scene.script.pin_targets;
-    for (const ObstacleState& o : scene.script.obstacles) saved.obstacles.push_back({o.start, o.end, o.settled});
+    for (const ObstacleState& o : scene.script.obstacles) {
+        saved.obstacles.push_back({o.start, o.end, o.settled, {}, {}});
+        if (o.start_shape) saved.obstacles.back().start_shape = *o.start_shape;
+        if (o.deforms()) saved.obstacles.back().end_shape = *o.end_shape;
+    }
     saved.seams = scene.script.seams;
     for (const SewnPoint& point : scene.model.sewn_points) saved.sewn_directions.push_back(point.direction);
     copy_holds(scene.model, saved.holds);
@@ -252,6 +257,14 @@ private:
         };
         reader_.demand(std::ranges::equal(saved_.obstacles, world_.scene.script.obstacles, same_size),
                        "obstacles of other sizes");
+        const auto same_shape = [](const SavedObstacle& a, const ObstacleState& b) {
+            const std::size_t vertices = b.start_shape ? b.start_shape->size() : 0;
+            const bool whole =
+                std::ranges::all_of(a.start_shape, &Vec3::allFinite) && std::ranges::all_of(a.end_shape, &Vec3::allFinite);
+            return whole && a.start_shape.size() == vertices && (a.end_shape.empty() || a.end_shape.size() == vertices);
+        };
+        reader_.demand(std::ranges::equal(saved_.obstacles, world_.scene.script.obstacles, same_shape),
+                       "obstacles of other shapes");
         reader_.demand(saved_.clamps.size() == world_.scene.model.hinges.all.size(), "a wrong number of hinges");
         bool same = saved_.seams.size() == world_.scene.script.seams.size();
         for (std::size_t k = 0; same && k < saved_.seams.size(); ++k) {
@@ -314,6 +327,13 @@ private:
     const StateReader& reader_;
 };
 
+void put_shape(SavedObstacle&& saved, ObstacleState& obstacle) {
+    if (saved.start_shape.empty()) return;
+    const auto shared = [](std::vector<Vec3>& shape) { return std::make_shared<const std::vector<Vec3>>(std::move(shape)); };
+    obstacle.start_shape = shared(saved.start_shape);
+    obstacle.go_to(saved.end_shape.empty() ? obstacle.start_shape : shared(saved.end_shape));
+}
+
 void put_script(SavedWorld& saved, Script& script) {
     script.free = std::move(saved.free);
     script.pin_targets = std::move(saved.pin_targets);
@@ -321,6 +341,7 @@ void put_script(SavedWorld& saved, Script& script) {
         ObstacleState& obstacle = script.obstacles[k];
         obstacle.start = saved.obstacles[k].start;
         obstacle.end = saved.obstacles[k].end;
+        put_shape(std::move(saved.obstacles[k]), obstacle);
         obstacle.settled = saved.obstacles[k].settled;
     }
     for (std::size_t k = 0; k < saved.seams.size(); ++k) saved.seams[k].stitches = std::move(script.seams[k].stitches);

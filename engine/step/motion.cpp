@@ -8,18 +8,23 @@
 
 namespace percale {
 
+void tell_obstacle(const ObstacleState& obstacle, int number, ContactDetector& detector) {
+    if (obstacle.start_shape) detector.deform_obstacle(number, *obstacle.start_shape, *obstacle.end_shape);
+    detector.move_obstacle(number, obstacle.start, obstacle.end);
+}
+
 void tell_obstacles(StepScene& scene) {
     for (std::size_t k = 0; k < scene.script.obstacles.size(); ++k) {
         ObstacleState& obstacle = scene.script.obstacles[k];
-        const bool stays = obstacle.start == obstacle.end;
+        const bool stays = !obstacle.moves();
         if (stays && obstacle.settled && !scene.plan.still_obstacles) continue;
-        scene.detector->move_obstacle(static_cast<int>(k), obstacle.start, obstacle.end);
+        tell_obstacle(obstacle, static_cast<int>(k), *scene.detector);
         obstacle.settled = stays;
     }
 }
 
 void finish_motion(StepScene& scene) {
-    for (ObstacleState& obstacle : scene.script.obstacles) obstacle.start = obstacle.end;
+    for (ObstacleState& obstacle : scene.script.obstacles) obstacle.arrive();
 }
 
 namespace {
@@ -44,7 +49,7 @@ struct PartsAsked {
         const double turns = angle_between(start.rotation, end.rotation) / largest_part_turn;
         for (const ClothAhead& cloth : cloths) {
             if (!cloth.meets(start.translation, end.translation, obstacle.reach)) continue;
-            const double travel = travel_beside(cloth, displacement_of(obstacle));
+            const double travel = travel_beside(cloth, displacement_of(obstacle)) + obstacle.shape_travel;
             const double asked = std::max(turns, travel / (largest_part_travel * cloth.thickness()));
             if (asked <= parts) continue;
             parts = asked;
@@ -68,8 +73,8 @@ private:
 
 /// Whether an obstacle goes or turns farther than a part allows, whatever the cloth, of which this is the least thickness, does.
 bool goes_far(const ObstacleState& obstacle, double least_thickness) {
-    if (obstacle.start == obstacle.end) return false;
-    return displacement_of(obstacle).norm() > largest_part_travel * least_thickness ||
+    if (!obstacle.moves()) return false;
+    return displacement_of(obstacle).norm() + obstacle.shape_travel > largest_part_travel * least_thickness ||
            angle_between(obstacle.start.rotation, obstacle.end.rotation) > largest_part_turn;
 }
 

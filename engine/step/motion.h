@@ -5,6 +5,9 @@
 
 namespace percale {
 
+/// Tells the detector where the obstacle of a number is at the ends of the coming step.
+void tell_obstacle(const ObstacleState& obstacle, int number, ContactDetector& detector);
+
 /// Tells the detector where obstacles are at the ends of the coming step, where it does not know it yet.
 void tell_obstacles(StepScene& scene);
 

@@ -8,6 +8,14 @@
 namespace percale {
 namespace {
 
+/// The shape of an obstacle after a share of the step.
+Shape shape_after(double share, const ObstacleState& obstacle) {
+    if (share == 1.0) return obstacle.end_shape;
+    auto between = std::make_shared<std::vector<Vec3>>(*obstacle.start_shape);
+    for (std::size_t i = 0; i < between->size(); ++i) (*between)[i] += share * ((*obstacle.end_shape)[i] - (*between)[i]);
+    return between;
+}
+
 /// What steps change of a simulation and its script, as it was before the first part. Cloth at rest is awake by then.
 class Beginning {
 public:
@@ -25,6 +33,7 @@ public:
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
             const auto& [start, end] = std::pair(obstacles_[k].start, obstacles_[k].end);
             script.obstacles[k].end = share == 1.0 || start == end ? end : interpolate(start, end, share);
+            if (obstacles_[k].deforms()) script.obstacles[k].end_shape = shape_after(share, obstacles_[k]);
         }
         for (int i = 0; i < vertices_; ++i) {
             if (script.free[i] > 0.0) continue;
@@ -44,6 +53,7 @@ public:
         put_holds(holds_, world.scene.model);
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
             world.scene.script.obstacles[k].start = obstacles_[k].start;
+            world.scene.script.obstacles[k].start_shape = obstacles_[k].start_shape;
             world.scene.script.obstacles[k].settled = false;
         }
     }

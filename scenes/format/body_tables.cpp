@@ -4,6 +4,7 @@
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
+#include "format/frame_keys.h"
 
 namespace percale::scenes {
 namespace {
@@ -411,7 +412,7 @@ const FieldTable<ObstacleSpec>& obstacle_table() {
     static const FieldTable<ObstacleSpec> table = {
         .fields = {name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
                    mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."),
-                   unit_field<ObstacleSpec>(), part_field<ObstacleSpec>(),
+                   unit_field<ObstacleSpec>(), part_field<ObstacleSpec>(), frames_field(), fps_field(),
                    table_field<ObstacleSpec>(
                        {.path = "shape",
                         .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",

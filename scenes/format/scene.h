@@ -85,6 +85,8 @@ struct ObstacleSpec {
     Pose pose;
     std::vector<Keyframe> motion;  // ascending times
     std::optional<Spin> spin;
+    std::optional<std::array<int, 2>> frames;  // first and last number of the files that `mesh` names by %d
+    double fps = 30.0;                         // 1/s, of these
     SourcePlace place;
 };
 

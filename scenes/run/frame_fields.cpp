@@ -10,9 +10,7 @@ void place_shapes(const BuiltScene& built, std::span<TriangleMesh> cloths, std::
         const std::span<const Vec3> positions = simulation.positions(built.cloths[i]);
         cloths[i].vertices.assign(positions.begin(), positions.end());
     }
-    for (std::size_t i = 0; i < obstacles.size(); ++i)
-        obstacles[i].vertices =
-            transform(simulation.obstacle_pose(built.obstacles[i]), std::span<const Vec3>(built.obstacle_meshes[i].vertices));
+    for (std::size_t i = 0; i < obstacles.size(); ++i) obstacles[i].vertices = obstacle_now(built, i).vertices;
 }
 
 std::vector<MeshFields> fields_of(const BuiltScene& built, std::span<const TriangleMesh> cloths,

@@ -109,9 +109,15 @@ void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
 }
 
 void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
-    TriangleMesh mesh = obstacle_mesh(built.scene, obstacle, &built.warnings);
+    std::shared_ptr<MeshSequence> sequence;
+    if (obstacle.frames) sequence = std::make_shared<MeshSequence>(built.scene, obstacle, &built.warnings);
+    TriangleMesh mesh = sequence ? sequence->first() : obstacle_mesh(built.scene, obstacle, &built.warnings);
     check_mesh(mesh, told(obstacle), false);
-    const ObstacleSettings settings{.friction = obstacle.friction, .restitution = obstacle.restitution, .name = obstacle.name};
+    const ObstacleSettings settings{.friction = obstacle.friction,
+                                    .restitution = obstacle.restitution,
+                                    .name = obstacle.name,
+                                    .deforming = sequence != nullptr};
+    built.sequences.push_back(std::move(sequence));
     built.obstacles.push_back(built.simulation.add_obstacle(mesh, obstacle_pose_at(obstacle, 0.0), settings));
     built.obstacle_meshes.push_back(std::move(mesh));
 }
@@ -183,10 +189,8 @@ const SourcePlace& place_of_triangle(const BuiltScene& built, int triangle) {
     if (error.fault().between_cloths())
         throw StartRefused(place_of_triangle(built, error.fault().cloth_triangle), error.what(), {});
     const auto number = static_cast<std::size_t>(error.fault().obstacle);
-    TriangleMesh obstacle = built.obstacle_meshes.at(number);
-    obstacle.vertices =
-        transform(built.simulation.obstacle_pose(built.obstacles[number]), std::span<const Vec3>(obstacle.vertices));
-    throw StartRefused(built.scene.obstacles.at(number).place, error.what(), offending_triangles(built.cloth_meshes, obstacle));
+    throw StartRefused(built.scene.obstacles.at(number).place, error.what(),
+                       offending_triangles(built.cloth_meshes, obstacle_now(built, number)));
 }
 
 void check_start(BuiltScene& built) {
@@ -221,6 +225,14 @@ std::string torn_text(const Scene& scene, double strain) {
 
 }  // namespace
 
+TriangleMesh obstacle_now(const BuiltScene& built, std::size_t obstacle) {
+    TriangleMesh mesh = built.obstacle_meshes[obstacle];
+    const std::span<const Vec3> shape = built.simulation.obstacle_shape(built.obstacles[obstacle]);
+    mesh.vertices = transform(built.simulation.obstacle_pose(built.obstacles[obstacle]),
+                              shape.empty() ? std::span<const Vec3>(mesh.vertices) : shape);
+    return mesh;
+}
+
 std::vector<std::string> strain_warnings(const BuiltScene& built, double largest_strain) {
     std::vector<std::string> warnings;
     if (largest_strain > torn_strain) warnings.push_back(torn_text(built.scene, largest_strain));
@@ -245,6 +257,8 @@ std::vector<ClothStitches> sewn_stitches(const BuiltScene& built) {
 
 TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings) {
     if (obstacle.mesh.empty()) return shape_mesh(obstacle.shape);
+    if (obstacle.frames) return MeshSequence(scene, obstacle, warnings).first();
+    check_still(obstacle);
     return import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit, warnings, obstacle.part);
 }
 
@@ -260,6 +274,7 @@ BuiltScene build_scene(const Scene& given) {
                      .rest_shapes = {},
                      .obstacles = {},
                      .obstacle_meshes = {},
+                     .sequences = {},
                      .pattern_seams = {},
                      .seams = {},
                      .warnings = {}};

@@ -13,6 +13,7 @@ void move_obstacles(BuiltScene& built, double end) {
     for (std::size_t i = 0; i < built.obstacles.size(); ++i) {
         const Pose pose = obstacle_pose_at(built.scene.obstacles[i], end);
         if (pose != built.simulation.obstacle_pose(built.obstacles[i])) built.simulation.move_obstacle(built.obstacles[i], pose);
+        if (built.sequences[i]) built.simulation.move_obstacle(built.obstacles[i], built.sequences[i]->at(end));
     }
 }
 
@@ -31,7 +32,7 @@ void Timeline::apply(BuiltScene& built, double time, double dt) {
 bool Timeline::more_to_come(const Scene& scene, double time) const {
     const auto moves = [&](const ObstacleSpec& obstacle) {
         const bool spins = obstacle.spin && obstacle.spin->turns_per_s != 0.0;
-        return spins || (!obstacle.motion.empty() && obstacle.motion.back().time > time);
+        return spins || (!obstacle.motion.empty() && obstacle.motion.back().time > time) || end_of_frames(obstacle) > time;
     };
     return next_event_ < events_.size() || !moving_pins_.empty() ||
            std::any_of(scene.obstacles.begin(), scene.obstacles.end(), moves) ||

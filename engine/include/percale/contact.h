@@ -139,6 +139,14 @@ public:
     /// change.
     virtual void move_obstacle(int obstacle, const Pose& start, const Pose& end) = 0;
 
+    /// The same of an obstacle that changes its shape: whose every vertex may go its own way. A detector need not be able to.
+    virtual int add_deforming_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction);
+
+    /// Before move_obstacle, which places it: where the vertices of a deforming obstacle's mesh are before its pose, m, at the
+    /// two ends of the coming step and of all later ones until the next call. Throws SceneError where vertices that the mesh has
+    /// at one place part.
+    virtual void deform_obstacle(int obstacle, std::span<const Vec3> start, std::span<const Vec3> end);
+
     /// Whether this start may be simulated: no crossing, no touching, no vertex inside a watertight obstacle; no cloth
     /// crosses or touches cloth that it meets.
     virtual StartFault check_start(std::span<const Vec3> positions) = 0;
@@ -187,6 +195,12 @@ public:
     virtual void restore(StateReader& state);
 };
 
+inline int ContactDetector::add_deforming_obstacle(const TriangleMesh&, const Pose&, double) {
+    throw SceneError("this contact detector knows rigid obstacles only");
+}
+inline void ContactDetector::deform_obstacle(int, std::span<const Vec3>, std::span<const Vec3>) {
+    throw SceneError("this contact detector knows rigid obstacles only");
+}
 inline void ContactDetector::set_self_contact(const SelfContact&) {
     throw SceneError("this contact detector knows obstacles only; self_contact must be false");
 }

@@ -38,6 +38,7 @@ struct ObstacleSettings {
     double friction = 0.3;          // Coulomb coefficient against cloth, 0 ... 10
     double restitution = 0.0;       // share of its normal speed with which cloth that hits it leaves, 0 ... 1
     std::string name = "obstacle";  // for messages
+    bool deforming = false;         // its vertices may move one by one; costs contacts more, and time
 };
 
 /// Cloth, obstacles and their motion in time. Wrong arguments throw SceneError from the call that was wrong; a step never
@@ -70,6 +71,10 @@ public:
     /// (StepReport::parts); beyond 64 it fails at once. What jumps is no motion, nor is a character's first place: `teleport`.
     /// Where `prepare` has refused the start for this obstacle, it is there at once.
     void move_obstacle(ObstacleId obstacle, const Pose& end);
+    /// Where the vertices of a deforming obstacle are at the end of the next step, m, in the order and the axes of its mesh: its
+    /// pose comes on top. They then stay there. In between each runs straight. What is said of far motion holds for its farthest
+    /// vertex. Vertices that the mesh has at one place have to stay together.
+    void move_obstacle(ObstacleId obstacle, std::span<const Vec3> end);
     void set_gravity(const Vec3& gravity);  // m/s^2
     /// Velocity of the air, m/s; before the first call there is no air (StepSettings::wind). Drag: Fabric::drag_normal,
     /// drag_tangential, StepSettings::air_density. In an implicit step triangles meet the air as they lay at its start.
@@ -127,6 +132,8 @@ public:
     /// Lumped masses, kg.
     std::span<const double> masses(ClothId cloth) const;
     Pose obstacle_pose(ObstacleId obstacle) const;
+    /// Where the vertices of an obstacle's mesh are before its pose, m, those of a rigid one none.
+    std::span<const Vec3> obstacle_shape(ObstacleId obstacle) const;
     /// Energies of the current state, J; `work` is 0.
     StepEnergy energy() const;
     /// Of structural springs, (l - l0)/l0, in the current state; 0 without any.

@@ -92,6 +92,36 @@ TEST_CASE("every backend gives the same patches, none missing, at rest, turned a
     }
 }
 
+TEST_CASE("every backend gives the same patches of an obstacle that changes its shape, none missing") {
+    const TriangleMesh mesh = mesh_number(GENERATE(0, 1, 2, 3, 4));
+    Random random(37);
+    std::vector<Obstacle> obstacles;
+    for (const Backend& backend : backends())
+        obstacles.emplace_back(mesh, Pose{}, 0.3, backend.make_tree, SurfaceShape::deforming);
+    const std::vector<Box> asked = asked_boxes(120, 38);
+    std::vector<Vec3> shape = mesh.vertices;
+    for (int round = 0; round < 20; ++round) {
+        const std::vector<Vec3> start = shape;
+        const double size = random.decades(1e-3, 0.5);
+        for (Vec3& x : shape) x += random.point(size);
+        const Pose start_pose = random.pose(0.2), end_pose = round % 2 == 0 ? start_pose : random.pose(0.2);
+        std::vector<std::vector<int>> first;
+        for (Obstacle& obstacle : obstacles) {
+            obstacle.deform(start, shape);
+            obstacle.move(start_pose, end_pose);
+            const auto found = lists(obstacle, asked);
+            if (first.empty()) first = found;
+            CHECK(found == first);
+        }
+        CHECK(missing(obstacles[0], asked, first) == 0);
+        CHECK(all_ids(first) > 0);
+        const int v = random.index(static_cast<int>(obstacles[0].surface().vertices.size()));
+        const int given = obstacles[0].surface().given[v];
+        CHECK(obstacles[0].at(v, 0.0) == transform(start_pose, start[given]));
+        CHECK((obstacles[0].at(v, 1.0) - transform(end_pose, shape[given])).norm() < 1e-14);
+    }
+}
+
 TEST_CASE("at rest where it was built an obstacle gives exactly the patches whose boxes overlap") {
     const Pose pose = Random(32).pose(0.2);
     Obstacle obstacle = make(make_sphere(0.5, 2), pose);

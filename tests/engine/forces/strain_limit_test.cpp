@@ -44,7 +44,9 @@ struct LimitedSheet {
 
 }  // namespace
 
-TEST_CASE("Limited edges pull with h + k (l - L) along themselves and store T^2/2k, with dt^2 k along and dt^2 T/l across in the matrix") {
+TEST_CASE(
+    "Limited edges pull with h + k (l - L) along themselves and store T^2/2k, with dt^2 k along and dt^2 T/l across in the "
+    "matrix") {
     for (const bool grid : {true, false}) {
         LimitedSheet sheet(grid);
         sheet.evaluate();
