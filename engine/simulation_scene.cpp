@@ -110,11 +110,11 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
     world.scene.script.obstacles.push_back({.name = settings.name,
                                             .start = placed,
                                             .end = placed,
-                                            .start_shape = shape,
-                                            .end_shape = shape,
                                             .triangles = static_cast<int>(mesh.triangles.size()),
                                             .restitution = settings.restitution,
-                                            .reach = placed.scale * std::sqrt(square)});
+                                            .reach = placed.scale * std::sqrt(square),
+                                            .start_shape = shape,
+                                            .end_shape = shape});
     world.changed = true;
     scene_changed(world);
     return {static_cast<int>(world.scene.script.obstacles.size()) - 1};

@@ -21,13 +21,14 @@ using Shape = std::shared_ptr<const std::vector<Vec3>>;
 
 struct ObstacleState {
     std::string name;
-    Pose start, end;                         // of the coming step
-    Shape start_shape = {}, end_shape = {};  // likewise; null: it is rigid
-    double shape_travel = 0.0;               // m, largest displacement between them, the pose's scale included
+    Pose start, end;  // of the coming step
     int triangles = 0;
     double restitution = 0.0;
     double reach = 0.0;   // m, of its farthest vertex from the mesh's origin, the pose's scale included
     bool settled = true;  // the detector knows that it stays at `start`
+
+    Shape start_shape = {}, end_shape = {};  // of the coming step; null: it is rigid
+    double shape_travel = 0.0;               // m, largest displacement between them, the pose's scale included
 
     bool deforms() const { return start_shape != end_shape; }
     bool moves() const { return start != end || deforms(); }

@@ -34,6 +34,10 @@ std::vector<AttachedPin> attached_pins(const Scene& scene, std::span<const Trian
         const auto* box = std::get_if<VertexBox>(&cloth.pin);
         if (box == nullptr || box->to.empty()) continue;
         const int obstacle = obstacle_number(scene, cloth, box->to);
+        if (scene.obstacles[static_cast<std::size_t>(obstacle)].frames) {
+            fail_at(cloth.pin_place,
+                    "pin.to: '" + box->to + "' changes its shape (frames); pins keep their place on rigid obstacles");
+        }
         const Pose start = obstacle_pose_at(scene.obstacles[static_cast<std::size_t>(obstacle)], 0.0);
         for (const int vertex : select_vertices(cloth.pin, cloth_meshes[i], cloth.name)) {
             const Vec3& x = cloth_meshes[i].vertices[static_cast<std::size_t>(vertex)];

@@ -15,7 +15,7 @@ struct AttachedPin {
 };
 
 /// All of a scene, as its cloths start (in world coordinates, in the order of scene.cloths). Throws SceneError with the place of
-/// `pin` where there is no such obstacle.
+/// `pin` where there is no such obstacle, or it is not rigid.
 std::vector<AttachedPin> attached_pins(const Scene& scene, std::span<const TriangleMesh> cloth_meshes);
 
 /// Where such a pin is at a time, m, world.

@@ -42,8 +42,8 @@ GARMENTS = {
 }
 
 
-def fetch(source, folder):
-    for repository, files in FILES.items():
+def fetch(source, folder, wanted=FILES):
+    for repository, files in wanted.items():
         missing = [file for file in files if not (folder / pathlib.Path(file).name).exists()]
         if not missing:
             continue

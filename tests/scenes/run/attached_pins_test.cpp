@@ -43,4 +43,8 @@ TEST_CASE("pins in the world are not attached, and an obstacle that there is not
     CHECK(attached_pins(parse_scene(small_scene() + "pin = [0, 1]\n", "t"), {}).empty());
     CHECK(error_of([] { build_scene(held_by_ball("bal")); }) ==
           "t:8:15: pin.to: no obstacle 'bal'; did you mean 'ball'? valid: ball");
+    Scene bending = held_by_ball();
+    const BuiltScene built = build_scene(bending);
+    bending.obstacles[0].frames = std::array{0, 1};
+    CHECK(error_of([&] { attached_pins(bending, built.cloth_meshes); }).find("'ball' changes its shape") != std::string::npos);
 }
