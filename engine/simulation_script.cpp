@@ -50,7 +50,7 @@ void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
     state.settled = false;
 }
 
-void Simulation::move_obstacle(ObstacleId obstacle, std::span<const Vec3> end) {
+void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end) {
     ObstacleState& state = implementation_->obstacle(obstacle);
     if (!state.start_shape) throw SceneError(state.name, "is rigid; to move its vertices add it with deforming = true");
     if (end.size() != state.start_shape->size()) {

@@ -13,7 +13,7 @@ void move_obstacles(BuiltScene& built, double end) {
     for (std::size_t i = 0; i < built.obstacles.size(); ++i) {
         const Pose pose = obstacle_pose_at(built.scene.obstacles[i], end);
         if (pose != built.simulation.obstacle_pose(built.obstacles[i])) built.simulation.move_obstacle(built.obstacles[i], pose);
-        if (built.sequences[i]) built.simulation.move_obstacle(built.obstacles[i], built.sequences[i]->at(end));
+        if (built.sequences[i]) built.simulation.deform_obstacle(built.obstacles[i], built.sequences[i]->at(end));
     }
 }
 

@@ -74,7 +74,7 @@ public:
     /// Where the vertices of a deforming obstacle are at the end of the next step, m, in the order and the axes of its mesh: its
     /// pose comes on top. They then stay there. In between each runs straight. What is said of far motion holds for its farthest
     /// vertex. Vertices that the mesh has at one place have to stay together.
-    void move_obstacle(ObstacleId obstacle, std::span<const Vec3> end);
+    void deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end);
     void set_gravity(const Vec3& gravity);  // m/s^2
     /// Velocity of the air, m/s; before the first call there is no air (StepSettings::wind). Drag: Fabric::drag_normal,
     /// drag_tangential, StepSettings::air_density. In an implicit step triangles meet the air as they lay at its start.

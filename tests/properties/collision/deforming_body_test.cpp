@@ -47,7 +47,7 @@ struct Breathing {
     }
 
     StepReport step() {
-        simulation.move_obstacle(body, breathing(ball, ++steps * dt));
+        simulation.deform_obstacle(body, breathing(ball, ++steps * dt));
         const StepReport report = simulation.step();
         CAPTURE(report.explanation());
         REQUIRE(report.ok());
@@ -105,7 +105,7 @@ TEST_CASE("A bending body is met alike by every tree, on any number of threads, 
     }
     Breathing saved, resumed;
     for (int n = 0; n < 15; ++n) saved.step();
-    saved.simulation.move_obstacle(saved.body, breathing(saved.ball, 16 * dt));  // told, not yet gone
+    saved.simulation.deform_obstacle(saved.body, breathing(saved.ball, 16 * dt));  // told, not yet gone
     resumed.simulation.restore(saved.simulation.save());
     CHECK(same_bits(std::vector<Vec3>(resumed.simulation.obstacle_shape(resumed.body).begin(),
                                       resumed.simulation.obstacle_shape(resumed.body).end()),
@@ -129,7 +129,7 @@ TEST_CASE("A shape that moves as a whole carries cloth as a pose does") {
             const Pose pose{.translation = {0.4 * t * t, 0.05 * t, 0.0},
                             .rotation = {std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0}};
             if (by_shape) {
-                simulation.move_obstacle(body, transform(pose, std::span<const Vec3>(plate.vertices)));
+                simulation.deform_obstacle(body, transform(pose, std::span<const Vec3>(plate.vertices)));
             } else {
                 simulation.move_obstacle(body, pose);
             }
@@ -150,13 +150,13 @@ TEST_CASE("A body that swells by much in one step is followed in parts, or the s
     for (int n = 0; n < 20; ++n) scene.step();
     std::vector<Vec3> swollen = breathing(scene.ball, 20 * dt);
     for (Vec3& x : swollen) x.y() += 0.4;
-    scene.simulation.move_obstacle(scene.body, swollen);
+    scene.simulation.deform_obstacle(scene.body, swollen);
     const StepReport report = scene.simulation.step();
     CHECK(report.parts > 2);
     CHECK(report.ok());
     CHECK(scene.certificate().clean());
     for (Vec3& x : swollen) x.y() += 40.0;
-    scene.simulation.move_obstacle(scene.body, swollen);
+    scene.simulation.deform_obstacle(scene.body, swollen);
     const std::uint64_t before = scene.simulation.state_hash();
     CHECK_FALSE(scene.simulation.step().ok());
     CHECK(scene.simulation.state_hash() == before);
@@ -170,7 +170,7 @@ TEST_CASE("A shape on a pose, moved in turns by either") {
         simulation.add_obstacle(ball, {.translation = {1.0, 0.0, 0.0}, .scale = 2.0}, {.name = "ball", .deforming = true});
     std::vector<Vec3> flat = ball.vertices;
     for (Vec3& x : flat) x.y() *= 0.5;
-    simulation.move_obstacle(body, flat);
+    simulation.deform_obstacle(body, flat);
     REQUIRE(simulation.step().ok());
     simulation.move_obstacle(body, Pose{.translation = {1.0, 0.12, 0.0}, .scale = 2.0});
     for (int n = 0; n < 60; ++n) REQUIRE(simulation.step().ok());
@@ -185,19 +185,19 @@ TEST_CASE("Shapes that cannot be are refused by name") {
     Simulation& simulation = scene.simulation;
     std::vector<Vec3> shape = scene.ball.vertices;
     shape.pop_back();
-    CHECK(says(error_of([&] { simulation.move_obstacle(scene.body, shape); }), "642"));
+    CHECK(says(error_of([&] { simulation.deform_obstacle(scene.body, shape); }), "642"));
     shape = scene.ball.vertices;
     shape[7].y() = std::nan("");
-    CHECK(says(error_of([&] { simulation.move_obstacle(scene.body, shape); }), "vertex 7"));
+    CHECK(says(error_of([&] { simulation.deform_obstacle(scene.body, shape); }), "vertex 7"));
     const ObstacleId rigid = simulation.add_obstacle(make_plane(1.0), {.translation = {0, -1, 0}}, {.name = "floor"});
-    CHECK(says(error_of([&] { simulation.move_obstacle(rigid, make_plane(1.0).vertices); }), "deforming"));
+    CHECK(says(error_of([&] { simulation.deform_obstacle(rigid, make_plane(1.0).vertices); }), "deforming"));
     TriangleMesh split = make_plane(1.0);
     split.vertices.push_back(split.vertices[split.triangles[0][0]]);
     split.triangles[0][0] = static_cast<int>(split.vertices.size()) - 1;
     const ObstacleId doubled =
         simulation.add_obstacle(split, {.translation = {0, -2, 0}}, {.name = "doubled", .deforming = true});
     split.vertices.back().x() += 0.1;
-    simulation.move_obstacle(doubled, split.vertices);
+    simulation.deform_obstacle(doubled, split.vertices);
     CHECK(says(error_of([&] { simulation.step(); }), "part"));
 }
 
