@@ -58,8 +58,13 @@ void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end)
                                          std::to_string(state.start_shape->size()) + " vertices of its mesh");
     }
     for (std::size_t i = 0; i < end.size(); ++i) check_finite(end[i], state.name + ": vertex " + std::to_string(i));
-    state.go_to(std::make_shared<const std::vector<Vec3>>(end.begin(), end.end()));
     World& world = implementation_->world;
+    try {  // now, lest a step throws
+        world.scene.detector->deform_obstacle(obstacle.index, *state.start_shape, end);
+    } catch (const SceneError& error) {
+        throw SceneError(state.name, error.what());
+    }
+    state.go_to(std::make_shared<const std::vector<Vec3>>(end.begin(), end.end()));
     if (state.deforms()) wake(world.rest);
     if (world.refused.obstacle != obstacle.index) return;
     state.start_shape = state.end_shape;  // no step begins where it is

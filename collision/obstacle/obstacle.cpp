@@ -73,8 +73,8 @@ void Obstacle::deform(std::span<const Vec3> start, std::span<const Vec3> end) {
         for (const auto& [one, other] : doubles_) {
             if (shape[one] == shape[other]) continue;
             throw SceneError("vertices " + std::to_string(one) + " and " + std::to_string(other) +
-                             " of an obstacle, which its mesh has at one place, part by " +
-                             std::to_string((shape[one] - shape[other]).norm()) + " m");
+                             ", which its mesh has at one place, part by " + std::to_string((shape[one] - shape[other]).norm()) +
+                             " m");
         }
     }
     start_shape_.assign(start.begin(), start.end());
