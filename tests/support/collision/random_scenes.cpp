@@ -176,6 +176,7 @@ scenes::BuiltScene build(const Draw& draw) {
                              .rest_shapes = {{}},
                              .obstacles = {},
                              .obstacle_meshes = {draw.obstacle.mesh},
+                             .sequences = {nullptr},
                              .pattern_seams = {},
                              .seams = {},
                              .warnings = {}};
