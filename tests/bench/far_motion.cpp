@@ -67,7 +67,7 @@ Cost timed_step(Simulation& simulation) {
 }
 
 Figures row(const std::string& how, double distance, double jump_s, const Cost& jump, const Cost& after) {
-    std::printf("%-10s %8.1f %10.3f %14s %10.3f %8d\n", how.c_str(), distance, jump_s, status_word(jump.report.status),
+    std::printf("%-10s %8.2f %10.3f %14s %10.3f %8d\n", how.c_str(), distance, jump_s, status_word(jump.report.status),
                 after.cpu_s, after.report.newton_iterations);
     std::fflush(stdout);
     return {{"how", how},
