@@ -67,6 +67,7 @@ void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end)
     state.go_to(std::make_shared<const std::vector<Vec3>>(end.begin(), end.end()));
     if (state.deforms()) wake(world.rest);
     if (world.refused.obstacle != obstacle.index) return;
+    if (state.deforms()) state.reach = state.end_reach;
     state.start_shape = state.end_shape;  // no step begins where it is
     state.shape_travel = 0.0;
     state.settled = false;

@@ -106,6 +106,7 @@ std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vect
     for (const auto& obstacle : obstacles) {
         writer(obstacle->surface().triangles, obstacle->friction());
         for (const Vec3& x : obstacle->local_vertices()) writer(x);
+        if (obstacle->deforms()) writer(obstacle->surface().given);
     }
     return checksum(writer.take());
 }
@@ -139,6 +140,7 @@ std::vector<SavedMotion> restored_motions(const Obstacles& obstacles, StateReade
                 state(x);
                 state.demand(x.allFinite(), "an obstacle that is nowhere");
             }
+            obstacle->check_shape(*shape);
         }
     }
     return motions;

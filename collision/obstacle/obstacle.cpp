@@ -1,7 +1,6 @@
 #include "obstacle/obstacle.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "percale/certify.h"
 #include "percale/error.h"
@@ -68,15 +67,18 @@ void Obstacle::move(const Pose& start, const Pose& end) {
     if (deforms()) refit();
 }
 
-void Obstacle::deform(std::span<const Vec3> start, std::span<const Vec3> end) {
-    for (const std::span<const Vec3> shape : {start, end}) {
-        for (const auto& [one, other] : doubles_) {
-            if (shape[one] == shape[other]) continue;
-            throw SceneError("vertices " + std::to_string(one) + " and " + std::to_string(other) +
-                             ", which its mesh has at one place, part by " + std::to_string((shape[one] - shape[other]).norm()) +
-                             " m");
-        }
+void Obstacle::check_shape(std::span<const Vec3> shape) const {
+    for (const auto& [one, other] : doubles_) {
+        if (shape[one] == shape[other]) continue;
+        throw SceneError("vertices " + std::to_string(one) + " and " + std::to_string(other) +
+                         ", which its mesh has at one place, part by " + std::to_string((shape[one] - shape[other]).norm()) +
+                         " m");
     }
+}
+
+void Obstacle::deform(std::span<const Vec3> start, std::span<const Vec3> end) {
+    check_shape(start);
+    check_shape(end);
     start_shape_.assign(start.begin(), start.end());
     end_shape_.assign(end.begin(), end.end());
     reshaped_ = true;
@@ -84,8 +86,10 @@ void Obstacle::deform(std::span<const Vec3> start, std::span<const Vec3> end) {
 
 /// Given vertices that make one of the surface's.
 void Obstacle::find_doubles() {
-    std::vector<int> order(mesh_.vertices.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int> order;  // of used vertices
+    for (const Triangle& t : mesh_.triangles) order.insert(order.end(), t.begin(), t.end());
+    std::ranges::sort(order);
+    order.erase(std::ranges::unique(order).begin(), order.end());
     const auto place = [&](int i) {
         const Vec3& x = mesh_.vertices[i];
         return std::array{x.x(), x.y(), x.z()};

@@ -24,6 +24,8 @@ public:
     /// Where the given vertices of a deforming obstacle are before its pose, m, at both ends of the step that `move` tells of
     /// next. Throws SceneError where vertices that the mesh has at one place part.
     void deform(std::span<const Vec3> start, std::span<const Vec3> end);
+    /// Throws as `deform` does.
+    void check_shape(std::span<const Vec3> shape) const;
 
     const ObstacleSurface& surface() const { return surface_; }
     double friction() const { return friction_; }
@@ -75,7 +77,7 @@ private:
     ObstacleSurface surface_;  // vertices where the tree was built
     std::vector<Vec3> local_;  // cleaned vertices before the pose
     std::vector<Vec3> start_shape_, end_shape_;
-    std::vector<std::array<int, 2>> doubles_;  // given vertices at one place, of a deforming obstacle
+    std::vector<std::array<int, 2>> doubles_;  // given vertices at one place that are used, of a deforming obstacle
     std::vector<Vec3> start_, end_;            // m, world
     ObstaclePacks packs_;
     Box whole_box_;

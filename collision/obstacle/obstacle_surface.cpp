@@ -40,13 +40,15 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
-void keep_good_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles, ObstacleSurface& surface) {
+/// Of a deforming surface those without area stay: they may get one.
+void keep_good_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles, SurfaceShape shape,
+                         ObstacleSurface& surface) {
     const std::vector<int> merged = merge_vertices(vertices, surface.cleaning.merged_vertices);
     std::map<Triangle, int> seen;
     for (const Triangle& original : triangles) {
         const Triangle t{merged[original[0]], merged[original[1]], merged[original[2]]};
         const bool distinct = t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
-        if (!distinct || !has_area(vertices, t)) {
+        if (!distinct || (shape == SurfaceShape::rigid && !has_area(vertices, t))) {
             ++surface.cleaning.degenerate_triangles;
         } else if (!seen.try_emplace(sorted(t), 0).second) {
             ++surface.cleaning.duplicate_triangles;
@@ -84,9 +86,9 @@ void drop_unused_vertices(std::span<const Vec3> vertices, ObstacleSurface& surfa
 }
 
 /// Vertices and triangles alone, without connectivity.
-ObstacleSurface clean(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+ObstacleSurface clean(std::span<const Vec3> vertices, std::span<const Triangle> triangles, SurfaceShape shape) {
     ObstacleSurface surface;
-    keep_good_triangles(vertices, triangles, surface);
+    keep_good_triangles(vertices, triangles, shape, surface);
     if (surface.triangles.empty()) {
         throw SceneError("the obstacle has no triangle with an area (" + std::to_string(triangles.size()) +
                          " given, all degenerate)");
@@ -256,7 +258,7 @@ void drop_internal_faces(ObstacleSurface& surface) {
 }  // namespace
 
 ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles, SurfaceShape shape) {
-    ObstacleSurface surface = clean(vertices, triangles);
+    ObstacleSurface surface = clean(vertices, triangles, shape);
     connect(surface);
     if (shape == SurfaceShape::deforming) {
         surface.vertex_can_touch.assign(surface.vertices.size(), true);
@@ -268,6 +270,8 @@ ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Tri
     return surface;
 }
 
-CleaningReport cleaning_report(const TriangleMesh& mesh) { return make_surface(mesh.vertices, mesh.triangles).cleaning; }
+CleaningReport cleaning_report(const TriangleMesh& mesh, bool deforming) {
+    return make_surface(mesh.vertices, mesh.triangles, deforming ? SurfaceShape::deforming : SurfaceShape::rigid).cleaning;
+}
 
 }  // namespace percale

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "tolerances.h"
 
@@ -172,22 +173,18 @@ double elastic_energy(const SpringNetwork& network, const Vectors& positions, st
 }
 
 double largest_strain(const SpringNetwork& network, const Vectors& positions) {
+    return largest_strain(network, positions, 0, std::numeric_limits<int>::max());
+}
+
+double largest_strain(const SpringNetwork& network, const Vectors& positions, int first, int count) {
     // Most springs are told by their squares, the rounding of which is allowed for, not to be the largest.
     double largest = 0.0, square_below = strain_rounding;
     for (int k = next_structural(network, 0); k < network.size(); k = next_structural(network, k + 1)) {
         const double rest = network.rest_length[k], square = square_length(network, positions, k);
         if (square <= square_below * (rest * rest)) continue;
+        if (network.first[k] < first || network.first[k] - first >= count) continue;
         largest = std::max(largest, std::sqrt(square) / rest - 1.0);
         square_below = strain_rounding * (1.0 + largest) * (1.0 + largest);
-    }
-    return largest;
-}
-
-double largest_strain(const SpringNetwork& network, const Vectors& positions, int first, int count) {
-    double largest = 0.0;
-    for (int k = next_structural(network, 0); k < network.size(); k = next_structural(network, k + 1)) {
-        if (network.first[k] < first || network.first[k] >= first + count) continue;
-        largest = std::max(largest, length(network, positions, k) / network.rest_length[k] - 1.0);
     }
     return largest;
 }

@@ -4,6 +4,7 @@
 
 #include "mesh/lumped_mass.h"
 #include "mesh/topology.h"
+#include "percale/error.h"
 #include "percale/options.h"
 
 namespace percale {
@@ -54,6 +55,8 @@ void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fab
     check_mesh(mesh, name, true);
     check_rest_shape(mesh, shape, name);
     check_options(fabric, name);
+    if (fabric.strain_limit && !fabric.has_moduli() && fabric.springs.structural == 0.0)
+        throw SceneError(name, "strain_limit needs structural springs, springs.structural is 0 N/m");
     if (fabric.pressure || fabric.gas_volume) {
         check_encloses(mesh, name, fabric.pressure ? "pressure needs a closed mesh" : "gas_volume needs a closed mesh");
     }

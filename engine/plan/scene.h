@@ -29,23 +29,27 @@ struct ObstacleState {
 
     Shape start_shape = {}, end_shape = {};  // of the coming step; null: it is rigid
     double shape_travel = 0.0;               // m, largest displacement between them, the pose's scale included
+    double end_reach = 0.0;                  // m, `reach` at the end of the step, if it deforms
 
     bool deforms() const { return start_shape != end_shape; }
     bool moves() const { return start != end || deforms(); }
     /// Sets the shape at the end of the step.
     void go_to(Shape shape) {
-        double travel = 0.0, farthest = 0.0;
+        double travel = 0.0, farthest = 0.0, before = 0.0;
         for (std::size_t i = 0; i < shape->size(); ++i) {
             travel = std::max(travel, ((*shape)[i] - (*start_shape)[i]).squaredNorm());
             farthest = std::max(farthest, (*shape)[i].squaredNorm());
+            before = std::max(before, (*start_shape)[i].squaredNorm());
         }
         end_shape = travel > 0.0 ? std::move(shape) : start_shape;
         shape_travel = start.scale * std::sqrt(travel);
-        reach = std::max(reach, start.scale * std::sqrt(farthest));
+        end_reach = start.scale * std::sqrt(farthest);
+        reach = std::max(end_reach, start.scale * std::sqrt(before));
     }
     /// It is at the end of its motion.
     void arrive() {
         start = end;
+        if (deforms()) reach = end_reach;
         start_shape = end_shape;
         shape_travel = 0.0;
     }

@@ -52,8 +52,7 @@ public:
         world.state = std::move(state_);
         put_holds(holds_, world.scene.model);
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
-            world.scene.script.obstacles[k].start = obstacles_[k].start;
-            world.scene.script.obstacles[k].start_shape = obstacles_[k].start_shape;
+            world.scene.script.obstacles[k] = obstacles_[k];
             world.scene.script.obstacles[k].settled = false;
         }
     }

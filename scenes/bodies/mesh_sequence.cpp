@@ -31,12 +31,17 @@ FramePattern frame_pattern(const std::string& name) {
 MeshSequence::MeshSequence(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings)
     : pattern_(frame_pattern(obstacle.mesh)),
       frames_(*obstacle.frames),
-      fps_(obstacle.fps),
+      fps_(obstacle.fps.value_or(ObstacleSpec::usual_fps)),
       unit_(obstacle.unit),
       part_(obstacle.part) {
     if (frames_[0] >= frames_[1] || frames_[0] < 0) {
         throw SceneError("frames = [" + std::to_string(frames_[0]) + ", " + std::to_string(frames_[1]) +
                          "] must ascend from 0 or above");
+    }
+    const std::string kind = extension_of(obstacle.mesh);
+    if (kind != ".obj" && kind != ".off" && kind != ".ply") {
+        throw SceneError("\"" + obstacle.mesh +
+                         "\": frames are OBJ, OFF or PLY files, of others vertices are joined by their places");
     }
     pattern_.before = path_beside(scene, pattern_.before);
     for (int frame = frames_[0]; frame <= frames_[1]; ++frame) {
@@ -78,13 +83,10 @@ std::vector<Vec3> MeshSequence::at(double time) {
     return vertices;
 }
 
-void check_still(const ObstacleSpec& obstacle) {
-    if (obstacle.mesh.find('%') == std::string::npos) return;
+void check_still(const Scene& scene, const ObstacleSpec& obstacle) {
+    if (obstacle.fps) throw SceneError("fps needs frames = [first, last]");
+    if (obstacle.mesh.find('%') == std::string::npos || std::filesystem::exists(path_beside(scene, obstacle.mesh))) return;
     throw SceneError("mesh = \"" + obstacle.mesh + "\" names frames by %; frames = [first, last] says which");
-}
-
-double end_of_frames(const ObstacleSpec& obstacle) {
-    return obstacle.frames ? ((*obstacle.frames)[1] - (*obstacle.frames)[0]) / obstacle.fps : 0.0;
 }
 
 }  // namespace percale::scenes

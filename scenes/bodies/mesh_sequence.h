@@ -51,10 +51,7 @@ private:
     std::array<Loaded, 2> loaded_;
 };
 
-/// Throws SceneError for a name of frames without frames.
-void check_still(const ObstacleSpec& obstacle);
-
-/// s, when the last frame is reached; 0 for an obstacle without.
-double end_of_frames(const ObstacleSpec& obstacle);
+/// Throws SceneError for an obstacle without frames whose mesh is no file but a name of frames, or that has frames a second.
+void check_still(const Scene& scene, const ObstacleSpec& obstacle);
 
 }  // namespace percale::scenes

@@ -15,14 +15,15 @@ Field<ObstacleSpec> frames_field() {
 }
 
 Field<ObstacleSpec> fps_field() {
-    return value_field<ObstacleSpec>({.path = "fps",
-                                      .sentence = "Frames a second; the first is there at 0 s, it stays as the last is.",
-                                      .unit = "1/s",
-                                      .lowest = 1e-3,
-                                      .highest = 1e4,
-                                      .needs = "mesh",
-                                      .needs_why = "they are mesh files"},
-                                     &ObstacleSpec::fps);
+    return value_field<ObstacleSpec>(
+        {.path = "fps",
+         .sentence = "Frames a second, without it 30; the first is there at 0 s, and the last stays.",
+         .unit = "1/s",
+         .lowest = 1e-3,
+         .highest = 1e4,
+         .needs = "mesh",
+         .needs_why = "they are mesh files"},
+        &ObstacleSpec::fps);
 }
 
 }  // namespace percale::scenes

@@ -30,6 +30,7 @@ void check_script_ends(const Scene& scene) {
             fail_at(obstacle.place, name +
                                         "with a spin it never stands still, so that a scene with duration = \"rest\" never ends; "
                                         "say a duration in s, or turn it by motion");
+        check_ends(scene, obstacle.end_of_frames(), obstacle.place, name + "frames");
         if (!obstacle.motion.empty()) check_ends(scene, obstacle.motion.back().time, obstacle.place, name + "motion");
     }
 }

@@ -86,8 +86,12 @@ struct ObstacleSpec {
     std::vector<Keyframe> motion;  // ascending times
     std::optional<Spin> spin;
     std::optional<std::array<int, 2>> frames;  // first and last number of the files that `mesh` names by %d
-    double fps = 30.0;                         // 1/s, of these
+    std::optional<double> fps;                 // 1/s, of these; without 30
     SourcePlace place;
+
+    /// s, when the last frame is there; 0 without frames.
+    double end_of_frames() const { return frames ? ((*frames)[1] - (*frames)[0]) / fps.value_or(usual_fps) : 0.0; }
+    static constexpr double usual_fps = 30.0;
 };
 
 /// Vertices sewn to vertices, or to points between two.

@@ -200,7 +200,13 @@ struct RunScript {
 /// One step of the simulation: script, simulation, figures. False if it failed.
 bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, double dt, RunResult& result) {
     RunTotals& totals = result.totals;
-    script.timeline.apply(built, built.simulation.time(), dt);
+    try {
+        script.timeline.apply(built, built.simulation.time(), dt);
+    } catch (const SceneError& error) {  // a frame of a body that cannot be read, or is of another mesh
+        result.status = RunStatus::failed;
+        result.reason = error.what();
+        return false;
+    }
     // A gravity event changes the potential energy without any work, so the energy before the step is taken after it.
     const bool look = changes_gravity(built.scene) && !is_measured_by_frames(built);
     const double before = look ? built.simulation.energy().total() : totals.energy.total();

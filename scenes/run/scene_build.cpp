@@ -213,7 +213,8 @@ bool has_pins_in_world(const ClothSpec& cloth) {
 /// Cloth that would have torn, and what often is why.
 std::string torn_text(const Scene& scene, double strain) {
     std::string text = "the largest strain is " + percent_text(strain) + ": cloth would have torn";
-    const auto moving = std::ranges::find_if(scene.obstacles, obstacle_moves);
+    const auto moving =
+        std::ranges::find_if(scene.obstacles, [](const ObstacleSpec& o) { return obstacle_moves(o) && !o.frames; });
     for (const ClothSpec& cloth : scene.cloths) {
         if (moving == scene.obstacles.end() || !has_pins_in_world(cloth)) continue;
         text += "; the pins of " + cloth.name + " stay in the world, pin = { box = ..., to = \"" + moving->name +
@@ -244,7 +245,7 @@ std::vector<std::string> strain_warnings(const BuiltScene& built, double largest
         if (strain <= (1.0 + passed_limit_share) * *limit) continue;
         warnings.push_back("an edge of '" + cloth.name + "' is strained by " + percent_text(strain) +
                            ", beyond its strain_limit of " + percent_text(*limit) +
-                           ": load came just then, or pulls with more than twice the edge's stiffness");
+                           "; a sudden load passes it for some steps, one of more than twice the edge's stiffness for good");
     }
     return warnings;
 }
@@ -258,7 +259,7 @@ std::vector<ClothStitches> sewn_stitches(const BuiltScene& built) {
 TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings) {
     if (obstacle.mesh.empty()) return shape_mesh(obstacle.shape);
     if (obstacle.frames) return MeshSequence(scene, obstacle, warnings).first();
-    check_still(obstacle);
+    check_still(scene, obstacle);
     return import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit, warnings, obstacle.part);
 }
 

@@ -45,7 +45,7 @@ std::string springs_text(const SpringCounts& springs) {
 std::string frames_text(const ObstacleSpec& obstacle) {
     if (!obstacle.frames) return "";
     return ", " + std::to_string((*obstacle.frames)[1] - (*obstacle.frames)[0] + 1) + " frames in " +
-           short_number(end_of_frames(obstacle)) + " s";
+           short_number(obstacle.end_of_frames()) + " s";
 }
 
 }  // namespace

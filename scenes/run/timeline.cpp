@@ -32,7 +32,7 @@ void Timeline::apply(BuiltScene& built, double time, double dt) {
 bool Timeline::more_to_come(const Scene& scene, double time) const {
     const auto moves = [&](const ObstacleSpec& obstacle) {
         const bool spins = obstacle.spin && obstacle.spin->turns_per_s != 0.0;
-        return spins || (!obstacle.motion.empty() && obstacle.motion.back().time > time) || end_of_frames(obstacle) > time;
+        return spins || (!obstacle.motion.empty() && obstacle.motion.back().time > time) || obstacle.end_of_frames() > time;
     };
     return next_event_ < events_.size() || !moving_pins_.empty() ||
            std::any_of(scene.obstacles.begin(), scene.obstacles.end(), moves) ||

@@ -41,6 +41,12 @@ TEST_CASE("Rows and columns of a limited cloth are limited, its diagonals and ot
     CHECK(cloth_model(make_grid(0.2, 0.3, 3, 4), sheet_fabric()).limits.empty());
 }
 
+TEST_CASE("A limit of cloth without structural springs is refused") {
+    Fabric fabric = limited_fabric(0.1);
+    fabric.springs.structural = 0.0;
+    CHECK(mentions(scene_error([&] { cloth_model(make_grid(0.2, 0.2, 3, 3), fabric); }), {"strain_limit", "structural"}));
+}
+
 TEST_CASE("What edges hold with stays when cloth is added") {
     ClothModel model = cloth_model(make_grid(0.2, 0.2, 3, 3), limited_fabric(0.1));
     model.limits.set_hold(model.limits.edges[4], 2.5);

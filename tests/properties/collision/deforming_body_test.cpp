@@ -162,6 +162,43 @@ TEST_CASE("A body that swells by much in one step is followed in parts, or the s
     CHECK(scene.simulation.state_hash() == before);
 }
 
+TEST_CASE("A fold that is flat at first opens and holds cloth") {
+    // A sheet whose vertices all lie on one line at first.
+    TriangleMesh sheet = make_grid(0.6, 0.6, 4, 4);
+    sheet.grid_columns = sheet.grid_rows = 0;
+    TriangleMesh folded = sheet;
+    for (Vec3& x : folded.vertices) x = Vec3(0.3, 0.0, x.z() + 0.1 * x.x());
+    Simulation simulation({}, backends().back().make_detector());
+    const ClothId cloth = simulation.add_cloth(make_grid(0.2, 0.2, 5, 5), cover(), {.translation = {0.0, 0.4, 0.0}});
+    const ObstacleId plate = simulation.add_obstacle(folded, {}, {.name = "fold", .deforming = true});
+    for (int n = 1; n <= 60; ++n) {
+        std::vector<Vec3> shape = sheet.vertices;
+        for (std::size_t i = 0; i < shape.size(); ++i) {
+            shape[i] = folded.vertices[i] + std::min(1.0, n / 10.0) * (shape[i] - folded.vertices[i]);
+        }
+        simulation.deform_obstacle(plate, shape);
+        const StepReport report = simulation.step();
+        CAPTURE(n, report.explanation());
+        REQUIRE(report.ok());
+    }
+    for (const Vec3& x : simulation.positions(cloth)) CHECK(x.y() > 0.0);
+}
+
+TEST_CASE("A step in parts that fails is taken back whole: the next is divided as before") {
+    Breathing scene(backends().back(), {.work_limit = 40});
+    for (int n = 0; n < 20; ++n) scene.step();
+    std::vector<Vec3> swollen = breathing(scene.ball, 20 * dt);
+    for (Vec3& x : swollen) x += Vec3(0.3, 0.5, 0.0);
+    scene.simulation.deform_obstacle(scene.body, swollen);
+    const std::uint64_t before = scene.simulation.state_hash();
+    const StepReport first = scene.simulation.step(), second = scene.simulation.step();
+    REQUIRE_FALSE(first.ok());
+    CHECK(first.newton_iterations > 20);  // not all in the first part
+    CHECK(second.newton_iterations == first.newton_iterations);
+    CHECK(second.explanation() == first.explanation());
+    CHECK(scene.simulation.state_hash() == before);
+}
+
 TEST_CASE("A shape on a pose, moved in turns by either") {
     Simulation simulation({}, backends().back().make_detector());
     const TriangleMesh ball = make_sphere(0.1, 2);

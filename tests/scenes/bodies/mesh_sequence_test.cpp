@@ -95,8 +95,8 @@ TEST_CASE("Vertices go straight from frame to frame, and stay before the first a
     }
     const std::vector<Vec3> between = sequence.at(0.475), before = frames.shape(4), after = frames.shape(5);
     for (std::size_t i = 0; i < between.size(); ++i) CHECK((between[i] - (0.25 * before[i] + 0.75 * after[i])).norm() < 1e-12);
-    CHECK(end_of_frames(frames.spec()) == Approx(0.8));
-    CHECK(end_of_frames(ObstacleSpec{}) == 0.0);
+    CHECK(frames.spec().end_of_frames() == Approx(0.8));
+    CHECK(ObstacleSpec{}.end_of_frames() == 0.0);
 }
 
 TEST_CASE("Frames that are missing, of another mesh, without an order or without numbers are refused by name") {
@@ -115,10 +115,15 @@ TEST_CASE("Frames that are missing, of another mesh, without an order or without
     CHECK(other.find("ball3.obj") != std::string::npos);
     CHECK(other.find("42 vertices and 80 triangles") != std::string::npos);
     CHECK(message_of([&] { sequence.at(0.5); }).find("ball5.obj:1") != std::string::npos);
+    obstacle.mesh = "ball%d.stl";
+    CHECK(message_of([&] { MeshSequence(scene, obstacle); }).find("OBJ, OFF or PLY") != std::string::npos);
+    obstacle.mesh = "ball%d.obj";
     obstacle.frames.reset();
-    CHECK(message_of([&] { check_still(obstacle); }).find("frames = [first, last]") != std::string::npos);
+    CHECK(message_of([&] { check_still(scene, obstacle); }).find("fps needs frames") != std::string::npos);
+    obstacle.fps.reset();
+    CHECK(message_of([&] { check_still(scene, obstacle); }).find("frames = [first, last]") != std::string::npos);
     obstacle.mesh = "ball0.obj";
-    CHECK(message_of([&] { check_still(obstacle); }).empty());
+    CHECK(message_of([&] { check_still(scene, obstacle); }).empty());
 }
 
 TEST_CASE("Cloth on a ball that swells by its frames: the frames that are written are those of the files, none crosses") {
@@ -139,6 +144,23 @@ TEST_CASE("Cloth on a ball that swells by its frames: the frames that are writte
         CHECK(apart < 1e-9);
         CHECK(certify(written[k].cloths[0], written[k].obstacles[0], 0.01).clean());
     }
+}
+
+TEST_CASE("A run that meets a bad frame fails there, with what it has, and rest waits for the last frame") {
+    const BallFrames frames;
+    frames.folder.write("ball5.obj", "v 0 0 nan\n");
+    BuiltScene built = build_scene(frames.scene());
+    int written = 0;
+    RunHooks hooks;
+    hooks.frame = [&](const Frame&) { ++written; };
+    const RunResult result = run_scene(built, hooks);
+    CHECK(result.status == RunStatus::failed);
+    CHECK(result.reason.find("ball5.obj:1") != std::string::npos);
+    CHECK(result.totals.simulated_s > 0.35);
+    CHECK(written > 5);
+    CHECK(message_of([&] {
+              build_scene(frames.scene({{"duration", "rest"}, {"longest", "0.5"}}));
+          }).find("frames goes on until 0.8 s") != std::string::npos);
 }
 
 TEST_CASE("A run on frames is resumed in every bit, and goes on until the last frame") {
