@@ -14,8 +14,8 @@ struct CleaningReport {
     int internal_triangles = 0;  // of a closed mesh: with the solid on both sides, where parts of it overlap
 };
 
-/// What every detector makes of this mesh when it is added as an obstacle, or as a deforming one; in the mesh's own coordinates, before any pose. Throws
-/// SceneError if nothing is left.
+/// What every detector makes of this mesh when it is added as an obstacle, or as a deforming one; in the mesh's own coordinates,
+/// before any pose. Throws SceneError if nothing is left.
 CleaningReport cleaning_report(const TriangleMesh& mesh, bool deforming = false);
 
 }  // namespace percale
