@@ -16,8 +16,9 @@ using certificate::Overlap;
 
 Corners corners(std::span<const Vec3> x, const Triangle& t) { return {x[t[0]], x[t[1]], x[t[2]]}; }
 
-/// The cloth's triangles in a tree, their boxes grown by the gap that they have to keep.
+/// The cloth's triangles that lie about obstacles in a tree, their boxes grown by the gap that they have to keep.
 struct PlacedCloth {
+    std::vector<int> number;  // of each triangle among the cloth's
     std::vector<Corners> triangles;
     std::vector<double> gap;
     std::vector<certificate::Slab> slab;  // of triangles with a gap
@@ -31,22 +32,32 @@ struct PlacedCloth {
     }
 };
 
-PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std::vector<bool>& moved) {
+/// A triangle about none of the obstacles meets none, comes too near to none and has no corner inside.
+PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std::vector<bool>& moved,
+                  std::span<const SolidObstacle> obstacles) {
+    std::vector<int> numbers;
     std::vector<Corners> triangles;
     std::vector<double> gaps;
     std::vector<certificate::Slab> slabs;
     std::vector<certificate::Box> boxes;
-    for (const Triangle& t : cloth.triangles) {
-        triangles.push_back(corners(x, t));
+    for (std::size_t i = 0; i < cloth.triangles.size(); ++i) {
+        const Triangle& t = cloth.triangles[i];
+        const Corners at = corners(x, t);
         const bool any = !moved.empty() && (moved[t[0]] || moved[t[1]] || moved[t[2]]);
-        gaps.push_back(any ? tolerances::untangled_gap * cloth.thickness[t[0]] : 0.0);
-        slabs.push_back(any ? certificate::slab_of(triangles.back()) : certificate::Slab{});
-        certificate::Box box = certificate::box_of(triangles.back());
-        box.low.array() -= gaps.back();
-        box.high.array() += gaps.back();
+        const double gap = any ? tolerances::untangled_gap * cloth.thickness[t[0]] : 0.0;
+        certificate::Box box = certificate::box_of(at);
+        box.low.array() -= gap;
+        box.high.array() += gap;
+        const auto is_about = [&](const SolidObstacle& obstacle) { return certificate::overlap(box, obstacle.tree().bounds()); };
+        if (std::none_of(obstacles.begin(), obstacles.end(), is_about)) continue;
+        numbers.push_back(static_cast<int>(i));
+        triangles.push_back(at);
+        gaps.push_back(gap);
+        slabs.push_back(any ? certificate::slab_of(at) : certificate::Slab{});
         boxes.push_back(box);
     }
-    return {std::move(triangles), std::move(gaps), std::move(slabs), BoxTree(std::span<const certificate::Box>(boxes))};
+    BoxTree tree{std::span<const certificate::Box>(boxes)};
+    return {std::move(numbers), std::move(triangles), std::move(gaps), std::move(slabs), std::move(tree)};
 }
 
 /// The cloth triangles that lie about an obstacle's box: all that can meet it, come too near or have a corner inside.
@@ -54,7 +65,7 @@ std::vector<int> triangles_around(const PlacedCloth& placed, const SolidObstacle
     const certificate::Box bounds = obstacle.tree().bounds();
     std::vector<int> around;
     placed.tree.walk([&](const certificate::Box& box) { return certificate::overlap(box, bounds); },
-                     [&](int item) { around.push_back(item); });
+                     [&](int item) { around.push_back(placed.number[item]); });
     return around;
 }
 
@@ -64,15 +75,16 @@ struct Meetings {
     std::vector<bool> too_near;  // or comes nearer than its gap
 };
 
-Meetings find_meetings(const PlacedCloth& placed, const SolidObstacle& obstacle) {
-    Meetings found{std::vector<bool>(placed.triangles.size()), std::vector<bool>(placed.triangles.size())};
-    placed.tree.walk_overlaps(obstacle.tree(), [&](int i, int j) {
-        const Corners &a = placed.triangles[i], &b = obstacle.triangles()[j];
+Meetings find_meetings(const PlacedCloth& placed, const SolidObstacle& obstacle, std::size_t triangles) {
+    Meetings found{std::vector<bool>(triangles), std::vector<bool>(triangles)};
+    placed.tree.walk_overlaps(obstacle.tree(), [&](int item, int j) {
+        const Corners &a = placed.triangles[item], &b = obstacle.triangles()[j];
+        const int i = placed.number[item];
         if (found.meets[i]) return;
         if (certificate::classify(a, b) != Overlap::disjoint)
             found.meets[i] = found.too_near[i] = true;
-        else if (!found.too_near[i] && placed.gap[i] > 0.0)
-            found.too_near[i] = placed.is_too_near(i, b);
+        else if (!found.too_near[i] && placed.gap[item] > 0.0)
+            found.too_near[i] = placed.is_too_near(item, b);
     });
     return found;
 }
@@ -124,7 +136,7 @@ std::vector<int> largest_sides(DisjointSets& sides, DisjointSets& pieces, int co
 
 void mark_behind(const TangledCloth& cloth, const SolidObstacle& obstacle, int number, std::span<const Vec3> x,
                  std::vector<int>& behind) {
-    const Meetings meetings = find_meetings(place(cloth, x, {}), obstacle);
+    const Meetings meetings = find_meetings(place(cloth, x, {}, {&obstacle, 1}), obstacle, cloth.triangles.size());
     if (std::find(meetings.meets.begin(), meetings.meets.end(), true) == meetings.meets.end()) return;
     DisjointSets sides(cloth.vertex_count()), pieces(cloth.vertex_count());
     for (std::size_t i = 0; i < cloth.triangles.size(); ++i) {
@@ -162,12 +174,12 @@ TangledCloth make_tangled_cloth(std::span<const Triangle> triangles, std::span<c
 
 std::vector<int> find_conflicts(const TangledCloth& cloth, std::span<const SolidObstacle> obstacles,
                                 std::span<const Vec3> positions, const std::vector<bool>& moved) {
-    const PlacedCloth placed = place(cloth, positions, moved);
+    const PlacedCloth placed = place(cloth, positions, moved, obstacles);
     std::vector<int> conflict(positions.size(), -1);
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
         const std::vector<int> around = triangles_around(placed, obstacles[k]);
         if (around.empty()) continue;
-        const Meetings meetings = find_meetings(placed, obstacles[k]);
+        const Meetings meetings = find_meetings(placed, obstacles[k], cloth.triangles.size());
         const std::vector<bool> inside = find_inside(cloth, obstacles[k], positions, around, meetings.meets);
         const auto mark = [&](const Triangle& t, bool pierced) {
             for (const int v : t) {
