@@ -301,6 +301,11 @@ constexpr int leaf_size = 4;
 /// a split that may leave one item alone, meshes made of ever smaller parts give trees as deep as they have triangles.
 constexpr int most_uneven_split = 8;
 
+// ---- attach/
+
+/// Twice the area over the product of two edges: the sine between them. Flatter triangles have no normal to attach a point by.
+constexpr double flat_triangle = 1e-9;
+
 // ---- bullet/
 
 /// Fraction of the obstacle's diagonal. How much larger than the obstacle the box is that Bullet quantises in and that asked

@@ -89,6 +89,18 @@ constexpr double least_turn = 1e-12;
 /// Corners of a polygon that is cut into ears, which takes their square of time. More: seconds for one polygon.
 constexpr std::size_t most_cut_corners = 10000;
 
+// ---- bodies/
+
+/// m. The last shape of what is played again and again is the first one where no vertex is farther off. 0: rounding of a file adds
+/// a frame that stands still.
+constexpr double same_shape = 1e-4;
+
+/// Ticks a second of a clip that does not say, 1/s: frames of a film, what files mean that do not.
+constexpr double usual_ticks_per_s = 25.0;
+
+/// Samples of a cache. More: its header is of another kind of file.
+constexpr long most_samples = 1000000;
+
 // ---- run/
 
 /// Radians, and times the thickness: what an obstacle turns and moves by in one part of a step. Larger: parts that the path of

@@ -1,8 +1,6 @@
 #include "bodies/mesh_sequence.h"
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 
 #include "garment/cloth_shape.h"
@@ -29,64 +27,42 @@ FramePattern frame_pattern(const std::string& name) {
 }
 
 MeshSequence::MeshSequence(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings)
-    : pattern_(frame_pattern(obstacle.mesh)),
-      frames_(*obstacle.frames),
-      fps_(obstacle.fps.value_or(ObstacleSpec::usual_fps)),
-      unit_(obstacle.unit),
-      part_(obstacle.part) {
-    if (frames_[0] >= frames_[1] || frames_[0] < 0) {
-        throw SceneError("frames = [" + std::to_string(frames_[0]) + ", " + std::to_string(frames_[1]) +
+    : pattern_(frame_pattern(obstacle.mesh)), first_frame_((*obstacle.frames)[0]), unit_(obstacle.unit), part_(obstacle.part) {
+    const int last = (*obstacle.frames)[1];
+    if (first_frame_ >= last || first_frame_ < 0) {
+        throw SceneError("frames = [" + std::to_string(first_frame_) + ", " + std::to_string(last) +
                          "] must ascend from 0 or above");
     }
-    const std::string kind = extension_of(obstacle.mesh);
-    if (kind != ".obj" && kind != ".off" && kind != ".ply") {
-        throw SceneError("\"" + obstacle.mesh +
-                         "\": frames are OBJ, OFF or PLY files, of others vertices are joined by their places");
-    }
+    check_keeps_vertices(obstacle.mesh, "frames");
     pattern_.before = path_beside(scene, pattern_.before);
-    for (int frame = frames_[0]; frame <= frames_[1]; ++frame) {
-        const std::string file = file_of(frame);
+    set_equal_times(last - first_frame_ + 1, obstacle.fps.value_or(ObstacleSpec::usual_fps));
+    for (int frame = first_frame_; frame <= last; ++frame) {
+        const std::string file = pattern_.name_of(frame);
         if (!std::filesystem::exists(file)) throw SceneError(file + ": there is no such file, frame " + std::to_string(frame));
     }
-    first_ = import_mesh(file_of(frames_[0]), unit_, warnings, part_);
-    loaded_[0] = {frames_[0], first_.vertices};
+    first_ = import_mesh(file_of(0), unit_, warnings, part_);
 }
 
-std::string MeshSequence::file_of(int frame) const { return pattern_.name_of(frame); }
-
-const std::vector<Vec3>& MeshSequence::frame(int number, int other) {
-    for (const Loaded& known : loaded_) {
-        if (known.frame == number) return known.vertices;
-    }
-    const std::string file = file_of(number);
-    TriangleMesh mesh = import_mesh(file, unit_, nullptr, part_);
-    if (mesh.vertices.size() != first_.vertices.size() || mesh.triangles != first_.triangles) {
-        throw SceneError(file + ": " + std::to_string(mesh.vertices.size()) + " vertices and " +
-                         std::to_string(mesh.triangles.size()) + " triangles, other ones than the " +
-                         std::to_string(first_.vertices.size()) + " and " + std::to_string(first_.triangles.size()) + " of " +
-                         file_of(frames_[0]));
-    }
-    Loaded& place = loaded_[0].frame == other ? loaded_[1] : loaded_[0];
-    place = {number, std::move(mesh.vertices)};
-    return place.vertices;
+std::vector<Vec3> MeshSequence::load(int sample) const {
+    TriangleMesh mesh = import_mesh(file_of(sample), unit_, nullptr, part_);
+    check_same_triangles(mesh, file_of(sample), first_, file_of(0));
+    return std::move(mesh.vertices);
 }
 
-std::vector<Vec3> MeshSequence::at(double time) {
-    const double last = frames_[1] - frames_[0], place = std::clamp(time * fps_, 0.0, last);
-    const int before = std::min(static_cast<int>(place), frames_[1] - frames_[0]);
-    const double share = place - before;
-    const int from = frames_[0] + before, to = std::min(from + 1, frames_[1]);
-    std::vector<Vec3> vertices = frame(from, to);
-    if (share == 0.0) return vertices;
-    const std::vector<Vec3>& next = frame(to, from);
-    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] += share * (next[i] - vertices[i]);
-    return vertices;
+void check_same_triangles(const TriangleMesh& mesh, const std::string& file, const TriangleMesh& first,
+                          const std::string& first_file) {
+    if (mesh.vertices.size() == first.vertices.size() && mesh.triangles == first.triangles) return;
+    throw SceneError(file + ": " + std::to_string(mesh.vertices.size()) + " vertices and " +
+                     std::to_string(mesh.triangles.size()) + " triangles, other ones than the " +
+                     std::to_string(first.vertices.size()) + " and " + std::to_string(first.triangles.size()) + " of " +
+                     first_file);
 }
 
-void check_still(const Scene& scene, const ObstacleSpec& obstacle) {
-    if (obstacle.fps) throw SceneError("fps needs frames = [first, last]");
-    if (obstacle.mesh.find('%') == std::string::npos || std::filesystem::exists(path_beside(scene, obstacle.mesh))) return;
-    throw SceneError("mesh = \"" + obstacle.mesh + "\" names frames by %; frames = [first, last] says which");
+void check_keeps_vertices(const std::string& mesh, const std::string& what) {
+    const std::string kind = extension_of(mesh);
+    if (kind == ".obj" || kind == ".off" || kind == ".ply") return;
+    throw SceneError("\"" + mesh + "\": " + what +
+                     " are for OBJ, OFF or PLY files, of others vertices are joined by their places");
 }
 
 }  // namespace percale::scenes

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "bodies/shape_source.h"
 #include "format/scene.h"
-#include "percale/mesh.h"
 
 namespace percale::scenes {
 
@@ -20,38 +20,32 @@ struct FramePattern {
 /// Throws SceneError where there is other than one %d or %0Nd.
 FramePattern frame_pattern(const std::string& name);
 
-/// An obstacle whose mesh is another in each frame: one file a frame, all with the same triangles. Files are read when they are
-/// first needed; those of two frames are kept.
-class MeshSequence {
+/// An obstacle whose mesh is another in each frame: one file a frame, all with the same triangles, read when it is first needed.
+class MeshSequence : public SampledShapes {
 public:
     /// Reads the first frame. Throws SceneError for a file that is missing, any of them, and what import_mesh throws for the
     /// first.
     MeshSequence(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings = nullptr);
 
-    const TriangleMesh& first() const { return first_; }
-    /// Vertices at a time, s, in m before the pose: linear between frames, constant before the first and after the last. Throws
-    /// SceneError for a file that cannot be read, or has other triangles than the first.
-    std::vector<Vec3> at(double time);
+    const TriangleMesh& mesh() const override { return first_; }
 
 private:
-    struct Loaded {
-        int frame = -1;
-        std::vector<Vec3> vertices;
-    };
-
-    std::string file_of(int frame) const;
-    /// The frame that comes second on the way to `other` takes the place of what is not needed.
-    const std::vector<Vec3>& frame(int number, int other);
+    /// Throws SceneError for a file that cannot be read, or has other triangles than the first.
+    std::vector<Vec3> load(int sample) const override;
+    std::string file_of(int sample) const { return pattern_.name_of(first_frame_ + sample); }
 
     FramePattern pattern_;
-    std::array<int, 2> frames_;
-    double fps_, unit_;
+    int first_frame_;
+    double unit_;
     std::string part_;
     TriangleMesh first_;
-    std::array<Loaded, 2> loaded_;
 };
 
-/// Throws SceneError for an obstacle without frames whose mesh is no file but a name of frames, or that has frames a second.
-void check_still(const Scene& scene, const ObstacleSpec& obstacle);
+/// Throws SceneError, naming both files, unless the triangles are the same.
+void check_same_triangles(const TriangleMesh& mesh, const std::string& file, const TriangleMesh& first,
+                          const std::string& first_file);
+
+/// Throws SceneError for a mesh of a format of which vertices are joined by their places, which would change from file to file.
+void check_keeps_vertices(const std::string& mesh, const std::string& what);
 
 }  // namespace percale::scenes

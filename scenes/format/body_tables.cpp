@@ -1,10 +1,12 @@
 #include "format/body_tables.h"
 
+#include <algorithm>
 #include <cctype>
+#include <iterator>
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
-#include "format/frame_keys.h"
+#include "format/motion_keys.h"
 
 namespace percale::scenes {
 namespace {
@@ -260,76 +262,16 @@ const FieldTable<Shape>& shape_table() {
     return table;
 }
 
-const FieldTable<Keyframe>& keyframe_table() {
-    static const FieldTable<Keyframe> table = {
-        .fields = {
-            value_field<Keyframe>(
-                {.path = "time", .sentence = "When.", .unit = "s", .lowest = 0.0, .highest = longest, .required = true},
-                &Keyframe::time),
-            value_field<Keyframe>({.path = "translation",
-                                   .sentence = "Where; without it as in the keyframe before.",
-                                   .unit = "m",
-                                   .lowest = -farthest,
-                                   .highest = farthest},
-                                  &Keyframe::translation),
-            rotation_field<Keyframe>({.path = "rotation",
-                                      .sentence = "Unit quaternion w, x, y, z; without it as in the keyframe before.",
-                                      .lowest = -1.001,
-                                      .highest = 1.001},
-                                     "rotation", &Keyframe::rotation),
-        }};
-    return table;
-}
-
-void read_motion(const TomlNode& list, std::vector<Keyframe>& motion) {
-    for (const TomlNode& item : list.items) {
-        const Keyframe frame = read_spec(item, keyframe_table());
-        if (!motion.empty() && frame.time <= motion.back().time)
-            fail_at(item.place, "motion must ascend in time; " + number_text(frame.time) + " s follows " +
-                                    number_text(motion.back().time) + " s");
-        motion.push_back(frame);
-    }
-    if (motion.empty()) fail_at(list.place, "motion must have at least one keyframe");
-}
-
-Field<ObstacleSpec> motion_field() {
-    Field<ObstacleSpec> field = list_field<ObstacleSpec>(
-        {.path = "motion",
-         .sentence = "Keyframes, ascending in time: they replace the pose's translation and rotation, linear and the "
-                     "shortest way in between, constant outside."},
-        &ObstacleSpec::motion, keyframe_table());
-    field.read = [](const TomlNode& node, ObstacleSpec& obstacle, FaultList&) { read_motion(node, obstacle.motion); };
-    return field;
-}
-
-void finish_spin(const TomlNode& table, Spin& spin) {
-    const double length = spin.axis.norm();
-    if (!(length > 0.0)) fail_at(table.find("axis")->place, "spin.axis must not be zero");
-    spin.axis /= length;
-}
-
-const FieldTable<Spin>& spin_table() {
-    static const FieldTable<Spin> table = {
-        .fields = {value_field<Spin>({.path = "axis",
-                                      .sentence = "Direction of the axis in the world, of any length.",
-                                      .lowest = -farthest,
-                                      .highest = farthest},
-                                     &Spin::axis),
-                   value_field<Spin>({.path = "turns_per_s",
-                                      .sentence = "Counter-clockwise seen against the axis.",
-                                      .unit = "1/s",
-                                      .lowest = -1e3,
-                                      .highest = 1e3,
-                                      .required = true},
-                                     &Spin::turns_per_s),
-                   value_field<Spin>(
-                       {.path = "from", .sentence = "When it begins.", .unit = "s", .lowest = 0.0, .highest = longest},
-                       &Spin::from)},
-        .finish = finish_spin};
-    return table;
-}
-
 std::string cloth_shown(const TomlNode& table) { return "cloth '" + table.find("name")->text + "'"; }
+/// Keys of obstacles that bend follow on those of mesh files.
+FieldTable<ObstacleSpec> with_frames(FieldTable<ObstacleSpec> table) {
+    const auto is_part = [](const Field<ObstacleSpec>& field) { return field.key.path == "part"; };
+    const auto after = std::next(std::ranges::find_if(table.fields, is_part));
+    std::vector<Field<ObstacleSpec>> frames = bend_fields();
+    table.fields.insert(after, std::make_move_iterator(frames.begin()), std::make_move_iterator(frames.end()));
+    return table;
+}
+
 std::string obstacle_shown(const TomlNode& table) { return "obstacle '" + table.find("name")->text + "'"; }
 
 }  // namespace
@@ -409,31 +351,27 @@ const FieldTable<ClothSpec>& cloth_table() {
 }
 
 const FieldTable<ObstacleSpec>& obstacle_table() {
-    static const FieldTable<ObstacleSpec> table = {
-        .fields = {name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
-                   mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."),
-                   unit_field<ObstacleSpec>(), part_field<ObstacleSpec>(), frames_field(), fps_field(),
-                   table_field<ObstacleSpec>(
-                       {.path = "shape",
-                        .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",
-                        .alternative = true},
-                       &ObstacleSpec::shape, shape_table()),
-                   value_field<ObstacleSpec>(
-                       {.path = "friction", .sentence = "Coulomb coefficient against cloth.", .lowest = 0.0, .highest = 10.0},
-                       &ObstacleSpec::friction),
-                   value_field<ObstacleSpec>(
-                       {.path = "restitution",
-                        .sentence = "Share of its normal speed with which cloth that hits it leaves; slower "
-                                    "than gravity makes it in a step, it stays.",
-                        .lowest = 0.0,
-                        .highest = 1.0},
-                       &ObstacleSpec::restitution),
-                   pose_field<ObstacleSpec>(), motion_field(),
-                   table_field<ObstacleSpec>(
-                       {.path = "spin",
-                        .sentence = "A steady turn about an axis through the mesh's origin, on top of pose and motion."},
-                       &ObstacleSpec::spin, spin_table())},
-        .rules = {.shown = obstacle_shown}};
+    static const FieldTable<ObstacleSpec> table = with_frames(
+        {.fields = {name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
+                    mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."),
+                    unit_field<ObstacleSpec>(), part_field<ObstacleSpec>(),
+                    table_field<ObstacleSpec>(
+                        {.path = "shape",
+                         .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",
+                         .alternative = true},
+                        &ObstacleSpec::shape, shape_table()),
+                    value_field<ObstacleSpec>(
+                        {.path = "friction", .sentence = "Coulomb coefficient against cloth.", .lowest = 0.0, .highest = 10.0},
+                        &ObstacleSpec::friction),
+                    value_field<ObstacleSpec>(
+                        {.path = "restitution",
+                         .sentence = "Share of its normal speed with which cloth that hits it leaves; slower "
+                                     "than gravity makes it in a step, it stays.",
+                         .lowest = 0.0,
+                         .highest = 1.0},
+                        &ObstacleSpec::restitution),
+                    pose_field<ObstacleSpec>(), motion_field(), spin_field()},
+         .rules = {.shown = obstacle_shown}});
     return table;
 }
 

@@ -30,12 +30,20 @@ void check_script_ends(const Scene& scene) {
             fail_at(obstacle.place, name +
                                         "with a spin it never stands still, so that a scene with duration = \"rest\" never ends; "
                                         "say a duration in s, or turn it by motion");
-        check_ends(scene, obstacle.end_of_frames(), obstacle.place, name + "frames");
+        if (obstacle.loop)
+            fail_at(obstacle.place, name + "with loop it never stands still; say a duration in s, or leave loop out");
         if (!obstacle.motion.empty()) check_ends(scene, obstacle.motion.back().time, obstacle.place, name + "motion");
     }
 }
 
 }  // namespace
+
+void check_shapes_end(const Scene& scene, std::span<const double> ends) {
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const ObstacleSpec& obstacle = scene.obstacles[i];
+        check_ends(scene, ends[i], obstacle.place, "obstacle '" + obstacle.name + "': what it plays");
+    }
+}
 
 void check_can_rest(const Scene& scene, const ScenePlan& plan) {
     if (!scene.until_rest) return;

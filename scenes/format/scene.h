@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "common/source_place.h"
-#include "meshes/primitives.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
 #include "percale/settings.h"
 #include "percale/stitch.h"
+#include "shapes/primitives.h"
 
 // What a scene file says, as plain data: nothing is read from disk or checked against meshes here.
 namespace percale::scenes {
@@ -85,12 +85,17 @@ struct ObstacleSpec {
     Pose pose;
     std::vector<Keyframe> motion;  // ascending times
     std::optional<Spin> spin;
-    std::optional<std::array<int, 2>> frames;  // first and last number of the files that `mesh` names by %d
-    std::optional<double> fps;                 // 1/s, of these; without 30
+    std::optional<std::array<int, 2>> frames;   // first and last number of the files that `mesh` names by %d
+    std::string cache;                          // file with the vertices of `mesh` at many times
+    std::optional<std::string> clip;            // animation of `mesh`
+    std::optional<double> fps;                  // 1/s, of frames and of a cache without times; without 30
+    std::string start_mesh;                     // what it is before it plays; "": see lead_in
+    double lead_in = 0.0;                       // s, from its start to the first shape of what is played
+    double play_from = 0.0, play_offset = 0.0;  // s, when it begins to play, and where in what is played
+    bool loop = false;
     SourcePlace place;
 
-    /// s, when the last frame is there; 0 without frames.
-    double end_of_frames() const { return frames ? ((*frames)[1] - (*frames)[0]) / fps.value_or(usual_fps) : 0.0; }
+    bool bends() const { return frames || !cache.empty() || clip; }
     static constexpr double usual_fps = 30.0;
 };
 

@@ -27,28 +27,33 @@ Vec3 before(const Pose& pose, const Vec3& point) {
 
 }  // namespace
 
-std::vector<AttachedPin> attached_pins(const Scene& scene, std::span<const TriangleMesh> cloth_meshes) {
+std::vector<AttachedPin> attached_pins(const Scene& scene, std::span<const TriangleMesh> cloth_meshes,
+                                       std::span<const TriangleMesh> obstacle_meshes) {
     std::vector<AttachedPin> pins;
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
         const ClothSpec& cloth = scene.cloths[i];
         const auto* box = std::get_if<VertexBox>(&cloth.pin);
         if (box == nullptr || box->to.empty()) continue;
         const int obstacle = obstacle_number(scene, cloth, box->to);
-        if (scene.obstacles[static_cast<std::size_t>(obstacle)].frames) {
-            fail_at(cloth.pin_place,
-                    "pin.to: '" + box->to + "' changes its shape (frames); pins keep their place on rigid obstacles");
-        }
-        const Pose start = obstacle_pose_at(scene.obstacles[static_cast<std::size_t>(obstacle)], 0.0);
-        for (const int vertex : select_vertices(cloth.pin, cloth_meshes[i], cloth.name)) {
-            const Vec3& x = cloth_meshes[i].vertices[static_cast<std::size_t>(vertex)];
-            pins.push_back({static_cast<int>(i), vertex, obstacle, before(start, x)});
+        const ObstacleSpec& body = scene.obstacles[static_cast<std::size_t>(obstacle)];
+        const Pose start = obstacle_pose_at(body, 0.0);
+        const std::vector<int> vertices = select_vertices(cloth.pin, cloth_meshes[i], cloth.name);
+        std::vector<Vec3> places;
+        for (const int vertex : vertices)
+            places.push_back(before(start, cloth_meshes[i].vertices[static_cast<std::size_t>(vertex)]));
+        std::vector<SurfacePoint> on;
+        if (body.bends()) on = attach(obstacle_meshes[static_cast<std::size_t>(obstacle)], places);
+        for (std::size_t k = 0; k < vertices.size(); ++k) {
+            pins.push_back({static_cast<int>(i), vertices[k], obstacle, places[k]});
+            if (body.bends()) pins.back().on = on[k];
         }
     }
     return pins;
 }
 
-Vec3 place_at(const AttachedPin& pin, const Scene& scene, double time) {
-    return transform(obstacle_pose_at(scene.obstacles[static_cast<std::size_t>(pin.obstacle)], time), pin.place);
+Vec3 place_at(const AttachedPin& pin, const Scene& scene, std::span<const Vec3> shape, double time) {
+    const Vec3 place = pin.on ? place_of(*pin.on, shape) : pin.place;
+    return transform(obstacle_pose_at(scene.obstacles[static_cast<std::size_t>(pin.obstacle)], time), place);
 }
 
 }  // namespace percale::scenes

@@ -38,7 +38,7 @@ Pose obstacle_pose_at(const ObstacleSpec& obstacle, double time) {
 }
 
 bool obstacle_moves(const ObstacleSpec& obstacle) {
-    return obstacle.motion.size() > 1 || obstacle.frames || (obstacle.spin && obstacle.spin->turns_per_s != 0.0);
+    return obstacle.motion.size() > 1 || obstacle.bends() || (obstacle.spin && obstacle.spin->turns_per_s != 0.0);
 }
 
 }  // namespace percale::scenes

@@ -230,7 +230,7 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, doub
     }
     if (script.rest)
         script.rest->look(built.simulation, built.cloths, report, gravity_at(built.scene, report.time - 0.5 * report.dt),
-                          !script.timeline.more_to_come(built.scene, report.time));
+                          !script.timeline.more_to_come(built, report.time));
     add_step(result.measures, report, before);
     add_accepted(totals, report);
     return true;

@@ -108,16 +108,25 @@ void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
     });
 }
 
+/// Steps longer than a frame pass by frames.
+void warn_of_passed_frames(BuiltScene& built, const ObstacleSpec& obstacle, const BodyShapes& shapes) {
+    const double step = built.scene.step.time_step;
+    if (built.scene.step.adaptive || step <= (1.0 + 1e-9) * shapes.frame_time()) return;
+    built.warnings.push_back(told(obstacle) + ": its frames are " + short_number(shapes.frame_time()) +
+                             " s apart, step.time_step = " + short_number(step) + " s passes some by");
+}
+
 void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
-    std::shared_ptr<MeshSequence> sequence;
-    if (obstacle.frames) sequence = std::make_shared<MeshSequence>(built.scene, obstacle, &built.warnings);
-    TriangleMesh mesh = sequence ? sequence->first() : obstacle_mesh(built.scene, obstacle, &built.warnings);
+    std::shared_ptr<BodyShapes> shapes;
+    if (obstacle.bends()) shapes = std::make_shared<BodyShapes>(built.scene, obstacle, &built.warnings);
+    TriangleMesh mesh = shapes ? shapes->first() : obstacle_mesh(built.scene, obstacle, &built.warnings);
     check_mesh(mesh, told(obstacle), false);
     const ObstacleSettings settings{.friction = obstacle.friction,
                                     .restitution = obstacle.restitution,
                                     .name = obstacle.name,
-                                    .deforming = sequence != nullptr};
-    built.sequences.push_back(std::move(sequence));
+                                    .deforming = shapes != nullptr};
+    if (shapes) warn_of_passed_frames(built, obstacle, *shapes);
+    built.shapes.push_back(std::move(shapes));
     built.obstacles.push_back(built.simulation.add_obstacle(mesh, obstacle_pose_at(obstacle, 0.0), settings));
     built.obstacle_meshes.push_back(std::move(mesh));
 }
@@ -214,7 +223,7 @@ bool has_pins_in_world(const ClothSpec& cloth) {
 std::string torn_text(const Scene& scene, double strain) {
     std::string text = "the largest strain is " + percent_text(strain) + ": cloth would have torn";
     const auto moving =
-        std::ranges::find_if(scene.obstacles, [](const ObstacleSpec& o) { return obstacle_moves(o) && !o.frames; });
+        std::ranges::find_if(scene.obstacles, [](const ObstacleSpec& o) { return obstacle_moves(o) && !o.bends(); });
     for (const ClothSpec& cloth : scene.cloths) {
         if (moving == scene.obstacles.end() || !has_pins_in_world(cloth)) continue;
         text += "; the pins of " + cloth.name + " stay in the world, pin = { box = ..., to = \"" + moving->name +
@@ -222,6 +231,13 @@ std::string torn_text(const Scene& scene, double strain) {
         break;
     }
     return text;
+}
+
+/// When each obstacle keeps its shape, s.
+std::vector<double> ends_of_shapes(const BuiltScene& built) {
+    std::vector<double> ends;
+    for (const auto& shapes : built.shapes) ends.push_back(shapes ? shapes->end() : 0.0);
+    return ends;
 }
 
 }  // namespace
@@ -258,7 +274,7 @@ std::vector<ClothStitches> sewn_stitches(const BuiltScene& built) {
 
 TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings) {
     if (obstacle.mesh.empty()) return shape_mesh(obstacle.shape);
-    if (obstacle.frames) return MeshSequence(scene, obstacle, warnings).first();
+    if (obstacle.bends()) return BodyShapes(scene, obstacle, warnings).first();
     check_still(scene, obstacle);
     return import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit, warnings, obstacle.part);
 }
@@ -275,7 +291,7 @@ BuiltScene build_scene(const Scene& given) {
                      .rest_shapes = {},
                      .obstacles = {},
                      .obstacle_meshes = {},
-                     .sequences = {},
+                     .shapes = {},
                      .pattern_seams = {},
                      .seams = {},
                      .warnings = {}};
@@ -290,9 +306,12 @@ BuiltScene build_scene(const Scene& given) {
     sew_other_patterns(built);
     for (const PairSpec& pair : built.scene.pairs) at_place(pair.place, "", [&] { set_pair(built, pair); });
     script_events(scene, built.cloth_meshes);
-    attached_pins(scene, built.cloth_meshes);
+    attached_pins(scene, built.cloth_meshes, built.obstacle_meshes);
     check_start(built);
-    if (scene.until_rest) check_can_rest(scene, built.simulation.plan());
+    if (scene.until_rest) {
+        check_can_rest(scene, built.simulation.plan());
+        check_shapes_end(scene, ends_of_shapes(built));
+    }
     return built;
 }
 

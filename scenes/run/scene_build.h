@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bodies/mesh_sequence.h"
+#include "bodies/body_shapes.h"
 #include "format/scene.h"
 #include "garment/seam_stitches.h"
 #include "pattern/pattern_mesh.h"
@@ -22,13 +22,13 @@ struct BuiltSeam {
 struct BuiltScene {
     Scene scene;
     Simulation simulation;
-    std::vector<ClothId> cloths;                                // in the order of scene.cloths
-    std::vector<TriangleMesh> cloth_meshes;                     // as they start, in world coordinates
-    std::vector<RestShape> rest_shapes;                         // where they have no strain
-    std::vector<ObstacleId> obstacles;                          // in the order of scene.obstacles
-    std::vector<TriangleMesh> obstacle_meshes;                  // in their own coordinates, unit applied, pose not; as they start
-    std::vector<std::shared_ptr<MeshSequence>> sequences = {};  // of each obstacle; null: it is rigid
-    std::vector<std::vector<SewnSeam>> pattern_seams;           // of each cloth; of one without a pattern none
+    std::vector<ClothId> cloths;                           // in the order of scene.cloths
+    std::vector<TriangleMesh> cloth_meshes;                // as they start, in world coordinates
+    std::vector<RestShape> rest_shapes;                    // where they have no strain
+    std::vector<ObstacleId> obstacles;                     // in the order of scene.obstacles
+    std::vector<TriangleMesh> obstacle_meshes;             // in their own coordinates, unit applied, pose not; as they start
+    std::vector<std::shared_ptr<BodyShapes>> shapes = {};  // of each obstacle; null: it is rigid
+    std::vector<std::vector<SewnSeam>> pattern_seams;      // of each cloth; of one without a pattern none
     std::vector<BuiltSeam> seams;       // in the order of scene.seams, a pattern's each apart; then those of patterns
     std::vector<std::string> warnings;  // what is not quite as the scene file says
 };

@@ -17,7 +17,7 @@ namespace {
 ScriptedChanges changes_of(const Scene& scene) {
     ScriptedChanges changes;
     changes.obstacles = std::any_of(scene.obstacles.begin(), scene.obstacles.end(), [](const ObstacleSpec& obstacle) {
-        return !obstacle.motion.empty() || obstacle.spin || obstacle.frames;
+        return !obstacle.motion.empty() || obstacle.spin || obstacle.bends();
     });
     for (const EventSpec& event : scene.events) {
         const bool gravity = std::holds_alternative<GravityEvent>(event.what),
@@ -39,13 +39,6 @@ std::string springs_text(const SpringCounts& springs) {
     return std::to_string(springs.total()) + " (" + std::to_string(springs.structural) + " structural, " +
            std::to_string(springs.shear) + " shear, " + std::to_string(springs.bend) + " bending" +
            (springs.seam > 0 ? ", " + std::to_string(springs.seam) + " of seams)" : ")");
-}
-
-/// ", 121 frames in 4.84 s"
-std::string frames_text(const ObstacleSpec& obstacle) {
-    if (!obstacle.frames) return "";
-    return ", " + std::to_string((*obstacle.frames)[1] - (*obstacle.frames)[0] + 1) + " frames in " +
-           short_number(obstacle.end_of_frames()) + " s";
 }
 
 }  // namespace
@@ -77,7 +70,7 @@ std::string plan_text(const BuiltScene& built) {
     for (std::size_t i = 0; i < built.obstacles.size(); ++i)
         text += line("obstacle", built.scene.obstacles[i].name + ", " +
                                      counted(static_cast<long>(built.obstacle_meshes[i].triangles.size()), "triangle") +
-                                     frames_text(built.scene.obstacles[i]));
+                                     (built.shapes[i] ? ", " + built.shapes[i]->text() : ""));
     for (const StartMove& move : built.simulation.start_repair()) text += line("start", start_move_text(move));
     const bool detects = built.scene.has_contact();
     text += line("memory",

@@ -9,32 +9,37 @@
 namespace percale::scenes {
 namespace {
 
-void move_obstacles(BuiltScene& built, double end) {
-    for (std::size_t i = 0; i < built.obstacles.size(); ++i) {
-        const Pose pose = obstacle_pose_at(built.scene.obstacles[i], end);
-        if (pose != built.simulation.obstacle_pose(built.obstacles[i])) built.simulation.move_obstacle(built.obstacles[i], pose);
-        if (built.sequences[i]) built.simulation.deform_obstacle(built.obstacles[i], built.sequences[i]->at(end));
-    }
+void move_obstacle(BuiltScene& built, std::size_t i, std::span<const Vec3> shape, double end) {
+    const Pose pose = obstacle_pose_at(built.scene.obstacles[i], end);
+    if (pose != built.simulation.obstacle_pose(built.obstacles[i])) built.simulation.move_obstacle(built.obstacles[i], pose);
+    if (!shape.empty()) built.simulation.deform_obstacle(built.obstacles[i], shape);
 }
 
 }  // namespace
 
 Timeline::Timeline(const BuiltScene& built)
-    : events_(script_events(built.scene, built.cloth_meshes)), attached_pins_(attached_pins(built.scene, built.cloth_meshes)) {}
+    : events_(script_events(built.scene, built.cloth_meshes)),
+      attached_pins_(attached_pins(built.scene, built.cloth_meshes, built.obstacle_meshes)) {}
 
 void Timeline::apply(BuiltScene& built, double time, double dt) {
     while (next_event_ < events_.size() && events_[next_event_].time <= time + event_rounding * dt)
         act(built, events_[next_event_++]);
-    move_pins(built, time + dt);
-    move_obstacles(built, time + dt);
+    std::vector<std::vector<Vec3>> shapes(built.obstacles.size());
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        if (built.shapes[i]) shapes[i] = built.shapes[i]->at(time + dt);
+    }
+    move_pins(built, shapes, time + dt);
+    for (std::size_t i = 0; i < shapes.size(); ++i) move_obstacle(built, i, shapes[i], time + dt);
 }
 
-bool Timeline::more_to_come(const Scene& scene, double time) const {
+bool Timeline::more_to_come(const BuiltScene& built, double time) const {
+    const Scene& scene = built.scene;
     const auto moves = [&](const ObstacleSpec& obstacle) {
         const bool spins = obstacle.spin && obstacle.spin->turns_per_s != 0.0;
-        return spins || (!obstacle.motion.empty() && obstacle.motion.back().time > time) || obstacle.end_of_frames() > time;
+        return spins || (!obstacle.motion.empty() && obstacle.motion.back().time > time);
     };
-    return next_event_ < events_.size() || !moving_pins_.empty() ||
+    const auto bends = [&](const auto& shapes) { return shapes && shapes->end() > time; };
+    return next_event_ < events_.size() || !moving_pins_.empty() || std::ranges::any_of(built.shapes, bends) ||
            std::any_of(scene.obstacles.begin(), scene.obstacles.end(), moves) ||
            std::any_of(scene.seams.begin(), scene.seams.end(),
                        [&](const SeamSpec& seam) { return seam.from + seam.over > time; });
@@ -50,7 +55,7 @@ void Timeline::go_on_from(const BuiltScene& built, const State& state) {
                       std::all_of(state.moving_pins.begin(), state.moving_pins.end(), known);
     if (!fits) throw SceneError("the state of the script is that of another scene");
     next_event_ = static_cast<std::size_t>(state.next_event);
-    attached_pins_ = attached_pins(built.scene, built.cloth_meshes);
+    attached_pins_ = attached_pins(built.scene, built.cloth_meshes, built.obstacle_meshes);
     for (std::size_t k = 0; k < next_event_; ++k) forget_pins(events_[k]);
     moving_pins_ = state.moving_pins;
 }
@@ -90,7 +95,7 @@ void Timeline::forget_pins(const ScriptedEvent& event) {
     if (const auto* move = std::get_if<ScriptedMove>(&event.what)) forget(*move);
 }
 
-void Timeline::move_pins(BuiltScene& built, double end) {
+void Timeline::move_pins(BuiltScene& built, std::span<const std::vector<Vec3>> shapes, double end) {
     const auto fraction = [&](const MovingPin& pin) { return std::min(1.0, (end - pin.from) / pin.over); };
     for (const MovingPin& pin : moving_pins_) {
         const Vec3 target = pin.start + fraction(pin) * pin.displacement;
@@ -98,7 +103,9 @@ void Timeline::move_pins(BuiltScene& built, double end) {
     }
     std::erase_if(moving_pins_, [&](const MovingPin& pin) { return fraction(pin) >= 1.0; });
     for (const AttachedPin& pin : attached_pins_) {
-        built.simulation.move_pin(built.cloths[static_cast<std::size_t>(pin.cloth)], pin.vertex, place_at(pin, built.scene, end));
+        const std::span<const Vec3> shape = shapes[static_cast<std::size_t>(pin.obstacle)];
+        built.simulation.move_pin(built.cloths[static_cast<std::size_t>(pin.cloth)], pin.vertex,
+                                  place_at(pin, built.scene, shape, end));
     }
 }
 

@@ -19,7 +19,7 @@ public:
     void apply(BuiltScene& built, double time, double dt);
 
     /// Whether something is still to happen after `time`: an event, a pin on its way, an obstacle that moves, a seam that closes.
-    bool more_to_come(const Scene& scene, double time) const;
+    bool more_to_come(const BuiltScene& built, double time) const;
 
     struct MovingPin {
         int cloth = 0;
@@ -41,7 +41,8 @@ private:
     void forget_pins(const ScriptedEvent& event);
     void act(BuiltScene& built, const ScriptedEvent& event);
     void start_move(const BuiltScene& built, const ScriptedMove& move, double from);
-    void move_pins(BuiltScene& built, double end);
+    /// `shapes`: of each obstacle at the end, before its pose; empty of a rigid one.
+    void move_pins(BuiltScene& built, std::span<const std::vector<Vec3>> shapes, double end);
 
     std::vector<ScriptedEvent> events_;
     std::size_t next_event_ = 0;

@@ -88,15 +88,15 @@ TEST_CASE("A frame's number takes the place of %d, padded to the digits asked fo
 TEST_CASE("Vertices go straight from frame to frame, and stay before the first and after the last") {
     const BallFrames frames;
     MeshSequence sequence(frames.empty_scene(), frames.spec());
-    CHECK(sequence.first().triangles == frames.ball.triangles);
+    CHECK(sequence.mesh().triangles == frames.ball.triangles);
     CHECK(sequence.at(-1.0) == frames.shape(0));
     for (const double time : {0.0, 0.3, 0.8, 5.0, 0.1}) {
         CHECK(sequence.at(time) == frames.shape(std::min(8, static_cast<int>(std::lround(10.0 * time)))));
     }
     const std::vector<Vec3> between = sequence.at(0.475), before = frames.shape(4), after = frames.shape(5);
     for (std::size_t i = 0; i < between.size(); ++i) CHECK((between[i] - (0.25 * before[i] + 0.75 * after[i])).norm() < 1e-12);
-    CHECK(frames.spec().end_of_frames() == Approx(0.8));
-    CHECK(ObstacleSpec{}.end_of_frames() == 0.0);
+    CHECK(sequence.length() == Approx(0.8));
+    CHECK(sequence.text() == "9 frames in 0.8 s");
 }
 
 TEST_CASE("Frames that are missing, of another mesh, without an order or without numbers are refused by name") {
@@ -117,13 +117,6 @@ TEST_CASE("Frames that are missing, of another mesh, without an order or without
     CHECK(message_of([&] { sequence.at(0.5); }).find("ball5.obj:1") != std::string::npos);
     obstacle.mesh = "ball%d.stl";
     CHECK(message_of([&] { MeshSequence(scene, obstacle); }).find("OBJ, OFF or PLY") != std::string::npos);
-    obstacle.mesh = "ball%d.obj";
-    obstacle.frames.reset();
-    CHECK(message_of([&] { check_still(scene, obstacle); }).find("fps needs frames") != std::string::npos);
-    obstacle.fps.reset();
-    CHECK(message_of([&] { check_still(scene, obstacle); }).find("frames = [first, last]") != std::string::npos);
-    obstacle.mesh = "ball0.obj";
-    CHECK(message_of([&] { check_still(scene, obstacle); }).empty());
 }
 
 TEST_CASE("Cloth on a ball that swells by its frames: the frames that are written are those of the files, none crosses") {
@@ -160,7 +153,7 @@ TEST_CASE("A run that meets a bad frame fails there, with what it has, and rest 
     CHECK(written > 5);
     CHECK(message_of([&] {
               build_scene(frames.scene({{"duration", "rest"}, {"longest", "0.5"}}));
-          }).find("frames goes on until 0.8 s") != std::string::npos);
+          }).find("what it plays goes on until 0.8 s") != std::string::npos);
 }
 
 TEST_CASE("A run on frames is resumed in every bit, and goes on until the last frame") {

@@ -1,4 +1,4 @@
-#include "scenes/meshes/primitives.h"
+#include "scenes/shapes/primitives.h"
 
 #include <numbers>
 

@@ -1,4 +1,4 @@
-#include "meshes/primitives.h"
+#include "shapes/primitives.h"
 
 #include "percale/error.h"
 #include "tolerances.h"

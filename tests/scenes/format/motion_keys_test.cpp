@@ -1,4 +1,4 @@
-#include "format/frame_keys.h"
+#include "format/motion_keys.h"
 
 #include "format/scene_file.h"
 #include "tests/scenes/message_of.h"
@@ -21,10 +21,27 @@ TEST_CASE("Frames and their rate are read, and written back as they were") {
     CHECK(scene.obstacles[0].frames == std::array{3, 40});
     CHECK(scene.obstacles[0].fps == 25.0);
     CHECK_FALSE(scene_with("mesh = \"body.obj\"\n").obstacles[0].frames);
-    const auto written = frames_field().write(scene.obstacles[0]);
+    const auto written = bend_fields()[0].write(scene.obstacles[0]);
     REQUIRE(written);
     REQUIRE(written->items.size() == 2);
     CHECK(written->items[1].integer == 40);
+}
+
+TEST_CASE("A cache, a clip and when they are played are read, and written only where they are said") {
+    const Scene scene =
+        scene_with("mesh = \"a.glb\"\nclip = \"walk\"\nlead_in = 0.5\nplay_from = 1.0\nplay_offset = 0.25\nloop = true\n");
+    const ObstacleSpec& body = scene.obstacles[0];
+    CHECK(body.clip == "walk");
+    CHECK(body.bends());
+    CHECK((body.lead_in == 0.5 && body.play_from == 1.0 && body.play_offset == 0.25 && body.loop));
+    CHECK(scene_with("mesh = \"a.obj\"\ncache = \"a.pc2\"\nstart_mesh = \"b.obj\"\n").obstacles[0].cache == "a.pc2");
+    const ObstacleSpec still = scene_with("mesh = \"a.obj\"\n").obstacles[0];
+    CHECK_FALSE(still.bends());
+    for (const Field<ObstacleSpec>& field : bend_fields()) {
+        CAPTURE(field.key.path);
+        const bool optional = field.key.path == "frames" || field.key.path == "cache" || field.key.path == "clip";
+        if (optional) CHECK_FALSE(field.write(still));
+    }
 }
 
 TEST_CASE("Frames of a shape, frames below 0 and no frames a second are refused") {

@@ -1,0 +1,105 @@
+#include "bodies/body_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "bodies/mesh_sequence.h"
+#include "bodies/point_cache.h"
+#include "bodies/skin_clip.h"
+#include "common/text.h"
+#include "garment/cloth_shape.h"
+#include "meshes/mesh_import.h"
+#include "percale/error.h"
+#include "tolerances.h"
+
+namespace percale::scenes {
+namespace {
+
+std::unique_ptr<ShapeSource> open_source(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings) {
+    if (int{obstacle.frames.has_value()} + int{!obstacle.cache.empty()} + int{obstacle.clip.has_value()} > 1)
+        throw SceneError("frames, cache and clip exclude each other");
+    if (obstacle.frames) return std::make_unique<MeshSequence>(scene, obstacle, warnings);
+    if (!obstacle.cache.empty()) return std::make_unique<PointCache>(scene, obstacle, warnings);
+    return std::make_unique<SkinClip>(scene, obstacle);
+}
+
+/// Where the lead-in starts.
+std::vector<Vec3> start_of(const Scene& scene, const ObstacleSpec& obstacle, const TriangleMesh& mesh) {
+    if (obstacle.start_mesh.empty()) {
+        if (obstacle.frames) throw SceneError("lead_in of frames needs start_mesh, the mesh that it starts from");
+        return mesh.vertices;
+    }
+    check_keeps_vertices(obstacle.mesh, "start meshes");
+    check_keeps_vertices(obstacle.start_mesh, "start meshes");
+    const std::string file = path_beside(scene, obstacle.start_mesh);
+    TriangleMesh start = import_mesh(file, obstacle.unit, nullptr, obstacle.part);
+    check_same_triangles(start, file, mesh, obstacle.mesh);
+    return std::move(start.vertices);
+}
+
+std::vector<Vec3> between(const std::vector<Vec3>& from, const std::vector<Vec3>& to, double share) {
+    std::vector<Vec3> vertices(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) vertices[i] = from[i] + share * (to[i] - from[i]);
+    return vertices;
+}
+
+double farthest_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    double squared = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) squared = std::max(squared, (a[i] - b[i]).squaredNorm());
+    return std::sqrt(squared);
+}
+
+}  // namespace
+
+BodyShapes::BodyShapes(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings)
+    : source_(open_source(scene, obstacle, warnings)),
+      lead_in_(obstacle.lead_in),
+      from_(obstacle.play_from),
+      offset_(obstacle.play_offset),
+      loop_(obstacle.loop) {
+    if (offset_ >= source_->length())
+        throw SceneError("play_offset = " + number_text(offset_) + " s must be below the " + number_text(source_->length()) +
+                         " s that are played");
+    if (!obstacle.start_mesh.empty() && lead_in_ == 0.0) throw SceneError("start_mesh needs a lead_in");
+    if (lead_in_ > 0.0) start_ = start_of(scene, obstacle, source_->mesh());
+    if (loop_ && farthest_apart(source_->at(0.0), source_->at(source_->length())) > same_shape) closing_ = source_->frame_time();
+    first_ = source_->mesh();
+    first_.vertices = at(0.0);
+}
+
+std::vector<Vec3> BodyShapes::played(double time) {
+    if (!loop_) return source_->at(time);
+    const double length = source_->length(), t = std::fmod(time, length + closing_);
+    if (t <= length) return source_->at(t);
+    return between(source_->at(length), source_->at(0.0), (t - length) / closing_);
+}
+
+std::vector<Vec3> BodyShapes::at(double time) {
+    const double since = std::max(0.0, time - from_);
+    if (since >= lead_in_) return played(offset_ + since - lead_in_);
+    return between(start_, played(offset_), since / lead_in_);
+}
+
+double BodyShapes::end() const {
+    return loop_ ? std::numeric_limits<double>::infinity() : from_ + lead_in_ + source_->length() - offset_;
+}
+
+std::string BodyShapes::text() const { return source_->text() + (loop_ ? ", again and again" : ""); }
+
+void check_still(const Scene& scene, const ObstacleSpec& obstacle) {
+    const auto refuse = [](bool given, const std::string& key) {
+        if (given) throw SceneError(key + " needs frames = [first, last], cache or clip");
+    };
+    refuse(obstacle.fps.has_value(), "fps");
+    refuse(!obstacle.start_mesh.empty(), "start_mesh");
+    refuse(obstacle.lead_in > 0.0, "lead_in");
+    refuse(obstacle.play_from > 0.0, "play_from");
+    refuse(obstacle.play_offset > 0.0, "play_offset");
+    refuse(obstacle.loop, "loop");
+    if (obstacle.mesh.find('%') == std::string::npos || std::filesystem::exists(path_beside(scene, obstacle.mesh))) return;
+    throw SceneError("mesh = \"" + obstacle.mesh + "\" names frames by %; frames = [first, last] says which");
+}
+
+}  // namespace percale::scenes

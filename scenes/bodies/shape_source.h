@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "percale/mesh.h"
+
+namespace percale::scenes {
+
+/// One mesh whose vertices are elsewhere at each time. Lengths in m before the pose, times in s from its own start.
+class ShapeSource {
+public:
+    virtual ~ShapeSource() = default;
+
+    /// Its triangles, and its vertices when nothing is played.
+    virtual const TriangleMesh& mesh() const = 0;
+    virtual double length() const = 0;
+    /// How long it goes from one shape that it has to the next.
+    virtual double frame_time() const = 0;
+    /// Vertices at a time, that of the nearest end outside 0 ... length(). Throws SceneError for a file that cannot be read.
+    virtual std::vector<Vec3> at(double time) = 0;
+    /// "121 frames in 4.84 s"
+    virtual std::string text() const = 0;
+};
+
+/// Shapes that are there at some times, straight from one to the next in between. Two of them are kept.
+class SampledShapes : public ShapeSource {
+public:
+    double length() const override { return times_.back(); }
+    double frame_time() const override {
+        return times_.size() > 1 ? times_.back() / static_cast<double>(times_.size() - 1) : 0.0;
+    }
+    std::vector<Vec3> at(double time) override;
+    std::string text() const override;
+
+protected:
+    /// Times ascend from 0; at least one.
+    void set_times(std::vector<double> times) { times_ = std::move(times); }
+    /// `rate`: 1/s
+    void set_equal_times(int count, double rate);
+
+private:
+    virtual std::vector<Vec3> load(int sample) const = 0;
+    /// The sample that is not needed beside it makes place.
+    const std::vector<Vec3>& sample(int number, int other);
+
+    struct Loaded {
+        int number = -1;
+        std::vector<Vec3> vertices;
+    };
+    std::vector<double> times_{0.0};
+    std::array<Loaded, 2> loaded_;
+};
+
+}  // namespace percale::scenes
