@@ -8,6 +8,7 @@
 #include "start/start_check.h"
 #include "state/saved_world.h"
 #include "step/sewing.h"
+#include "step/yielding.h"
 #include "support/stage_timer.h"
 
 namespace percale {
@@ -101,7 +102,8 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
     double square = 0.0;
     for (const Vec3& x : mesh.vertices) square = std::max(square, x.squaredNorm());
     Shape shape;
-    if (settings.deforming) {
+    const bool deforming = settings.deforming || settings.yields;
+    if (deforming) {
         world.scene.detector->add_deforming_obstacle(mesh, placed, settings.friction);
         shape = std::make_shared<const std::vector<Vec3>>(mesh.vertices);
     } else {
@@ -114,7 +116,8 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
                                             .restitution = settings.restitution,
                                             .reach = placed.scale * std::sqrt(square),
                                             .start_shape = shape,
-                                            .end_shape = shape});
+                                            .end_shape = shape,
+                                            .yielding = settings.yields ? yielding_mesh(mesh) : nullptr});
     world.changed = true;
     scene_changed(world);
     return {static_cast<int>(world.scene.script.obstacles.size()) - 1};

@@ -69,6 +69,7 @@ void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end)
     if (world.refused.obstacle != obstacle.index) return;
     if (state.deforms()) state.reach = state.end_reach;
     state.start_shape = state.end_shape;  // no step begins where it is
+    state.dent.clear();
     state.shape_travel = 0.0;
     state.settled = false;
 }

@@ -19,6 +19,13 @@ namespace percale {
 /// Where the vertices of a deforming obstacle's mesh are before its pose, m.
 using Shape = std::shared_ptr<const std::vector<Vec3>>;
 
+/// The mesh of an obstacle that yields. Vertices at one place have one number in its triangles.
+struct YieldingMesh {
+    std::vector<Triangle> triangles;
+    std::vector<int> place;  // of each vertex: the first at the same place
+    double edge = 0.0;       // m, mean length of the triangles' edges, before the pose
+};
+
 struct ObstacleState {
     std::string name;
     Pose start, end;  // of the coming step
@@ -30,6 +37,11 @@ struct ObstacleState {
     Shape start_shape = {}, end_shape = {};  // of the coming step; null: it is rigid
     double shape_travel = 0.0;               // m, largest displacement between them, the pose's scale included
     double end_reach = 0.0;                  // m, `reach` at the end of the step, if it deforms
+
+    std::shared_ptr<const YieldingMesh> yielding = {};  // null: cloth has to go out of its way
+    Shape aim = {};                                     // of one that yields, during a step: what end_shape should be
+    std::vector<Vec3> dent = {};                        // m, before the pose: start_shape less what it should be; empty: nothing
+    std::vector<Vec3> next_dent = {};                   // end_shape less aim, during a step
 
     bool deforms() const { return start_shape != end_shape; }
     bool moves() const { return start != end || deforms(); }
@@ -52,6 +64,14 @@ struct ObstacleState {
         if (deforms()) reach = end_reach;
         start_shape = end_shape;
         shape_travel = 0.0;
+        if (aim) dent = std::move(next_dent);
+        aim_again();
+    }
+    /// What gave way goes where it should.
+    void aim_again() {
+        if (aim) go_to(std::move(aim));
+        aim.reset();
+        next_dent.clear();
     }
 };
 

@@ -35,7 +35,7 @@ std::uint64_t obstacles_hash(const World& world) {
     StateWriter writer;
     writer(world.scene.detector != nullptr);
     for (const ObstacleState& obstacle : world.scene.script.obstacles)
-        writer(obstacle.triangles, obstacle.start.scale, obstacle.restitution);
+        writer(obstacle.triangles, obstacle.start.scale, obstacle.restitution, obstacle.yielding != nullptr);
     return checksum(writer.take());
 }
 

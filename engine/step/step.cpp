@@ -13,6 +13,7 @@
 #include "solve_step.h"
 #include "step_parts.h"
 #include "tolerances.h"
+#include "yielding.h"
 
 namespace percale {
 namespace {
@@ -60,6 +61,7 @@ StepReport step_once(World& world) {
     StepReport report = begin_report(dt);
     work.times = {};
     report.energy.work = plan_step(world);
+    const Pinches pinches = yield_to_cloth(world);
     tell_obstacles(scene);  // where they have to be at the end of the step; nothing moves yet
     const StepMeasure measure(scene, state, report.energy.work);
 
@@ -72,11 +74,15 @@ StepReport step_once(World& world) {
     if (report.ok()) {
         std::swap(state, *end);  // `state` is the end of the step from here, the workspace keeps its start
         finish_motion(scene);
+        report.pinched = pinches.count;
+        report.pinching = pinches.obstacles;
+        report.yielded = deepest_dent(scene.script);
         advance_time(dt, state);
         measure.accepted(state, work, report);
         update_rest(scene, end->cloth.velocities, state.cloth, rest, report);
         damp_kinetic_energy(scene, state, rest, report);
     } else {
+        for (ObstacleState& obstacle : scene.script.obstacles) obstacle.aim_again();
         loosen_holds(world);
         state.past.forget();
         wake(rest);
@@ -87,17 +93,11 @@ StepReport step_once(World& world) {
     return report;
 }
 
-/// A step in which an obstacle moves far. Where it moves too far for any number of parts, nothing is tried.
-StepReport step_far(World& world, const MotionParts& motion) {
+/// A step as so many parts.
+StepReport step_divided(World& world, int parts) {
     StepState& state = world.state;
     const double dt = world.scene.settings.time_step, time = state.time, time_error = state.time_error;
-    StepReport report = begin_report(dt);
-    if (motion.count > most_step_parts) {
-        tell_too_far(world.scene, motion, report);
-        world.load_source = LoadSource::nowhere;
-    } else {
-        report = step_in_parts(world, motion.count, step_once);
-    }
+    StepReport report = step_in_parts(world, parts, step_once);
     if (report.ok()) {  // as one step adds it up
         state.time = time;
         state.time_error = time_error;
@@ -107,6 +107,32 @@ StepReport step_far(World& world, const MotionParts& motion) {
     }
     report.dt = dt;
     report.time = state.time;
+    return report;
+}
+
+/// A step in which an obstacle moves farther than any number of parts allows.
+StepReport refuse_far(World& world, const MotionParts& motion) {
+    StepReport report = begin_report(world.scene.settings.time_step);
+    tell_too_far(world.scene, motion, report);
+    world.load_source = LoadSource::nowhere;
+    StepMeasure(world.scene, world.state, 0.0).kept(world.state, report);
+    report.time = world.state.time;
+    return report;
+}
+
+/// Surfaces that yield see cloth only when they are near it: what failed is made again in shorter parts.
+StepReport step_yielding(World& world, int parts, StepReport report) {
+    for (const int more : yielding_parts) {
+        if (report.status != StepStatus::obstacle_too_fast || more <= parts) continue;
+        const DroppedSpans dropped = report.dropped;
+        const int used = report.newton_iterations, halvings = report.halvings;
+        if (parts == 1 && more == yielding_parts[0]) world.work.iterations_left -= used;
+        if (world.work.iterations_left <= 0) return report;
+        report = step_divided(world, more);
+        report.newton_iterations += used;
+        report.halvings += halvings;
+        report.dropped += dropped;
+    }
     return report;
 }
 
@@ -126,7 +152,9 @@ StepReport step(World& world) {
     const int limit = world.scene.settings.work_limit;
     world.work.iterations_left = limit > 0 ? limit : std::numeric_limits<int>::max();
     const MotionParts motion = motion_parts(world.scene, world.state.cloth);
-    return motion.count > 1 ? step_far(world, motion) : step_once(world);
+    if (motion.count > most_step_parts) return refuse_far(world, motion);
+    StepReport report = motion.count > 1 ? step_divided(world, motion.count) : step_once(world);
+    return any_yields(world.scene.script) ? step_yielding(world, motion.count, std::move(report)) : report;
 }
 
 }  // namespace percale

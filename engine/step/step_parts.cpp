@@ -12,6 +12,7 @@ namespace {
 Shape shape_after(double share, const ObstacleState& obstacle) {
     if (share == 1.0) return obstacle.end_shape;
     auto between = std::make_shared<std::vector<Vec3>>(*obstacle.start_shape);
+    for (std::size_t i = 0; i < obstacle.dent.size(); ++i) (*between)[i] -= obstacle.dent[i];
     for (std::size_t i = 0; i < between->size(); ++i) (*between)[i] += share * ((*obstacle.end_shape)[i] - (*between)[i]);
     return between;
 }
@@ -104,6 +105,10 @@ void add_part(StepReport part, StepReport& sum) {
     sum.dropped += before.dropped;
     sum.smallest_fraction = std::min(sum.smallest_fraction, before.smallest_fraction);
     sum.contact_stiffness = std::max(sum.contact_stiffness, before.contact_stiffness);
+    if (sum.pinched < before.pinched) {
+        sum.pinched = before.pinched;
+        sum.pinching = before.pinching;
+    }
     sum.stages += before.stages;
     StepEnergy energy = before.energy;
     add_step_energy(sum.energy, energy);

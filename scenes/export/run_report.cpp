@@ -147,7 +147,8 @@ ordered_json frame_list(std::span<const FrameRecord> frames) {
 ordered_json obstacle_list(const BuiltScene& built) {
     ordered_json list = ordered_json::array();
     for (std::size_t i = 0; i < built.obstacle_meshes.size(); ++i) {
-        const CleaningReport cleaning = cleaning_report(built.obstacle_meshes[i], built.shapes[i] != nullptr);
+        const CleaningReport cleaning =
+            cleaning_report(built.obstacle_meshes[i], built.shapes[i] != nullptr || built.scene.obstacles[i].yields);
         const Vec3 force = built.simulation.force_on(built.obstacles[i]);
         list.push_back({{"name", built.scene.obstacles[i].name},
                         {"contact_force", {force.x(), force.y(), force.z()}},

@@ -370,7 +370,7 @@ const FieldTable<ObstacleSpec>& obstacle_table() {
                          .lowest = 0.0,
                          .highest = 1.0},
                         &ObstacleSpec::restitution),
-                    pose_field<ObstacleSpec>(), motion_field(), spin_field()},
+                    pose_field<ObstacleSpec>(), motion_field(), spin_field(), pinch_field()},
          .rules = {.shown = obstacle_shown}});
     return table;
 }

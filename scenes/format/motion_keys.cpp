@@ -122,6 +122,16 @@ Field<ObstacleSpec> spin_field() {
         &ObstacleSpec::spin, spin_table());
 }
 
+Field<ObstacleSpec> pinch_field() {
+    static constexpr std::string_view words[] = {"stop", "yield"};
+    return word_field<ObstacleSpec>(
+        {.path = "on_pinch",
+         .sentence =
+             "Where it leaves cloth less room than two thicknesses, between it and another surface or its own: the run stops "
+             "and says where, or its surface gives way there, which report.json tells of, and goes back when there is room."},
+        &ObstacleSpec::yields, words, std::vector{false, true});
+}
+
 std::vector<Field<ObstacleSpec>> bend_fields() {
     return {
         frames_field(),

@@ -10,6 +10,7 @@ namespace percale::scenes {
 
 Field<ObstacleSpec> motion_field();
 Field<ObstacleSpec> spin_field();
+Field<ObstacleSpec> pinch_field();
 /// Where the shapes of obstacles that bend come from, and when they are played.
 std::vector<Field<ObstacleSpec>> bend_fields();
 

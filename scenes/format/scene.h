@@ -93,6 +93,7 @@ struct ObstacleSpec {
     double lead_in = 0.0;                       // s, from its start to the first shape of what is played
     double play_from = 0.0, play_offset = 0.0;  // s, when it begins to play, and where in what is played
     bool loop = false;
+    bool yields = false;  // on_pinch
     SourcePlace place;
 
     bool bends() const { return frames || !cache.empty() || clip; }

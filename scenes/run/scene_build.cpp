@@ -124,7 +124,8 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     const ObstacleSettings settings{.friction = obstacle.friction,
                                     .restitution = obstacle.restitution,
                                     .name = obstacle.name,
-                                    .deforming = shapes != nullptr};
+                                    .deforming = shapes != nullptr,
+                                    .yields = obstacle.yields};
     if (shapes) warn_of_passed_frames(built, obstacle, *shapes);
     built.shapes.push_back(std::move(shapes));
     built.obstacles.push_back(built.simulation.add_obstacle(mesh, obstacle_pose_at(obstacle, 0.0), settings));

@@ -125,7 +125,11 @@ struct StepReport {
     int blocking_obstacle = -1;               // -1 where it is cloth, too; blocking_name then says so
     std::string blocked_name, blocking_name;  // of that cloth and obstacle
     double travel = 0.0;                      // m, beside the cloth, of an obstacle or a pin that moves too far for a step
-    int second_obstacle = -1;                 // pushes the cloth towards the blocking one
+    int pinched = 0;                          // places of obstacles that gave way to cloth, ObstacleSettings::yields
+    double yielded = 0.0;  // m, how far the farthest vertex of such an obstacle is from where it should be, at the end
+    std::array<int, 2> pinching{
+        -1, -1};               // the obstacles between which the cloth has least room; both the same where it pinches alone
+    int second_obstacle = -1;  // pushes the cloth towards the blocking one
     std::string second_name;
     int stretched_cloth = -1;  // of a failed step: held by pins and stretched to more than twice its length
     int stretched_pins = 0;    // how many of its vertices are pinned

@@ -39,6 +39,10 @@ struct ObstacleSettings {
     double restitution = 0.0;       // share of its normal speed with which cloth that hits it leaves, 0 ... 1
     std::string name = "obstacle";  // for messages
     bool deforming = false;         // its vertices may move one by one; costs contacts more, and time
+    /// What happens where it leaves cloth less room than two thicknesses, between it and what is on the other side. False: the
+    /// step fails. True: its surface gives way there, as flesh does, and goes back as soon as there is room; StepReport::pinched
+    /// tells. It is deforming then. Its mesh needs edges not much longer than a few thicknesses.
+    bool yields = false;
 };
 
 /// Cloth, obstacles and their motion in time. Wrong arguments throw SceneError from the call that was wrong; a step never
@@ -132,7 +136,8 @@ public:
     /// Lumped masses, kg.
     std::span<const double> masses(ClothId cloth) const;
     Pose obstacle_pose(ObstacleId obstacle) const;
-    /// Where the vertices of an obstacle's mesh are before its pose, m, those of a rigid one none.
+    /// Where the vertices of an obstacle's mesh are before its pose, m, those of a rigid one none; of one that yields as they
+    /// have given way.
     std::span<const Vec3> obstacle_shape(ObstacleId obstacle) const;
     /// Energies of the current state, J; `work` is 0.
     StepEnergy energy() const;

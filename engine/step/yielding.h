@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "world.h"
+
+namespace percale {
+
+/// Surfaces give way from this share of the room on that two contact zones have, which is where cloth between them begins to be
+/// pressed. Larger: they have given way before the contacts that tell of it are there. Smaller: cloth is pressed hard.
+inline constexpr double kept_room = 0.6;
+
+/// Into how many equal parts a step is divided, in turn, where a surface came up too fast to give way in time.
+inline constexpr std::array<int, 3> yielding_parts = {4, 16, 64};
+
+std::shared_ptr<const YieldingMesh> yielding_mesh(const TriangleMesh& mesh);
+
+/// Whether some obstacle yields.
+bool any_yields(const Script& script);
+
+/// Before a step of which the detector knows the motion that is wanted: where cloth would be left less room than kept_room, the
+/// ends of obstacles that yield are moved apart. At a vertex of cloth that is pressed from A along a and from B along b, a . b <
+/// 0, the room is r = d_A + d_B + a . (u_B - u_A) at the end, d the distances and u the displacements of the points that press;
+/// what it lacks is taken off, half from each where both yield. Around these points the surface goes along, (1 - (s/R)^2)^2 at a
+/// distance s. Dents go back by a thickness a step where nothing hinders them. Returns how many places gave way.
+struct Pinches {
+    int count = 0;
+    std::array<int, 2> obstacles{-1, -1};  // between which there is least room
+};
+Pinches yield_to_cloth(World& world);
+
+/// m, world: how far the farthest vertex of an obstacle is from where it should be.
+double deepest_dent(const Script& script);
+
+}  // namespace percale
