@@ -2,6 +2,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "common/whole_file.h"
 #include "meshes/obj_file.h"
 #include "shapes/shipped_meshes.h"
 
@@ -14,8 +15,13 @@ int main(int count, char** arguments) {
     try {
         const std::filesystem::path folder = arguments[1];
         std::filesystem::create_directories(folder);
-        for (const auto& [file, mesh] : percale::scenes::make_shipped_meshes()) {
-            percale::scenes::write_obj((folder / file).string(), mesh.vertices, mesh.triangles);
+        for (const auto& [file, mesh, bytes] : percale::scenes::make_shipped_meshes()) {
+            const std::string path = (folder / file).string();
+            if (bytes.empty())
+                percale::scenes::write_obj(path, mesh.vertices, mesh.triangles);
+            else
+                percale::scenes::write_whole_file(path, bytes);
+
             std::printf("%s: %zu vertices, %zu triangles\n", file.c_str(), mesh.vertices.size(), mesh.triangles.size());
         }
     } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 #include "shapes/funnel.h"
 #include "shapes/mannequin.h"
 #include "shapes/poncho.h"
+#include "shapes/rigged_glb.h"
 #include "shapes/spikes.h"
 
 namespace percale::scenes {
@@ -22,9 +23,14 @@ TriangleMesh rounded(TriangleMesh mesh) {
 
 std::vector<ShippedMesh> make_shipped_meshes() {
     const SpikeBed needles{.width = 0.6, .count = 10, .height = 0.1, .base = 0.03, .thickness = 0.02};
-    return {{"funnel.obj", rounded(make_funnel())},         {"mannequin.obj", rounded(make_mannequin(0.02))},
-            {"needles.obj", rounded(make_spikes(needles))}, {"poncho.obj", rounded(make_poncho())},
-            {"sphere.obj", rounded(make_sphere(0.25, 4))},  {"spikes.obj", rounded(make_spikes())}};
+    const TriangleMesh mannequin = rounded(make_mannequin(0.02));
+    return {{"funnel.obj", rounded(make_funnel()), ""},
+            {"mannequin.glb", mannequin, rigged_glb("mannequin", make_mannequin_rig(mannequin), mannequin_clips())},
+            {"mannequin.obj", mannequin, ""},
+            {"needles.obj", rounded(make_spikes(needles)), ""},
+            {"poncho.obj", rounded(make_poncho()), ""},
+            {"sphere.obj", rounded(make_sphere(0.25, 4)), ""},
+            {"spikes.obj", rounded(make_spikes()), ""}};
 }
 
 }  // namespace percale::scenes
