@@ -23,7 +23,7 @@ struct PhaseKey {
 constexpr PhaseKey foot_pitch[] = {{0.0, 16.0}, {0.11, 0.0}, {0.34, 0.0}, {stance, -36.0}, {1.0, 16.0}};
 constexpr PhaseKey toe_pitch[] = {{0.0, 0.0}, {0.34, 0.0}, {stance, 36.0}, {0.85, 0.0}, {1.0, 0.0}};
 
-// m, in the mesh as it was made: what the foot rolls over, and by how much the ankle rises above the way from toes to heel.
+// m, in the mesh as it was made: what the foot rolls over, and by how much a swinging ankle rises above its line.
 const Vec3 heel(0.109, 0.038, -0.055);
 constexpr double ankle_rise = 0.05;
 
@@ -65,8 +65,7 @@ struct Pelvis {
     double yaw;
 };
 
-/// Highest over the standing leg, towards which it shifts, the side of the swinging leg lower; turned forwards at the leading
-/// leg.
+/// Highest over the standing leg, towards which it shifts, the side of the swinging leg lower; the leading leg's side in front.
 Pelvis pelvis_at(double phase) {
     const double rise = -0.031 - 0.021 * std::cos(4.0 * pi * (phase - 0.05)), roll = radians(2.5) * std::sin(2.0 * pi * phase);
     const double yaw = -radians(4.0) * std::cos(2.0 * pi * phase);

@@ -39,10 +39,10 @@ Vec3 bone(const std::vector<Joint>& joints, int from, int to) {
 void share_core(const std::vector<Joint>& joints, const Vec3& x, Shares& shares) {
     pass_on(shares, joint::hips, joint::spine, ramp(beyond(joints, joint::spine, Vec3::UnitY(), x), 0.08));
     pass_on(shares, joint::spine, joint::chest, ramp(beyond(joints, joint::chest, Vec3::UnitY(), x), 0.08));
+    pass_on(shares, joint::chest, joint::neck, ramp(beyond(joints, joint::neck, Vec3(0.0, 0.9, 0.4).normalized(), x), 0.045));
+    pass_on(shares, joint::neck, joint::head, ramp(beyond(joints, joint::head, Vec3(0.0, 0.95, 0.3).normalized(), x), 0.04));
     const double girdle = ramp(x[0] - 0.08, 0.05) * ramp(x[1] - 1.385, 0.055);
     pass_on(shares, joint::chest, joint::clavicle, girdle);
-    pass_on(shares, joint::chest, joint::neck, ramp(beyond(joints, joint::neck, Vec3(0.0, 0.9, 0.4).normalized(), x), 0.045));
-    pass_on(shares, joint::neck, joint::head, ramp(beyond(joints, joint::head, Vec3(0.0, 0.8, 0.6), x), 0.04));
 }
 
 /// Elbow: across the plane that halves the angle of the bones. The upper arm's own joint takes over along all of the bone.
@@ -56,29 +56,25 @@ void share_arm(const std::vector<Joint>& joints, const Vec3& x, Shares& shares) 
 /// The ankle's plane rises towards the heel, so that the instep goes with the foot.
 void share_leg(const std::vector<Joint>& joints, const Vec3& x, Shares& shares) {
     pass_on(shares, joint::hip, joint::knee, ramp(-beyond(joints, joint::knee, Vec3::UnitY(), x), 0.07));
-    pass_on(shares, joint::knee, joint::ankle, ramp(beyond(joints, joint::ankle, Vec3(0.0, -0.8, 0.6), x), 0.04));
+    pass_on(shares, joint::knee, joint::ankle, ramp(beyond(joints, joint::ankle, Vec3(0.0, -0.95, 0.3).normalized(), x), 0.04));
     pass_on(shares, joint::ankle, joint::toes, ramp(beyond(joints, joint::toes, Vec3::UnitZ(), x), 0.03));
 }
 
 /// Of a point with x >= 0. The arm begins where the distances to it and to the trunk are equal: at the armpit, where its far side
-/// is not near. The leg begins at the crease from the crotch up to the side of the hip; in the middle both legs have as much.
+/// is not near. The leg begins at the crease from the crotch up to the side of the hip; the middle stays with the hips.
 Shares shares_of(const Vec3& x) {
     static const std::vector<Joint> joints = mannequin_joints();
     const double arm = ramp(core_distance(x) - parts_distance(arm_parts(), x), 0.05);
     const double crease = joints[joint::hip].position[1] + 0.6 * (x[0] - joints[joint::hip].position[0]);
-    const double legs = (1.0 - arm) * ramp(crease - x[1], 0.07), near = ramp(x[0], 0.015);
-    Shares core{}, left_arm{}, left_leg{}, sum{};
-    core[joint::hips] = 1.0 - arm - legs;
-    left_arm[joint::shoulder] = arm;
-    left_leg[joint::hip] = legs;
-    share_core(joints, x, core);
-    share_arm(joints, x, left_arm);
-    share_leg(joints, x, left_leg);
-    for (int j = 0; j < joint_count; ++j) {
-        sum[j] += core[j] + left_arm[j] + near * left_leg[j];
-        sum[mirrored_joint(j)] += (1.0 - near) * left_leg[j];
-    }
-    return sum;
+    const double leg = (1.0 - arm) * ramp(crease - x[1], 0.07) * ramp(x[0] - 0.01, 0.01);
+    Shares shares{};
+    shares[joint::hips] = 1.0 - arm - leg;
+    shares[joint::shoulder] = arm;
+    shares[joint::hip] = leg;
+    share_core(joints, x, shares);
+    share_arm(joints, x, shares);
+    share_leg(joints, x, shares);
+    return shares;
 }
 
 /// The four largest, in steps of 2^-16; what rounding leaves goes to the largest.
@@ -126,7 +122,7 @@ std::vector<Joint> mannequin_joints() {
         {"spine", joint::hips, {0.0, 1.04, trunk_parts()[1].to()[2] - 0.02}},
         {"chest", joint::spine, {0.0, 1.20, trunk_parts()[1].from[2] - 0.02}},
         {"neck", joint::chest, throat.from},
-        {"head", joint::neck, {0.0, throat.to()[1] - 0.01, skull.from[2] + 0.01}},
+        {"head", joint::neck, {0.0, throat.to()[1] - 0.025, skull.from[2] + 0.01}},
         {"clavicle", joint::chest, {girdle.from[0], 1.45, 0.0}},
         {"shoulder", joint::clavicle, upper.from},
         {"upper_arm", joint::shoulder, 0.5 * (fore.from + upper.from)},

@@ -30,8 +30,8 @@ struct Joint {
     Vec3 position;     // m, in the mesh as it was made
 };
 
-/// Joints that a vertex follows, and how much. Multiples of 2^-16 with the sum 1, exactly, as doubles and as floats; the largest
-/// first, unused ones 0 at joint 0.
+/// Joints that a vertex follows, each once, and how much: multiples of 2^-16 with the sum 1, exactly, as doubles and as floats.
+/// Unused ones come last, 0 at joint 0.
 struct VertexWeights {
     std::array<int, 4> joints{};
     std::array<double, 4> weights{};

@@ -197,8 +197,8 @@ std::string rigged_glb(const std::string& name, const Rig& rig, std::span<const 
 }
 
 std::vector<Clip> mannequin_clips() {
-    return {sampled_clip("walk", walk_period, 33, [](double time) { return walk_pose(time / walk_period); }),
-            sampled_clip("wave", wave_duration, 51, wave_pose)};
+    return {sampled_clip("walk", walk_period, 45, [](double time) { return walk_pose(time / walk_period); }),
+            sampled_clip("wave", wave_duration, 101, wave_pose)};
 }
 
 }  // namespace percale::scenes

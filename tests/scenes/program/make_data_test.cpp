@@ -25,7 +25,7 @@ TEST_CASE("percale_make_data writes the shipped meshes byte for byte") {
         CHECK(folder.read("new/meshes/" + entry.path().filename().string()) == stored);
         ++files;
     }
-    CHECK(files == 6);
+    CHECK(files == 7);
     CHECK(folder.file_count() == files + 2);  // and what it printed
     CHECK(folder.read("error").empty());
 }
