@@ -61,7 +61,9 @@ std::string failure_text(const StepReport& report) {
         case StepStatus::obstacle_too_fast:
             if (report.second_obstacle >= 0) {
                 text << blocker << " and " << numbered("obstacle", report.second_obstacle, report.second_name)
-                     << " close on the cloth, which cannot get out of their way; smallest safe fraction of a move "
+                     << " close on the cloth, which cannot get out of their way, and do not give way (yields, on_pinch); "
+                        "smallest safe "
+                        "fraction of a move "
                      << report.smallest_fraction;
                 break;
             }

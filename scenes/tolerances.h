@@ -103,6 +103,9 @@ constexpr long most_samples = 1000000;
 
 // ---- run/
 
+/// Steps. A pinch that pauses no longer is one. 0: every step in which a surface springs back and forth begins another.
+constexpr double pause_of_pinch = 6.0;
+
 /// Radians, and times the thickness: what an obstacle turns and moves by in one part of a step. Larger: parts that the path of
 /// vertices on straight lines does not follow, and cloth that is blocked. Smaller: more parts.
 constexpr double largest_part_turn = std::numbers::pi / 12.0, largest_part_displacement = 4.0;

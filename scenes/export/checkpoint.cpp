@@ -10,7 +10,12 @@
 
 namespace percale::scenes {
 
-constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 4, .words = "checkpoint"};
+constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 5, .words = "checkpoint"};
+
+template <class Archive, OfType<Pinch> Value>
+void exchange(Archive& archive, Value& pinch) {
+    archive(pinch.obstacles, pinch.from, pinch.to, pinch.yielded);
+}
 
 template <class Archive, OfType<RunTotals> Value>
 void exchange(Archive& archive, Value& totals) {
@@ -18,7 +23,8 @@ void exchange(Archive& archive, Value& totals) {
             totals.dropped.inexact, totals.sleeping_steps, totals.simulated_s, totals.smallest_step_s, totals.largest_step_s,
             totals.newton_iterations, totals.linear_iterations, totals.largest_residual);
     archive.choice(totals.linear_solver, 4);
-    archive(totals.contacts_most, totals.contact_stiffness, totals.stages, totals.cpu_s, totals.wall_s, totals.energy);
+    archive(totals.contacts_most, totals.contact_stiffness, totals.stages, totals.cpu_s, totals.wall_s, totals.energy,
+            totals.pinches);
 }
 
 template <class Archive, OfType<FrameCheck> Value>

@@ -208,6 +208,17 @@ ordered_json start_move_list(const Simulation& simulation) {
     return list;
 }
 
+ordered_json pinch_list(const BuiltScene& built, std::span<const Pinch> pinches) {
+    ordered_json list = ordered_json::array();
+    const auto name = [&](int number) { return built.scene.obstacles[static_cast<std::size_t>(number)].name; };
+    for (const Pinch& pinch : pinches)
+        list.push_back({{"obstacles", {name(pinch.obstacles[0]), name(pinch.obstacles[1])}},
+                        {"from", pinch.from},
+                        {"to", pinch.to},
+                        {"yielded", pinch.yielded}});
+    return list;
+}
+
 ordered_json skipped_list(std::span<const Skip> skipped) {
     ordered_json list = ordered_json::array();
     for (const Skip& skip : skipped) list.push_back({{"what", skip.what}, {"why", skip.why}});
@@ -231,6 +242,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     json["seams"] = seam_list(built);
     if (!built.scene.output.fields.empty()) json["fit"] = fit_list(built);
     json["start_repair"] = start_move_list(built.simulation);
+    json["pinched"] = pinch_list(built, result.totals.pinches);
     json["scheme"] = result.plan.scheme_word;
     if (!result.plan.scheme_reason.empty()) json["scheme_reason"] = result.plan.scheme_reason;
     json["warnings"] = result.plan.warnings;

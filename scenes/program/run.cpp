@@ -102,6 +102,9 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
     const bool finished = result.status == RunStatus::finished;
     if (finished && !built.obstacles.empty() && std::isinf(m.smallest_distance) && !maybe_met)
         std::printf("warning: no cloth ever met an obstacle; is everything in its place, and in one unit?\n");
+    std::vector<std::string> names;
+    for (const ObstacleSpec& obstacle : built.scene.obstacles) names.push_back(obstacle.name);
+    for (const Pinch& pinch : result.totals.pinches) std::printf("warning: %s\n", pinch_text(pinch, names).c_str());
     for (const std::string& text : strain_warnings(built, m.largest_strain)) std::printf("warning: %s\n", text.c_str());
     for (const ExpectationResult& expectation : expectations) std::printf("  %s\n", expectation.text.c_str());
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "common/text.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 
@@ -167,6 +168,26 @@ double largest_vertex_distance(const Simulation& simulation, std::span<const Clo
     for (const ClothId cloth : cloths)
         for (const Vec3& x : simulation.positions(cloth)) largest = std::max(largest, (x - reference[next++]).norm());
     return largest;
+}
+
+void add_pinch(std::vector<Pinch>& pinches, const StepReport& report) {
+    if (report.pinched == 0) return;
+    const auto [low, high] = std::minmax(report.pinching[0], report.pinching[1]);
+    const double from = report.time - report.dt;
+    const auto goes_on = [&](const Pinch& pinch) {
+        return pinch.obstacles == std::array{low, high} && pinch.to > from - pause_of_pinch * report.dt;
+    };
+    const auto known = std::ranges::find_if(pinches, goes_on);
+    Pinch& pinch = known != pinches.end() ? *known : pinches.emplace_back(Pinch{.obstacles = {low, high}, .from = from});
+    pinch.to = report.time;
+    pinch.yielded = std::max(pinch.yielded, report.yielded);
+}
+
+std::string pinch_text(const Pinch& pinch, std::span<const std::string> obstacles) {
+    const auto [first, second] = pinch.obstacles;
+    const auto name = [&](int number) { return "'" + obstacles[static_cast<std::size_t>(number)] + "'"; };
+    return name(first) + (first == second ? "" : " and " + name(second)) + " left cloth no room and gave way, by up to " +
+           short_number(pinch.yielded) + " m, from " + short_number(pinch.from) + " s to " + short_number(pinch.to) + " s";
 }
 
 std::map<std::string, double> measure_values(const Measures& measures) {

@@ -171,6 +171,7 @@ void add_accepted(RunTotals& totals, const StepReport& report) {
     totals.largest_step_s = std::max(totals.largest_step_s, report.largest_dt);
     totals.largest_residual = std::max(totals.largest_residual, report.residual);
     add_step_energy(report.energy, totals.energy);
+    add_pinch(totals.pinches, report);
 }
 
 /// Steps measure nothing; with nothing skipped they do.

@@ -46,6 +46,7 @@ struct RunTotals {
     StageTimes stages;               // CPU seconds
     double cpu_s = 0.0;              // CPU seconds of all threads inside steps only
     double wall_s = 0.0;             // whole run, output included
+    std::vector<Pinch> pinches;      // in the order of their beginnings
     StepEnergy energy;               // J, at the end; what flows is summed over the run
 };
 
