@@ -77,7 +77,8 @@ PairContact edge_edge_contact(const ContactPair& pair, std::span<const Vec3> clo
     contact.obstacle_displacement = (1.0 - closest.t) * obstacle.displacement(va) + closest.t * obstacle.displacement(vb);
     const bool inside = closest.s > 0.0 && closest.s < 1.0 && closest.t > 0.0 && closest.t < 1.0;
     const auto at = [&](int vertex) { return obstacle.at(vertex, fraction); };
-    contact.local_minimum = inside && edge_faces(obstacle.surface(), pair.feature, contact.obstacle_point, contact.direction, at);
+    contact.local_minimum = inside && obstacle.surface().edges[pair.feature].can_touch &&
+                            edge_faces(obstacle.surface(), pair.feature, contact.obstacle_point, contact.direction, at);
     return contact;
 }
 
@@ -92,7 +93,8 @@ PairContact face_vertex_contact(const ContactPair& pair, std::span<const Vec3> c
     const bool own = closest.region == TriangleRegion::face ||
                      (closest.region == TriangleRegion::edge && (pair.edge_bits >> closest.corner & 1U) != 0);
     const auto at = [&](int vertex) { return obstacle.at(vertex, fraction); };
-    contact.local_minimum = own && vertex_faces(obstacle.surface(), pair.feature, contact.direction, at);
+    contact.local_minimum = own && obstacle.surface().vertex_can_touch[pair.feature] &&
+                            vertex_faces(obstacle.surface(), pair.feature, contact.direction, at);
     return contact;
 }
 

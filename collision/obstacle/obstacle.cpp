@@ -30,7 +30,8 @@ Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, 
     start_ = transform(pose, local_);
     end_ = start_;
     surface_.vertices = start_;
-    packs_ = make_packs(surface_);
+    packs_ = make_packs(surface_);  // with edges that are flat for now
+    if (deforms()) mark_flat(start_, end_, surface_);
     set_pack_boxes();
     make_patch_tree(make_tree);
 }
@@ -108,6 +109,7 @@ void Obstacle::place_vertices() {
         end_[i] = moves_ ? transform(end_pose_, deforms() ? end_shape_[given] : local_[i]) : start_[i];
         largest_displacement_ = std::max(largest_displacement_, (end_[i] - start_[i]).norm());
     }
+    if (deforms()) mark_flat(start_, end_, surface_);
 }
 
 /// The tree holds the patches' boxes of the whole step.

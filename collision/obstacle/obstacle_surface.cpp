@@ -177,15 +177,29 @@ struct Fold {
     double height;  // of the second one over the plane of the first, at distance 1 from the edge: > 0 is a valley
 };
 
-Fold fold(const ObstacleSurface& surface, int edge) {
+Fold fold(const ObstacleSurface& surface, int edge, std::span<const Vec3> x) {
     const SurfaceEdge& e = surface.edges[edge];
     const Triangle& t = surface.triangles[e.owner];
-    const auto& x = surface.vertices;
     const Vec3 normal = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).normalized();
     const std::span<const int> opposite = surface.opposites(edge);  // the owner's first
     const Vec3 &a = x[e.vertex[0]], &b = x[e.vertex[1]];
     const Vec3 first = into_triangle(a, b, x[opposite[0]]), second = into_triangle(a, b, x[opposite[1]]);
-    return {.flat = (first + second).norm() <= tolerances::flat_fold, .height = second.dot(normal)};
+    // Neither is 0: a triangle without area continues nothing.
+    const bool flat = first.dot(second) < 0.0 && (first + second).norm() <= tolerances::flat_fold;
+    return {.flat = flat, .height = second.dot(normal)};
+}
+
+/// The same with its vertices at these places. Most edges are no such, which their four vertices tell at once: the volume that
+/// they span is at most the fold's height times these lengths.
+bool is_flat(const ObstacleSurface& surface, int edge, std::span<const Vec3> x) {
+    const auto& [a, b] = surface.edges[edge].vertex;
+    const std::span<const int> opposite = surface.opposites(edge);
+    if (opposite.size() != 2) return false;
+    const Vec3 along = x[b] - x[a], first = x[opposite[0]] - x[a], second = x[opposite[1]] - x[a];
+    const double volume = along.cross(first).dot(second);
+    const double lengths = along.squaredNorm() * first.squaredNorm() * second.squaredNorm();
+    constexpr double least = 2.0 * tolerances::flat_fold;
+    return volume * volume <= least * least * lengths && fold(surface, edge, x).flat;
 }
 
 /// For each vertex the first vertex of its connected component of the surface.
@@ -226,7 +240,7 @@ void mark_touchable(ObstacleSurface& surface, bool valleys_are_safe) {
     for (std::size_t i = 0; i < surface.edges.size(); ++i) {
         SurfaceEdge& edge = surface.edges[i];
         if (surface.opposites(static_cast<int>(i)).size() == 2) {
-            const auto [flat, height] = fold(surface, static_cast<int>(i));
+            const auto [flat, height] = fold(surface, static_cast<int>(i), surface.vertices);
             edge.can_touch = !flat && !(valleys_are_safe && height > 0.0);
         }
         if (!edge.can_touch) continue;
@@ -268,6 +282,17 @@ ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Tri
     if (surface.watertight) drop_internal_faces(surface);
     mark_touchable(surface, valleys_are_safe);
     return surface;
+}
+
+void mark_flat(std::span<const Vec3> start, std::span<const Vec3> end, ObstacleSurface& surface) {
+    surface.vertex_can_touch.assign(surface.vertices.size(), false);
+    for (std::size_t i = 0; i < surface.edges.size(); ++i) {
+        SurfaceEdge& edge = surface.edges[i];
+        const int number = static_cast<int>(i);
+        edge.can_touch = !is_flat(surface, number, end) || !is_flat(surface, number, start);
+        if (!edge.can_touch) continue;
+        for (const int vertex : edge.vertex) surface.vertex_can_touch[vertex] = true;
+    }
 }
 
 CleaningReport cleaning_report(const TriangleMesh& mesh, bool deforming) {

@@ -46,9 +46,12 @@ enum class SurfaceShape { rigid, deforming };
 
 /// Merges vertices at the same place, drops triangles without area and repeated ones, and unused vertices. Of a rigid surface
 /// those inside a closed one (internal_faces.h) as well, and edges that cannot touch are marked; of a deforming one nothing is
-/// known. Throws SceneError if nothing is left.
+/// known yet (mark_flat). Throws SceneError if nothing is left.
 ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                              SurfaceShape shape = SurfaceShape::rigid);
+
+/// Of a deforming surface during a step: edges that are flat at both of its ends cannot touch, nor can vertices at which all are.
+void mark_flat(std::span<const Vec3> start, std::span<const Vec3> end, ObstacleSurface& surface);
 
 /// Whether a point at `foot` on an edge, seen along the unit vector `direction`, is locally the surface's closest: no face at the
 /// edge rises towards the viewer. `at` gives the current position of a vertex.
