@@ -91,8 +91,8 @@ constexpr std::size_t most_cut_corners = 10000;
 
 // ---- bodies/
 
-/// m. The last shape of what is played again and again is the first one where no vertex is farther off. 0: rounding of a file adds
-/// a frame that stands still.
+/// m. The last shape of what is played again and again is the first one where no vertex is farther off. 0: rounding of a file
+/// adds a frame that stands still.
 constexpr double same_shape = 1e-4;
 
 /// Ticks a second of a clip that does not say, 1/s: frames of a film, what files mean that do not.

@@ -123,7 +123,7 @@ std::vector<Vec3> normals_of(const YieldingMesh& mesh, const std::vector<Vec3>& 
 }
 
 /// What the vertices of an obstacle give way by, m, world: about each pressing point against its direction.
-std::vector<Vec3> give_way(const ObstacleState& obstacle, int number, const ContactRows& rows, const Retreats& retreats) {
+std::vector<Vec3> pushed_back(const ObstacleState& obstacle, int number, const ContactRows& rows, const Retreats& retreats) {
     const std::vector<Vec3> x = transform(obstacle.start, *obstacle.start_shape), normals = normals_of(*obstacle.yielding, x);
     std::vector<Vec3> moved(x.size(), Vec3::Zero());
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -216,7 +216,7 @@ Pinches yield_to_cloth(World& world) {
         if (!obstacle.yielding) continue;
         const Rotation& q = obstacle.end.rotation;
         const Pose back{.rotation = {q.w, -q.x, -q.y, -q.z}, .scale = 1.0 / obstacle.end.scale};
-        const std::vector<Vec3> moved = transform(back, give_way(obstacle, static_cast<int>(k), rows, retreats));
+        const std::vector<Vec3> moved = transform(back, pushed_back(obstacle, static_cast<int>(k), rows, retreats));
         obstacle.next_dent.resize(moved.size(), Vec3::Zero());
         for (std::size_t i = 0; i < moved.size(); ++i) obstacle.next_dent[i] += moved[i];
         go_to_dented(obstacle);

@@ -328,7 +328,7 @@ TEST_CASE("Random scenes with bodies that deform: nothing crosses, and what stop
         tally.scenes, tally.steps, tally.divided, tally.touched, tally.pressed, tally.stopped, tally.stopped_free, tally.nearest);
     for (const auto& [reason, times] : tally.reasons) std::printf("  %s: %d\n", reason.c_str(), times);
     CHECK(tally.bad == 0);
-    CHECK(tally.stopped <= std::max(1, 4 * tally.scenes / 100));
+    CHECK(tally.stopped <= std::max(1, 6 * tally.scenes / 100));
     // Where no pin is in the way there is nearly always a way out.
     CHECK(tally.stopped_free <= std::max(1, tally.scenes / 200));
     CHECK(tally.touched >= 90 * tally.scenes / 100);
