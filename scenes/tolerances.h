@@ -171,6 +171,9 @@ constexpr double coarse_edge = 0.5, advised_edge = 0.125, coarse_edge_ratio = 10
 /// Parts of a step from which a fast obstacle is a warning.
 constexpr double dear_motion_parts = 100.0;
 
+/// Thicknesses that a vertex of a body that bends goes in a step that is made whole, as the engine has it.
+constexpr double bending_part_travel = 20.0;
+
 /// Share of the longest stable step that is advised.
 constexpr double advised_stable_share = 0.8;
 

@@ -61,7 +61,7 @@ StepReport step_once(World& world) {
     StepReport report = begin_report(dt);
     work.times = {};
     report.energy.work = plan_step(world);
-    const Pinches pinches = yield_to_cloth(world);
+    const Pinches pinches = any_yields(scene.script) ? yield_to_cloth(world) : Pinches{};
     tell_obstacles(scene);  // where they have to be at the end of the step; nothing moves yet
     const StepMeasure measure(scene, state, report.energy.work);
 

@@ -197,7 +197,7 @@ bool any_yields(const Script& script) {
 Pinches yield_to_cloth(World& world) {
     StepScene& scene = world.scene;
     const auto moves = [](const ObstacleState& obstacle) { return obstacle.moves(); };
-    if (!scene.plan.contacts || !any_yields(scene.script) || std::ranges::none_of(scene.script.obstacles, moves)) return {};
+    if (!scene.plan.contacts || std::ranges::none_of(scene.script.obstacles, moves)) return {};
     const auto& points = world.state.cloth.points;
     const double thickness = *std::ranges::min_element(scene.model.thickness);
     for (ObstacleState& obstacle : scene.script.obstacles) {

@@ -83,7 +83,7 @@ std::vector<Vec3> BodyShapes::at(double time) {
 }
 
 double BodyShapes::end() const {
-    return loop_ ? std::numeric_limits<double>::infinity() : from_ + lead_in_ + source_->length() - offset_;
+    return loop_ ? std::numeric_limits<double>::infinity() : once();
 }
 
 std::string BodyShapes::text() const { return source_->text() + (loop_ ? ", again and again" : ""); }

@@ -22,6 +22,8 @@ public:
     std::vector<Vec3> at(double time);
     /// s, from when on it keeps its shape; infinite of what is played again and again.
     double end() const;
+    /// s: by then all that it plays has been there once.
+    double once() const { return from_ + lead_in_ + source_->length() - offset_ + closing_; }
     /// s, between two shapes of its files.
     double frame_time() const { return source_->frame_time(); }
     /// "121 frames in 4.84 s, again and again"

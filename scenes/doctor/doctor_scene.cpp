@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bodies/body_shapes.h"
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "doctor/doctor_mesh.h"
@@ -190,13 +191,18 @@ void find_idle_expectations(const Scene& scene, const Meshes& meshes, std::vecto
     }
 }
 
-/// Largest number of parts that a step asks for: turns of 15 degrees, or four thicknesses of still cloth.
-double most_parts(const Scene& scene, const ObstacleSpec& obstacle) {
+double least_thickness(const Scene& scene) {
     double thickness = 1.0;
     for (const ClothSpec& cloth : scene.cloths) {
         const auto fabric = scene.fabrics.find(cloth.fabric);
         if (fabric != scene.fabrics.end()) thickness = std::min(thickness, fabric->second.thickness);
     }
+    return thickness;
+}
+
+/// Largest number of parts that a step asks for: turns of 15 degrees, or four thicknesses of still cloth.
+double most_parts(const Scene& scene, const ObstacleSpec& obstacle) {
+    const double thickness = least_thickness(scene);
     const double dt = scene.step.time_step;
     std::vector<double> starts = {0.0, obstacle.spin ? obstacle.spin->from : 0.0};
     for (std::size_t i = 1; i < obstacle.motion.size(); ++i)
@@ -222,6 +228,58 @@ void find_fast_motion(const Scene& scene, std::vector<Finding>& found) {
                                  short_number(parts) + " parts",
                          .fix = "slow its motion or spin down, or take step.time_step = " +
                                 short_number(scene.step.time_step / parts) + " where every step is to be one"});
+    }
+}
+
+/// How far a vertex of a body goes in a step, m, at most, and when.
+struct FastestShape {
+    double displacement = 0.0, time = 0.0;
+};
+
+/// Looks at every shape once.
+FastestShape fastest_shape(BodyShapes& shapes, double end, double dt) {
+    FastestShape fastest;
+    const double interval = std::max(std::min(shapes.frame_time(), dt), 1e-4);
+    std::vector<Vec3> before = shapes.at(0.0);
+    for (int k = 1; (k - 1) * interval < std::min(end, shapes.once()); ++k) {
+        std::vector<Vec3> now = shapes.at(k * interval);
+        double squared = 0.0;
+        for (std::size_t i = 0; i < now.size(); ++i) squared = std::max(squared, (now[i] - before[i]).squaredNorm());
+        const double displacement = std::sqrt(squared) * dt / interval;
+        if (displacement > fastest.displacement) fastest = {displacement, k * interval};
+        before = std::move(now);
+    }
+    return fastest;
+}
+
+/// Frames that cannot be read, and such that go far in a step.
+void examine_shapes(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>& found) {
+    try {
+        BodyShapes shapes(scene, obstacle);
+        const FastestShape fastest = fastest_shape(shapes, scene.latest_end(), scene.step.time_step);
+        const double parts = obstacle.pose.scale * fastest.displacement / (bending_part_travel * least_thickness(scene));
+        if (parts <= 1.0) return;
+        found.push_back({.severity = parts > dear_motion_parts ? Severity::warning : Severity::note,
+                         .kind = "fast_obstacle",
+                         .place = place_text(obstacle.place),
+                         .what = "obstacle '" + obstacle.name + "' bends so fast that near cloth a step is made in up to " +
+                                 short_number(std::ceil(parts)) + " parts: a vertex goes " +
+                                 short_number(obstacle.pose.scale * fastest.displacement) + " m in a step at " +
+                                 short_number(fastest.time) + " s",
+                         .fix = "play it slower, or look whether a frame jumps"});
+    } catch (const SceneError& error) {
+        found.push_back({.severity = Severity::error,
+                         .kind = "bad_frame",
+                         .place = place_text(obstacle.place),
+                         .what = "obstacle '" + obstacle.name + "': " + error.what(),
+                         .fix = "mend that frame, or play none that come so late"});
+    }
+}
+
+void find_bad_shapes(const Scene& scene, std::vector<Finding>& found) {
+    if (has_errors(found)) return;  // its mesh may be what is wrong
+    for (const ObstacleSpec& obstacle : scene.obstacles) {
+        if (obstacle.bends()) examine_shapes(scene, obstacle, found);
     }
 }
 
@@ -298,6 +356,7 @@ std::vector<Finding> examine_scene(const Scene& scene) {
     find_flutter(scene, found);
     find_idle_expectations(scene, meshes, found);
     find_fast_motion(scene, found);
+    find_bad_shapes(scene, found);
     if (!has_errors(found)) {
         try_to_build(scene, found);
     } else {

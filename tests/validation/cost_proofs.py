@@ -64,9 +64,9 @@ class Runner:
     def __init__(self, program, folder):
         self.program, self.folder = program, folder
 
-    def scene(self, scheme='backward_euler', time_step=1 / 60, steps=10, bend=10.0, fps=0.01):
+    def scene(self, scheme='backward_euler', time_step=1 / 60, steps=10, bend=10.0, fps=0.01, tail=''):
         file = self.folder / 'scene.toml'
-        file.write_text(SHEET.format(duration=steps * time_step, scheme=scheme, time_step=time_step, bend=bend, fps=fps))
+        file.write_text(SHEET.format(duration=steps * time_step, scheme=scheme, time_step=time_step, bend=bend, fps=fps) + tail)
         return file
 
     def counted(self, *options, **scene):
@@ -132,6 +132,25 @@ def prove_no_ledger(runner):
     return spent[0] == 0 and spent[1] > 0
 
 
+BODY = '''
+[[obstacle]]
+name = "ball"
+shape = {{ sphere = {{ radius = 0.2 }} }}
+on_pinch = "{on_pinch}"
+pose = {{ translation = [0.0, -0.21, 0.0] }}
+motion = [{{ time = 0.0, translation = [0.0, -0.21, 0.0] }}, {{ time = 1.0, translation = [0.0, 0.0, 0.0] }}]
+'''
+
+
+def prove_no_deforming(runner):
+    """Over a rigid obstacle that moves nothing runs that bodies that bend or give way need."""
+    parts = ('deform', 'yield_to_cloth', 'retreats_of', 'refit', 'shape_after', 'mark_flat', 'BodyShapes::')
+    spent = [sum(n for f, n in runner.counted(tail=BODY.format(on_pinch=on_pinch)).items()
+                 if any(part in f for part in parts) and 'any_yields' not in f) for on_pinch in ('stop', 'yield')]
+    print(f'bodies that bend: {spent[0]} instructions with a rigid one, {spent[1]} with one that yields')
+    return spent[0] == 0 and spent[1] > 0
+
+
 SCHEMES = {'forward_euler': 1e-6, 'symplectic_euler': 2e-5, 'midpoint': 1e-6, 'rk4': 2e-5, 'backward_euler': 1 / 60,
            'implicit_midpoint': 1 / 60, 'trapezoid': 1 / 60, 'bdf2': 1 / 60, 'tr_bdf2': 1 / 60}
 
@@ -157,7 +176,7 @@ def main(program, collision, others):
         runner = Runner(program, Path(folder))
         proofs = {'no obstacles, no collision': prove_no_collision(runner, functions), 'sleep': prove_sleep(runner),
                   'no bending': prove_no_bending(runner), 'no ledger': prove_no_ledger(runner),
-                  'measuring': prove_measuring(runner)}
+                  'no deforming': prove_no_deforming(runner), 'measuring': prove_measuring(runner)}
     for name, good in proofs.items():
         print(f'{name}: {"proven" if good else "FAILED"}')
     return 0 if all(proofs.values()) else 1

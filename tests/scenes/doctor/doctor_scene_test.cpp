@@ -274,6 +274,32 @@ TEST_CASE("obstacles that move fast are told with the parts of a step, and so sl
     CHECK(find(examined(quiet_scene(), spin), "fast_obstacle")->what.find("up to 20 parts") != std::string::npos);
 }
 
+TEST_CASE("bodies that bend are looked at in every frame: a bad one is an error, a jump is told with its parts") {
+    const TestFolder folder;
+    const TriangleMesh ball = make_sphere(0.2, 2);
+    const auto write = [&](int frame, double height) {
+        std::vector<Vec3> x = ball.vertices;
+        for (Vec3& p : x) p.y() += height;
+        write_obj(folder.path("ball" + std::to_string(frame) + ".obj"), x, ball.triangles);
+    };
+    for (int frame = 0; frame < 10; ++frame) write(frame, -0.5 - 0.001 * frame);
+    const std::string scene = folder.write("scene.toml", falling_sheet() + R"([[obstacle]]
+name = "ball"
+mesh = "ball%d.obj"
+frames = [0, 9]
+)");
+    CHECK(severity(examine_scene_file(scene, Overrides{{"duration", "0.5"}}), "fast_obstacle") == "none");
+    write(7, -1.5);
+    const std::vector<Finding> jumps = examine_scene_file(scene, Overrides{{"duration", "0.5"}});
+    CHECK(severity(jumps, "fast_obstacle") == "note");
+    CHECK(find(jumps, "fast_obstacle")->what.find("bends so fast") != std::string::npos);
+    CHECK(severity(examine_scene_file(scene, Overrides{{"duration", "0.1"}}), "fast_obstacle") == "none");  // over before it
+    folder.write("ball8.obj", "v 0 0 nan\n");
+    const std::vector<Finding> bad = examine_scene_file(scene, Overrides{{"duration", "0.5"}});
+    CHECK(severity(bad, "bad_frame") == "error");
+    CHECK(find(bad, "bad_frame")->what.find("ball8.obj:1") != std::string::npos);
+}
+
 TEST_CASE("runs that take hours, much memory or much disk are warned of") {
     const Overrides slow = {{"duration", "1e6"}, {"cloth.sheet.pin", "[0]"}};
     CHECK(severity(examined(falling_sheet(), slow), "long_run") == "none");  // 1e8 explicit steps of a tiny sheet

@@ -24,6 +24,7 @@ Checkpoint example() {
     RunHooks hooks;
     hooks.checkpoint = [&](const RunState& state) { checkpoint.run = state; };
     run_scene(built, hooks, {.certify_steps = true, .checkpoint_every = 0.05});
+    checkpoint.run.totals.pinches = {{.obstacles = {0, 1}, .from = 0.5, .to = 0.75, .yielded = 0.01}};
     checkpoint.settings = settings_text(built.scene);
     checkpoint.certify_steps = true;
     checkpoint.folder.step_bytes = 1234;
@@ -53,6 +54,9 @@ TEST_CASE("a checkpoint comes back from its file as it was") {
     CHECK(read.run.simulation == written.run.simulation);
     CHECK(read.run.steps_made == written.run.steps_made);
     CHECK(read.run.totals.energy.total() == written.run.totals.energy.total());
+    REQUIRE(read.run.totals.pinches.size() == 1);
+    CHECK(read.run.totals.pinches[0].obstacles == std::array{0, 1});
+    CHECK(read.run.totals.pinches[0].yielded == 0.01);
     REQUIRE(read.run.measures.steps.has_value());
     CHECK(read.run.measures.steps->states == written.run.measures.steps->states);
     REQUIRE(read.folder.frames.size() == 2);

@@ -7,6 +7,7 @@
 #include "percale/error.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/scenes/test_folder.h"
+#include "tests/scenes/watched_run.h"
 #include "tests/support/catch.h"
 
 using namespace percale;
@@ -54,6 +55,7 @@ TEST_CASE("a report holds every entry that users may rely on") {
                             "peak_memory_bytes",
                             "stages",
                             "obstacles",
+                            "pinched",
                             "scheme",
                             "warnings",
                             "skipped",
@@ -125,6 +127,52 @@ TEST_CASE("the report says what the start moved") {
     CHECK(list[0].at("vertices_moved") == 36);
     CHECK(list[0].at("largest_move").get<double>() > 0.01);
     CHECK(list[0].at("largest_move").get<double>() < 0.025);
+}
+
+TEST_CASE("the report says which obstacles gave way, when and how far, and a run in which they do is resumed in every bit") {
+    const std::string text = R"(
+duration = 0.9
+[step]
+time_step = 0.016666666666666666
+[fabric.felt]
+thickness = 0.005
+springs = { structural = 500.0, shear = 100.0, bend = 1.0 }
+spring_damping = 0.5
+[[cloth]]
+name = "sheet"
+fabric = "felt"
+grid = { size = [0.6, 0.6], vertices = [15, 15] }
+pose = { rotation = [0.7071067811865476, 0.0, 0.0, 0.7071067811865476] }
+pin = { box = [[-0.1, 0.95, -1.0], [1.1, 1.1, 1.1]] }
+[[obstacle]]
+name = "left"
+shape = { sphere = { radius = 0.2 } }
+on_pinch = "yield"
+pose = { translation = [-0.225, -0.1, 0.0] }
+[[obstacle]]
+name = "right"
+shape = { sphere = { radius = 0.2 } }
+on_pinch = "yield"
+motion = [ { time = 0.0, translation = [0.225, -0.1, 0.0] }, { time = 0.4, translation = [0.15, -0.1, 0.0] },
+           { time = 0.8, translation = [0.3, -0.1, 0.0] } ]
+)";
+    const Scene scene = parse_scene(text, "test.toml", {});
+    BuiltScene one = build_scene(scene);
+    const RunResult result = run_scene(one);
+    REQUIRE(result.status == RunStatus::finished);
+    CHECK(result.measures.intersections == 0);
+    const ordered_json pinched = report_of(one, result).at("pinched");
+    REQUIRE(pinched.size() == 1);
+    CHECK(pinched[0].at("obstacles") == ordered_json({"left", "right"}));
+    CHECK(pinched[0].at("from").get<double>() > 0.1);
+    CHECK(pinched[0].at("to").get<double>() < 0.7);
+    CHECK(pinched[0].at("yielded").get<double>() > 0.01);
+    CHECK(report_of(one, result).at("settings").at("obstacle")[0].at("on_pinch") == "yield");
+    const WatchedRun plain = watch(scene, {}), left = watch(scene, {.checkpoint_every = 0.25});
+    CHECK(plain.hashes == left.hashes);
+    REQUIRE(left.states.size() >= 2);
+    for (std::size_t k = 0; k < left.states.size(); ++k)
+        CHECK(resumes_as(plain, left, k, watch(scene, {.from = &left.states[k]})));
 }
 
 TEST_CASE("what was not computed is left out, and infinity is null") {

@@ -44,6 +44,14 @@ TEST_CASE("A cache, a clip and when they are played are read, and written only w
     }
 }
 
+TEST_CASE("What happens on a pinch is one of two words, and stop if nothing is said") {
+    CHECK_FALSE(scene_with("mesh = \"a.obj\"\n").obstacles[0].yields);
+    const Scene yields = scene_with("shape = { sphere = { radius = 1.0 } }\non_pinch = \"yield\"\n");
+    CHECK(yields.obstacles[0].yields);
+    CHECK(pinch_field().write(yields.obstacles[0])->text == "yield");
+    CHECK(message_of([] { scene_with("mesh = \"a.obj\"\non_pinch = \"yeild\"\n"); }).find("stop, yield") != std::string::npos);
+}
+
 TEST_CASE("Frames of a shape, frames below 0 and no frames a second are refused") {
     CHECK(message_of([] { scene_with("shape = { sphere = { radius = 1.0 } }\nframes = [0, 1]\n"); }).find("mesh") !=
           std::string::npos);

@@ -212,3 +212,32 @@ TEST_CASE("what every step is judged by has values only where every step was cer
     CHECK(measure_values(measures).at("intersections_at_every_step") == 2.0);
     CHECK(measure_values(measures).at("deepest_penetration_at_every_step") == 0.01);
 }
+
+TEST_CASE("steps in which obstacles give way are one pinch as long as they pause for few steps, by pair of obstacles") {
+    std::vector<Pinch> pinches;
+    const auto step = [&](double time, std::array<int, 2> pinching, double yielded) {
+        StepReport report;
+        report.time = time;
+        report.dt = 0.1;
+        report.pinched = pinching[0] < 0 ? 0 : 3;
+        report.pinching = pinching;
+        report.yielded = yielded;
+        add_pinch(pinches, report);
+    };
+    step(1.0, {2, 0}, 0.01);
+    step(1.1, {1, 1}, 0.02);
+    step(1.2, {-1, -1}, 0.02);
+    step(1.3, {0, 2}, 0.005);
+    step(3.0, {0, 2}, 0.001);
+    REQUIRE(pinches.size() == 3);
+    CHECK(pinches[0].obstacles == std::array{0, 2});
+    CHECK(pinches[0].from == Approx(0.9));
+    CHECK(pinches[0].to == 1.3);
+    CHECK(pinches[0].yielded == 0.01);
+    CHECK(pinches[1].obstacles == std::array{1, 1});
+    CHECK(pinches[2].from == Approx(2.9));
+    const std::vector<std::string> names = {"arm", "trunk", "leg"};
+    CHECK(pinch_text(pinches[0], names) ==
+          "'arm' and 'leg' left cloth no room and gave way, by up to 0.01 m, from 0.9 s to 1.3 s");
+    CHECK(pinch_text(pinches[1], names).find("'trunk' left cloth no room") == 0);
+}
