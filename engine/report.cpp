@@ -61,10 +61,11 @@ std::string failure_text(const StepReport& report) {
         case StepStatus::obstacle_too_fast:
             if (report.second_obstacle >= 0) {
                 text << blocker << " and " << numbered("obstacle", report.second_obstacle, report.second_name)
-                     << " close on the cloth, which cannot get out of their way, and do not give way (yields, on_pinch); "
-                        "smallest safe "
-                        "fraction of a move "
-                     << report.smallest_fraction;
+                     << " close on the cloth, which cannot get out of their way; "
+                     << (report.yielded_in_vain ? "what yields gave way, but not enough in 64 parts of the step (are its edges "
+                                                  "longer than a few thicknesses?); "
+                                                : "one that yields (on_pinch) would give way; ")
+                     << "smallest safe fraction of a move " << report.smallest_fraction;
                 break;
             }
             if (report.travel > 0.0) {

@@ -117,7 +117,8 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
                                             .reach = placed.scale * std::sqrt(square),
                                             .start_shape = shape,
                                             .end_shape = shape,
-                                            .yielding = settings.yields ? yielding_mesh(mesh) : nullptr});
+                                            .yielding = settings.yields ? yielding_mesh(mesh) : nullptr,
+                                            .aim = settings.yields ? shape : nullptr});
     world.changed = true;
     scene_changed(world);
     return {static_cast<int>(world.scene.script.obstacles.size()) - 1};

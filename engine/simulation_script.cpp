@@ -64,7 +64,7 @@ void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end)
     } catch (const SceneError& error) {
         throw SceneError(state.name, error.what());
     }
-    state.go_to(std::make_shared<const std::vector<Vec3>>(end.begin(), end.end()));
+    state.aim_at(std::make_shared<const std::vector<Vec3>>(end.begin(), end.end()));
     if (state.deforms()) wake(world.rest);
     if (world.refused.obstacle != obstacle.index) return;
     if (state.deforms()) state.reach = state.end_reach;

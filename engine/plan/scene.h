@@ -39,7 +39,7 @@ struct ObstacleState {
     double end_reach = 0.0;                  // m, `reach` at the end of the step, if it deforms
 
     std::shared_ptr<const YieldingMesh> yielding = {};  // null: cloth has to go out of its way
-    Shape aim = {};                                     // of one that yields, during a step: what end_shape should be
+    Shape aim = {};                                     // of one that yields: what end_shape should be
     std::vector<Vec3> dent = {};                        // m, before the pose: start_shape less what it should be; empty: nothing
     std::vector<Vec3> next_dent = {};                   // end_shape less aim, during a step
 
@@ -58,19 +58,25 @@ struct ObstacleState {
         end_reach = start.scale * std::sqrt(farthest);
         reach = std::max(end_reach, start.scale * std::sqrt(before));
     }
-    /// It is at the end of its motion.
+    /// Sets the shape that it should have at the end of the step.
+    void aim_at(Shape shape) {
+        if (yielding) aim = shape;
+        go_to(std::move(shape));
+    }
+    /// It is at the end of its motion. What has given way goes back, unless it stayed as it was.
     void arrive() {
         start = end;
         if (deforms()) reach = end_reach;
         start_shape = end_shape;
         shape_travel = 0.0;
-        if (aim) dent = std::move(next_dent);
-        aim_again();
+        const bool same = next_dent == dent;
+        dent = std::move(next_dent);
+        next_dent.clear();
+        if (!dent.empty() && !same) go_to(aim);
     }
-    /// What gave way goes where it should.
-    void aim_again() {
-        if (aim) go_to(std::move(aim));
-        aim.reset();
+    /// Its step failed.
+    void stay() {
+        if (yielding) go_to(aim);
         next_dent.clear();
     }
 };

@@ -11,6 +11,7 @@
 #include "saved_identity.h"
 #include "saved_loads.h"
 #include "state_seal.h"
+#include "step/yielding.h"
 #include "support/hash.h"
 #include "tolerances.h"
 
@@ -21,7 +22,7 @@ struct SavedObstacle {
     Pose start, end;
     bool settled = true;
     std::vector<Vec3> start_shape, end_shape;  // empty: it is rigid; the second, too, where it is the first
-    std::vector<Vec3> dent;
+    std::vector<Vec3> dent, aim;
 };
 
 /// Forces by row, in the order of their keys.
@@ -75,7 +76,8 @@ void exchange(Archive& archive, Value& state) {
 
 template <class Archive, OfType<SavedObstacle> Value>
 void exchange(Archive& archive, Value& obstacle) {
-    archive(obstacle.start, obstacle.end, obstacle.settled, obstacle.start_shape, obstacle.end_shape, obstacle.dent);
+    archive(obstacle.start, obstacle.end, obstacle.settled, obstacle.start_shape, obstacle.end_shape, obstacle.dent,
+            obstacle.aim);
 }
 
 template <class Archive, OfType<Seam> Value>
@@ -161,7 +163,8 @@ SavedWorld state_of(const World& world) {
     saved.free = scene.script.free;
     saved.pin_targets = scene.script.pin_targets;
     for (const ObstacleState& o : scene.script.obstacles) {
-        saved.obstacles.push_back({o.start, o.end, o.settled, {}, {}, o.dent});
+        saved.obstacles.push_back({o.start, o.end, o.settled, {}, {}, o.dent, {}});
+        if (o.aim) saved.obstacles.back().aim = *o.aim;
         if (o.start_shape) saved.obstacles.back().start_shape = *o.start_shape;
         if (o.deforms()) saved.obstacles.back().end_shape = *o.end_shape;
     }
@@ -262,8 +265,7 @@ private:
             const std::size_t vertices = b.start_shape ? b.start_shape->size() : 0;
             const bool whole =
                 std::ranges::all_of(a.start_shape, &Vec3::allFinite) && std::ranges::all_of(a.end_shape, &Vec3::allFinite);
-            const bool dented = a.dent.empty() || (b.yielding && a.dent.size() == vertices);
-            return whole && dented && std::ranges::all_of(a.dent, &Vec3::allFinite) && a.start_shape.size() == vertices &&
+            return whole && are_dents_of(b, a.dent, a.aim) && a.start_shape.size() == vertices &&
                    (a.end_shape.empty() || a.end_shape.size() == vertices);
         };
         reader_.demand(std::ranges::equal(saved_.obstacles, world_.scene.script.obstacles, same_shape),
@@ -336,6 +338,7 @@ void put_shape(SavedObstacle&& saved, ObstacleState& obstacle) {
     obstacle.start_shape = shared(saved.start_shape);
     obstacle.go_to(saved.end_shape.empty() ? obstacle.start_shape : shared(saved.end_shape));
     obstacle.dent = std::move(saved.dent);
+    if (obstacle.yielding) obstacle.aim = shared(saved.aim);
 }
 
 void put_script(SavedWorld& saved, Script& script) {

@@ -61,8 +61,12 @@ StepReport step_once(World& world) {
     StepReport report = begin_report(dt);
     work.times = {};
     report.energy.work = plan_step(world);
-    const Pinches pinches = any_yields(scene.script) ? yield_to_cloth(world) : Pinches{};
     tell_obstacles(scene);  // where they have to be at the end of the step; nothing moves yet
+    Pinches pinches;
+    if (any_yields(scene.script)) {
+        pinches = yield_to_cloth(world);
+        set_motion_of_step(scene, state.cloth, state.time);  // where dents stay nothing may move
+    }
     const StepMeasure measure(scene, state, report.energy.work);
 
     // Explicit, or Newton on the implicit scheme; every move is shortened until it crosses nothing. The end lies in the
@@ -82,7 +86,7 @@ StepReport step_once(World& world) {
         update_rest(scene, end->cloth.velocities, state.cloth, rest, report);
         damp_kinetic_energy(scene, state, rest, report);
     } else {
-        for (ObstacleState& obstacle : scene.script.obstacles) obstacle.aim_again();
+        for (ObstacleState& obstacle : scene.script.obstacles) obstacle.stay();
         loosen_holds(world);
         state.past.forget();
         wake(rest);
@@ -120,19 +124,33 @@ StepReport refuse_far(World& world, const MotionParts& motion) {
     return report;
 }
 
+/// Whether what closes on the cloth gives way to it.
+bool yields_in_vain(const Script& script, const StepReport& report) {
+    if (report.status != StepStatus::obstacle_too_fast) return false;
+    const auto yields = [&](int number) { return number >= 0 && script.obstacles[static_cast<std::size_t>(number)].yielding; };
+    return yields(report.blocking_obstacle) || yields(report.second_obstacle);
+}
+
 /// Surfaces that yield see cloth only when they are near it: what failed is made again in shorter parts.
 StepReport step_yielding(World& world, int parts, StepReport report) {
     for (const int more : yielding_parts) {
-        if (report.status != StepStatus::obstacle_too_fast || more <= parts) continue;
-        const DroppedSpans dropped = report.dropped;
-        const int used = report.newton_iterations, halvings = report.halvings;
-        if (parts == 1 && more == yielding_parts[0]) world.work.iterations_left -= used;
-        if (world.work.iterations_left <= 0) return report;
+        if (!yields_in_vain(world.scene.script, report) || more <= parts) continue;
+        const StepReport before = report;
+        if (parts == 1 && more == yielding_parts.front()) world.work.iterations_left -= before.newton_iterations;
+        if (world.work.iterations_left <= 0) {
+            report.status = StepStatus::work_limit;
+            return report;
+        }
         report = step_divided(world, more);
-        report.newton_iterations += used;
-        report.halvings += halvings;
-        report.dropped += dropped;
+        report.newton_iterations += before.newton_iterations;
+        report.linear_iterations += before.linear_iterations;
+        report.line_search_cuts += before.line_search_cuts;
+        report.halvings += before.halvings;
+        report.rejected += before.rejected;
+        report.dropped += before.dropped;
+        report.stages += before.stages;
     }
+    report.yielded_in_vain = yields_in_vain(world.scene.script, report);
     return report;
 }
 

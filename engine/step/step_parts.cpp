@@ -10,10 +10,11 @@ namespace {
 
 /// The shape of an obstacle after a share of the step.
 Shape shape_after(double share, const ObstacleState& obstacle) {
-    if (share == 1.0) return obstacle.end_shape;
+    const Shape& end = obstacle.yielding ? obstacle.aim : obstacle.end_shape;
+    if (share == 1.0) return end;
     auto between = std::make_shared<std::vector<Vec3>>(*obstacle.start_shape);
     for (std::size_t i = 0; i < obstacle.dent.size(); ++i) (*between)[i] -= obstacle.dent[i];
-    for (std::size_t i = 0; i < between->size(); ++i) (*between)[i] += share * ((*obstacle.end_shape)[i] - (*between)[i]);
+    for (std::size_t i = 0; i < between->size(); ++i) (*between)[i] += share * ((*end)[i] - (*between)[i]);
     return between;
 }
 
@@ -34,7 +35,10 @@ public:
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
             const auto& [start, end] = std::pair(obstacles_[k].start, obstacles_[k].end);
             script.obstacles[k].end = share == 1.0 || start == end ? end : interpolate(start, end, share);
-            if (obstacles_[k].deforms()) script.obstacles[k].end_shape = shape_after(share, obstacles_[k]);
+            if (obstacles_[k].yielding)
+                script.obstacles[k].aim_at(shape_after(share, obstacles_[k]));
+            else if (obstacles_[k].deforms())
+                script.obstacles[k].end_shape = shape_after(share, obstacles_[k]);
         }
         for (int i = 0; i < vertices_; ++i) {
             if (script.free[i] > 0.0) continue;

@@ -16,12 +16,18 @@ namespace {
 constexpr double least_weight = 0.05;
 /// Cosine between directions from which on two pressing points are on opposite sides, and on one.
 constexpr double opposite = -0.5, along = 0.5;
-/// Layers of cloth between two obstacles through which they are seen.
-constexpr int most_layers = 4;
+/// Passes over contacts between cloths; each sees through one layer of cloth at least.
+constexpr int layer_passes = 3;
 /// A point inside a triangle gets less than the corners around a pressing point are moved: by this much more are they.
 constexpr double beyond = 1.2;
 /// Thicknesses and mean edges: how far around a pressing point the surface goes along.
 constexpr double dent_thicknesses = 4.0, dent_edges = 2.0;
+/// A row whose vertices have less than this share of its retreat has moved nothing.
+constexpr double least_share = 0.1;
+/// Thicknesses of room more than is kept, of which dents do not make use: what is pinched comes to rest.
+constexpr double slack = 0.2;
+/// Thicknesses. A dent that would change by less, and cloth that moves by less in a step, is at rest.
+constexpr double resting_dent = 0.02;
 
 /// What presses a vertex of cloth.
 struct Presser {
@@ -69,7 +75,7 @@ Pressers pressers_of(const ContactRows& rows) {
         const Presser one{row, rows.direction[row], rows.distance[row], rows.thickness[row]};
         for_each_vertex(rows, row, 1.0, [&](int vertex) { add(pressers, vertex, one); });
     }
-    for (int layer = 1; layers && layer < most_layers; ++layer) {
+    for (int pass = 0; layers && pass < layer_passes; ++pass) {
         for (std::size_t row = 0; row < rows.size(); ++row) {
             if (rows.obstacle[row] >= 0) continue;
             for (const double side : {1.0, -1.0}) pass_through(rows, row, side, pressers);
@@ -78,15 +84,15 @@ Pressers pressers_of(const ContactRows& rows) {
     return pressers;
 }
 
-/// How far the pressing points of rows have to go back, m, and where cloth has least room.
+/// How far the pressing points of rows have to go back, m; below 0: how much nearer they may come.
 struct Retreats {
-    std::vector<double> by_row;
-    Pinches pinches;
+    std::vector<double> by_row;            // -infinity: nothing presses from the other side
+    std::array<int, 2> obstacles{-1, -1};  // between which there is least room
     double least_room = std::numeric_limits<double>::infinity();
 };
 
 Retreats retreats_of(const ContactRows& rows, const Script& script) {
-    Retreats retreats{.by_row = std::vector<double>(rows.size()), .pinches = {}};
+    Retreats retreats{.by_row = std::vector<double>(rows.size(), -std::numeric_limits<double>::infinity())};
     const auto yields = [&](const Presser& one) { return script.obstacles[rows.obstacle[one.row]].yielding != nullptr; };
     const auto keep_apart = [&](const Presser& a, const Presser& b) {
         const int sharers = int{yields(a)} + int{yields(b)};
@@ -94,19 +100,17 @@ Retreats retreats_of(const ContactRows& rows, const Script& script) {
         const Vec3 closing = rows.obstacle_displacement[b.row] - rows.obstacle_displacement[a.row];
         const double room = a.distance + b.distance + closing.dot(a.direction);
         const double lack = kept_room * (a.zone + b.zone) - room;
-        if (lack <= 0.0) return;
         for (const Presser& one : {a, b}) {
             if (yields(one)) retreats.by_row[one.row] = std::max(retreats.by_row[one.row], lack / sharers);
         }
-        if (room >= retreats.least_room) return;
+        if (lack / sharers <= -slack * rows.thickness[a.row] || room >= retreats.least_room) return;
         retreats.least_room = room;
-        retreats.pinches.obstacles = {rows.obstacle[a.row], rows.obstacle[b.row]};
+        retreats.obstacles = {rows.obstacle[a.row], rows.obstacle[b.row]};
     };
     for (const auto& [vertex, pressers] : pressers_of(rows)) {
         for (std::size_t i = 0; i < pressers.size(); ++i)
             for (std::size_t j = i + 1; j < pressers.size(); ++j) keep_apart(pressers[i], pressers[j]);
     }
-    for (const double retreat : retreats.by_row) retreats.pinches.count += retreat > 0.0 ? 1 : 0;
     return retreats;
 }
 
@@ -122,36 +126,80 @@ std::vector<Vec3> normals_of(const YieldingMesh& mesh, const std::vector<Vec3>& 
     return normals;
 }
 
-/// What the vertices of an obstacle give way by, m, world: about each pressing point against its direction.
-std::vector<Vec3> pushed_back(const ObstacleState& obstacle, int number, const ContactRows& rows, const Retreats& retreats) {
-    const std::vector<Vec3> x = transform(obstacle.start, *obstacle.start_shape), normals = normals_of(*obstacle.yielding, x);
-    std::vector<Vec3> moved(x.size(), Vec3::Zero());
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-        if (rows.obstacle[row] != number || retreats.by_row[row] == 0.0) continue;
-        const Vec3& outward = rows.direction[row];
-        const double radius =
-            dent_thicknesses * rows.thickness[row] + dent_edges * obstacle.start.scale * obstacle.yielding->edge;
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            const double s = (x[i] - rows.obstacle_point[row]).squaredNorm() / (radius * radius);
-            const double facing = std::clamp(2.0 * normals[i].dot(outward), 0.0, 1.0);
-            if (s >= 1.0 || facing == 0.0) continue;
-            const double lack = beyond * (1.0 - s) * (1.0 - s) * facing * retreats.by_row[row] + moved[i].dot(outward);
-            if (lack > 0.0) moved[i] -= lack * outward;
-        }
-    }
-    return moved;
+/// An obstacle that yields at the start of the step, m, world.
+struct PressedSurface {
+    std::vector<Vec3> places, normals;
+    std::vector<Vec3> moved;         // what its vertices give way by
+    std::vector<double> may_return;  // m, by how much their dents may go back
+};
+
+PressedSurface pressed_surface(const ObstacleState& obstacle, double thickness) {
+    PressedSurface surface{
+        .places = transform(obstacle.start, *obstacle.start_shape), .normals = {}, .moved = {}, .may_return = {}};
+    surface.normals = normals_of(*obstacle.yielding, surface.places);
+    surface.moved.resize(surface.places.size(), Vec3::Zero());
+    surface.may_return.resize(surface.places.size(), thickness);
+    return surface;
 }
 
-/// Dents a thickness nearer to nothing.
-void relax_dent(ObstacleState& obstacle, double thickness) {
-    double deepest = 0.0;
-    obstacle.next_dent = obstacle.dent;
-    for (Vec3& x : obstacle.next_dent) {
-        const double depth = x.norm(), most = thickness / obstacle.start.scale;
-        x = depth > most ? Vec3((1.0 - most / depth) * x) : Vec3(Vec3::Zero());
-        deepest = std::max(deepest, x.squaredNorm());
+/// The vertices around a pressing point: number, and (1 - (s/R)^2)^2.
+void find_around(const std::vector<Vec3>& places, const Vec3& point, double radius, std::vector<std::pair<int, double>>& around) {
+    around.clear();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const double near = 1.0 - (places[i] - point).squaredNorm() / (radius * radius);
+        if (near > 0.0) around.emplace_back(static_cast<int>(i), near * near);
     }
-    if (deepest == 0.0) obstacle.next_dent.clear();
+}
+
+/// About each pressing point against its direction, on the side from which the cloth is pressed, be the mesh wound outward or
+/// not. Returns at how many of them a vertex gave way.
+int push_back(const ObstacleState& obstacle, int number, const ContactRows& rows, const Retreats& retreats,
+              PressedSurface& surface) {
+    int pushed = 0;
+    std::vector<std::pair<int, double>> around;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const double retreat = retreats.by_row[row];
+        if (rows.obstacle[row] != number || std::isinf(retreat)) continue;
+        const Vec3& outward = rows.direction[row];
+        const double edge = obstacle.start.scale * obstacle.yielding->edge;
+        find_around(surface.places, rows.obstacle_point[row], dent_thicknesses * rows.thickness[row] + dent_edges * edge, around);
+        double facing = 0.0;
+        for (const auto& [i, weight] : around) facing += weight * surface.normals[i].dot(outward);
+        const double side = facing < 0.0 ? -2.0 : 2.0;
+        bool gave = false;
+        for (const auto& [i, weight] : around) {
+            const double share = weight * std::clamp(side * surface.normals[i].dot(outward), 0.0, 1.0);
+            if (share <= least_share) continue;
+            surface.may_return[i] = std::min(surface.may_return[i], std::max(0.0, -retreat - slack * rows.thickness[row]));
+            const double lack = beyond * share * retreat + surface.moved[i].dot(outward);
+            gave = gave || retreat > -slack * rows.thickness[row];
+            if (retreat > 0.0 && lack > 0.0) surface.moved[i] -= lack * outward;
+        }
+        pushed += gave ? 1 : 0;
+    }
+    return pushed;
+}
+
+/// Dents nearer to nothing, by at most a thickness, m.
+void relax_dent(ObstacleState& obstacle, std::span<const double> may_return) {
+    for (std::size_t i = 0; i < obstacle.next_dent.size(); ++i) {
+        Vec3& x = obstacle.next_dent[i];
+        const double depth = x.norm(), less = may_return[i] / obstacle.start.scale;
+        if (less > 0.0) x = depth > less ? Vec3((1.0 - less / depth) * x) : Vec3(Vec3::Zero());
+    }
+}
+
+/// What has hardly changed has not, but for what is gone.
+void keep_resting(ObstacleState& obstacle, double thickness) {
+    const double least = resting_dent * thickness / obstacle.start.scale;
+    bool any = false;
+    for (std::size_t i = 0; i < obstacle.next_dent.size(); ++i) {
+        Vec3& x = obstacle.next_dent[i];
+        const Vec3 before = obstacle.dent.empty() ? Vec3(Vec3::Zero()) : obstacle.dent[i];
+        if (x != Vec3::Zero() && (x - before).squaredNorm() < least * least) x = before;
+        any = any || x != Vec3::Zero();
+    }
+    if (!any) obstacle.next_dent.clear();
 }
 
 /// The shape that is aimed at, with its dents.
@@ -162,11 +210,41 @@ void go_to_dented(ObstacleState& obstacle) {
     obstacle.go_to(std::move(shape));
 }
 
-void tell_again(StepScene& scene) {
+void tell_yielding(StepScene& scene) {
     for (std::size_t k = 0; k < scene.script.obstacles.size(); ++k) {
-        const ObstacleState& obstacle = scene.script.obstacles[k];
-        if (obstacle.yielding) tell_obstacle(obstacle, static_cast<int>(k), *scene.detector);
+        ObstacleState& obstacle = scene.script.obstacles[k];
+        if (!obstacle.yielding) continue;
+        go_to_dented(obstacle);
+        tell_obstacle(obstacle, static_cast<int>(k), *scene.detector);
+        obstacle.settled = !obstacle.moves();
     }
+}
+
+/// Nothing moves, and cloth so little that dents stay.
+bool all_rests(const StepScene& scene, const ClothState& cloth) {
+    bool dented = false;
+    for (const ObstacleState& obstacle : scene.script.obstacles) {
+        if (obstacle.moves()) return false;
+        dented = dented || !obstacle.dent.empty();
+    }
+    if (!dented) return true;
+    for (int i = 0; i < scene.model.vertex_count(); ++i) {
+        if (scene.settings.time_step * cloth.velocities.at(i).norm() > resting_dent * scene.model.thickness[i]) return false;
+    }
+    return true;
+}
+
+/// Dents stay as they are.
+Pinches keep_dents(Script& script) {
+    for (ObstacleState& obstacle : script.obstacles) obstacle.next_dent = obstacle.dent;
+    return {};
+}
+
+void add_dent(ObstacleState& obstacle, std::span<const Vec3> moved) {
+    const Rotation& q = obstacle.end.rotation;
+    const Pose back{.rotation = {q.w, -q.x, -q.y, -q.z}, .scale = 1.0 / obstacle.end.scale};
+    obstacle.next_dent.resize(moved.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < moved.size(); ++i) obstacle.next_dent[i] += transform(back, moved[i]);
 }
 
 }  // namespace
@@ -190,39 +268,49 @@ std::shared_ptr<const YieldingMesh> yielding_mesh(const TriangleMesh& mesh) {
     return made;
 }
 
+bool are_dents_of(const ObstacleState& obstacle, std::span<const Vec3> dent, std::span<const Vec3> aim) {
+    if (!obstacle.yielding) return dent.empty() && aim.empty();
+    const std::vector<int>& place = obstacle.yielding->place;
+    if (aim.size() != place.size() || !std::ranges::all_of(aim, &Vec3::allFinite)) return false;
+    if (dent.empty()) return true;
+    if (dent.size() != place.size() || !std::ranges::all_of(dent, &Vec3::allFinite)) return false;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        if (dent[i] != dent[static_cast<std::size_t>(place[i])]) return false;
+    }
+    return true;
+}
+
 bool any_yields(const Script& script) {
     return std::ranges::any_of(script.obstacles, [](const ObstacleState& obstacle) { return obstacle.yielding != nullptr; });
 }
 
 Pinches yield_to_cloth(World& world) {
     StepScene& scene = world.scene;
-    const auto moves = [](const ObstacleState& obstacle) { return obstacle.moves(); };
-    if (!scene.plan.contacts || std::ranges::none_of(scene.script.obstacles, moves)) return {};
+    std::vector<ObstacleState>& obstacles = scene.script.obstacles;
+    if (!scene.plan.contacts) return {};
+    if (all_rests(scene, world.state.cloth)) return keep_dents(scene.script);
     const auto& points = world.state.cloth.points;
     const double thickness = *std::ranges::min_element(scene.model.thickness);
-    for (ObstacleState& obstacle : scene.script.obstacles) {
-        if (!obstacle.yielding) continue;
-        obstacle.aim = obstacle.end_shape;
-        relax_dent(obstacle, thickness);
-        go_to_dented(obstacle);
-    }
-    tell_again(scene);
+    for (ObstacleState& obstacle : obstacles) obstacle.next_dent = obstacle.dent;
+    tell_yielding(scene);
     ContactRows rows;
     scene.detector->refresh(points, points);
     scene.detector->evaluate(points, 0.0, rows);
     const Retreats retreats = retreats_of(rows, scene.script);
-    for (std::size_t k = 0; k < scene.script.obstacles.size() && retreats.pinches.count > 0; ++k) {
-        ObstacleState& obstacle = scene.script.obstacles[k];
-        if (!obstacle.yielding) continue;
-        const Rotation& q = obstacle.end.rotation;
-        const Pose back{.rotation = {q.w, -q.x, -q.y, -q.z}, .scale = 1.0 / obstacle.end.scale};
-        const std::vector<Vec3> moved = transform(back, pushed_back(obstacle, static_cast<int>(k), rows, retreats));
-        obstacle.next_dent.resize(moved.size(), Vec3::Zero());
-        for (std::size_t i = 0; i < moved.size(); ++i) obstacle.next_dent[i] += moved[i];
-        go_to_dented(obstacle);
+    Pinches pinches;
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        if (!obstacles[k].yielding) continue;
+        if (retreats.obstacles[0] < 0 && obstacles[k].dent.empty()) continue;
+        PressedSurface surface = pressed_surface(obstacles[k], thickness);
+        const int pushed = push_back(obstacles[k], static_cast<int>(k), rows, retreats, surface);
+        relax_dent(obstacles[k], surface.may_return);
+        if (pushed > 0) add_dent(obstacles[k], surface.moved);
+        pinches.count += pushed;
+        keep_resting(obstacles[k], thickness);
     }
-    if (retreats.pinches.count > 0) tell_again(scene);
-    return retreats.pinches;
+    tell_yielding(scene);
+    if (pinches.count > 0) pinches.obstacles = retreats.obstacles;
+    return pinches;
 }
 
 double deepest_dent(const Script& script) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 
 #include "world.h"
 
@@ -16,16 +17,20 @@ inline constexpr std::array<int, 3> yielding_parts = {4, 16, 64};
 
 std::shared_ptr<const YieldingMesh> yielding_mesh(const TriangleMesh& mesh);
 
+/// Whether an obstacle may have these: finite, vertices at one place together, and neither if it does not yield.
+bool are_dents_of(const ObstacleState& obstacle, std::span<const Vec3> dent, std::span<const Vec3> aim);
+
 /// Whether some obstacle yields.
 bool any_yields(const Script& script);
 
 /// Before a step of which the detector knows the motion that is wanted: where cloth would be left less room than kept_room, the
 /// ends of obstacles that yield are moved apart. At a vertex of cloth that is pressed from A along a and from B along b, a . b <
-/// 0, the room is r = d_A + d_B + a . (u_B - u_A) at the end, d the distances and u the displacements of the points that press;
-/// what it lacks is taken off, half from each where both yield. Around these points the surface goes along, (1 - (s/R)^2)^2 at a
-/// distance s. Dents go back by a thickness a step where nothing hinders them. Returns how many places gave way.
+/// -0.5, also through layers of cloth in between, the room at the end is r = d_A + d_B + a . (u_B - u_A), d the distances and u
+/// the displacements of the points that press; what it lacks is taken off, half from each where both yield. Around these points
+/// the surface goes along, (1 - (s/R)^2)^2 at a distance s. Dents go back by a thickness, in each part of a divided step, where
+/// nothing hinders them, and stay where nothing moves. The detector knows what becomes of it.
 struct Pinches {
-    int count = 0;
+    int count = 0;                         // pressing points at which a surface gave way
     std::array<int, 2> obstacles{-1, -1};  // between which there is least room
 };
 Pinches yield_to_cloth(World& world);

@@ -46,7 +46,8 @@ FrameCast cast_of(const Scene& scene) {
                    .obstacles = file_names("obstacle", scene.obstacles),
                    .obstacle_moves = {},
                    .fps = scene.output.fps};
-    for (const ObstacleSpec& obstacle : scene.obstacles) cast.obstacle_moves.push_back(obstacle_moves(obstacle));
+    for (const ObstacleSpec& obstacle : scene.obstacles)
+        cast.obstacle_moves.push_back(obstacle_moves(obstacle) || obstacle.yields);
     return cast;
 }
 

@@ -111,7 +111,7 @@ void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
 /// Steps longer than a frame pass by frames.
 void warn_of_passed_frames(BuiltScene& built, const ObstacleSpec& obstacle, const BodyShapes& shapes) {
     const double step = built.scene.step.time_step;
-    if (built.scene.step.adaptive || step <= (1.0 + 1e-9) * shapes.frame_time()) return;
+    if (obstacle.clip || built.scene.step.adaptive || step <= (1.0 + 1e-9) * shapes.frame_time()) return;
     built.warnings.push_back(told(obstacle) + ": its frames are " + short_number(shapes.frame_time()) +
                              " s apart, step.time_step = " + short_number(step) + " s passes some by");
 }
@@ -223,8 +223,7 @@ bool has_pins_in_world(const ClothSpec& cloth) {
 /// Cloth that would have torn, and what often is why.
 std::string torn_text(const Scene& scene, double strain) {
     std::string text = "the largest strain is " + percent_text(strain) + ": cloth would have torn";
-    const auto moving =
-        std::ranges::find_if(scene.obstacles, [](const ObstacleSpec& o) { return obstacle_moves(o) && !o.bends(); });
+    const auto moving = std::ranges::find_if(scene.obstacles, [](const ObstacleSpec& o) { return obstacle_moves(o); });
     for (const ClothSpec& cloth : scene.cloths) {
         if (moving == scene.obstacles.end() || !has_pins_in_world(cloth)) continue;
         text += "; the pins of " + cloth.name + " stay in the world, pin = { box = ..., to = \"" + moving->name +

@@ -125,8 +125,9 @@ struct StepReport {
     int blocking_obstacle = -1;               // -1 where it is cloth, too; blocking_name then says so
     std::string blocked_name, blocking_name;  // of that cloth and obstacle
     double travel = 0.0;                      // m, beside the cloth, of an obstacle or a pin that moves too far for a step
-    int pinched = 0;                          // places of obstacles that gave way to cloth, ObstacleSettings::yields
-    double yielded = 0.0;  // m, how far the farthest vertex of such an obstacle is from where it should be, at the end
+    int pinched = 0;                          // places where obstacles give way to cloth, ObstacleSettings::yields
+    double yielded = 0.0;          // m, how far the farthest vertex of such an obstacle is from where it should be, at the end
+    bool yielded_in_vain = false;  // of a failed step: what closed on the cloth gave way, but not enough in 64 parts
     std::array<int, 2> pinching{
         -1, -1};               // the obstacles between which the cloth has least room; both the same where it pinches alone
     int second_obstacle = -1;  // pushes the cloth towards the blocking one
