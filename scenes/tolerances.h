@@ -62,6 +62,9 @@ constexpr std::size_t most_solids = 100;
 /// file fills the memory.
 constexpr std::size_t always_allowed_vertices = 100000, most_part_copies = 64;
 
+/// Nodes of a file inside each other. More: the stack overflows.
+constexpr int deepest_node = 1000;
+
 /// Divisions of shapes that a scene names: a sphere's (4: 5120 triangles), and around the y axis. Cloth of finer mesh sees the
 /// facets; more triangles cost more.
 constexpr int sphere_level = 4, shape_segments_around = 48;
@@ -91,9 +94,16 @@ constexpr std::size_t most_cut_corners = 10000;
 
 // ---- bodies/
 
-/// m. The last shape of what is played again and again is the first one where no vertex is farther off. 0: rounding of a file
-/// adds a frame that stands still.
+/// Share of the body's diagonal. The last shape of what is played again and again is the first one where no vertex is farther
+/// off. 0: rounding of a file adds a frame that stands still.
 constexpr double same_shape = 1e-4;
+
+/// Share of the body's diagonal. Vertices at one place that a clip moves apart by more are two. 0: rounding tears seams of
+/// texture.
+constexpr double moved_alike = 1e-6;
+
+/// Times at which they are compared. Fewer: some part between them.
+constexpr int times_compared = 9;
 
 /// Ticks a second of a clip that does not say, 1/s: frames of a film, what files mean that do not.
 constexpr double usual_ticks_per_s = 25.0;
@@ -102,6 +112,9 @@ constexpr double usual_ticks_per_s = 25.0;
 constexpr long most_samples = 1000000;
 
 // ---- run/
+
+/// Pinches that `run` prints; the report has all.
+constexpr std::size_t most_pinches_told = 8;
 
 /// Steps. A pinch that pauses no longer is one. 0: every step in which a surface springs back and forth begins another.
 constexpr double pause_of_pinch = 6.0;
@@ -170,6 +183,9 @@ constexpr double coarse_edge = 0.5, advised_edge = 0.125, coarse_edge_ratio = 10
 
 /// Parts of a step from which a fast obstacle is a warning.
 constexpr double dear_motion_parts = 100.0;
+
+/// Shapes of a body that doctor looks at. More: it takes minutes.
+constexpr int most_shapes_looked_at = 20000;
 
 /// Thicknesses that a vertex of a body that bends goes in a step that is made whole, as the engine has it.
 constexpr double bending_part_travel = 20.0;

@@ -45,6 +45,15 @@ std::vector<Vec3> between(const std::vector<Vec3>& from, const std::vector<Vec3>
     return vertices;
 }
 
+double diagonal(const std::vector<Vec3>& points) {
+    Vec3 low = points[0], high = points[0];
+    for (const Vec3& x : points) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    return (high - low).norm();
+}
+
 double farthest_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double squared = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) squared = std::max(squared, (a[i] - b[i]).squaredNorm());
@@ -64,7 +73,8 @@ BodyShapes::BodyShapes(const Scene& scene, const ObstacleSpec& obstacle, std::ve
                          " s that are played");
     if (!obstacle.start_mesh.empty() && lead_in_ == 0.0) throw SceneError("start_mesh needs a lead_in");
     if (lead_in_ > 0.0) start_ = start_of(scene, obstacle, source_->mesh());
-    if (loop_ && farthest_apart(source_->at(0.0), source_->at(source_->length())) > same_shape) closing_ = source_->frame_time();
+    const double apart = loop_ ? farthest_apart(source_->at(0.0), source_->at(source_->length())) : 0.0;
+    if (apart > same_shape * diagonal(source_->mesh().vertices)) closing_ = source_->frame_time();
     first_ = source_->mesh();
     first_.vertices = at(0.0);
 }
@@ -82,9 +92,7 @@ std::vector<Vec3> BodyShapes::at(double time) {
     return between(start_, played(offset_), since / lead_in_);
 }
 
-double BodyShapes::end() const {
-    return loop_ ? std::numeric_limits<double>::infinity() : once();
-}
+double BodyShapes::end() const { return loop_ ? std::numeric_limits<double>::infinity() : once(); }
 
 std::string BodyShapes::text() const { return source_->text() + (loop_ ? ", again and again" : ""); }
 

@@ -50,6 +50,8 @@ PointCache::PointCache(const Scene& scene, const ObstacleSpec& obstacle, std::ve
     const std::string kind = extension_of(file_);
     if (kind != ".pc2" && kind != ".mdd") throw SceneError(file_, "is no cache that is read: .pc2, .mdd");
     mesh_ = import_mesh(path_beside(scene, obstacle.mesh), unit_, warnings, obstacle.part);
+    std::error_code status;
+    if (!std::filesystem::is_regular_file(file_, status)) throw SceneError(file_, "no such file");
     std::ifstream in(file_, std::ios::binary);
     if (!in) throw SceneError(file_, std::string("cannot be read: ") + std::strerror(errno));
     if (kind == ".mdd" && obstacle.fps) throw SceneError(file_, "has its own times; fps is for frames and PC2 caches");

@@ -81,13 +81,36 @@ SkinClip::SkinClip(const Scene& scene, const ObstacleSpec& obstacle)
     if (!(length_ > 0.0 && std::isfinite(length_)))
         throw SceneError(file_, "clip '" + name_ + "' has no two keys: nothing moves");
     add_joints(*imported_.scene->mRootNode, -1);
+    add_skins();
+    weld_alike();
+    add_skins();
+    mesh_ = {.vertices = shape({}), .triangles = imported_.mesh.triangles};
+}
+
+void SkinClip::add_skins() {
+    skins_.clear();
+    skin_of_.clear();
     for (const VertexOrigin& origin : imported_.origins) {
         const bool same =
             !skins_.empty() && skins_.back().mesh == origin.mesh && joints_[skins_.back().joint].node == origin.node;
         if (!same) skins_.push_back(make_skin(origin));
         skin_of_.push_back(static_cast<int>(skins_.size()) - 1);
     }
-    mesh_ = {.vertices = shape({}), .triangles = imported_.mesh.triangles};
+}
+
+/// Vertices at one place are one if the clip keeps them together: at rest and at some times.
+void SkinClip::weld_alike() {
+    std::vector<std::vector<Vec3>> shapes = {shape({})};
+    for (int k = 0; k < times_compared; ++k) shapes.push_back(at(length_ * k / (times_compared - 1)));
+    Vec3 low = shapes[0][0], high = low;
+    for (const Vec3& x : shapes[0]) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    const double apart = moved_alike * (high - low).norm();
+    weld(imported_, [&](int vertex, int first) {
+        return std::ranges::all_of(shapes, [&](const std::vector<Vec3>& x) { return (x[vertex] - x[first]).norm() <= apart; });
+    });
 }
 
 void SkinClip::add_joints(const aiNode& node, int parent) {

@@ -17,7 +17,8 @@ struct aiNodeAnim;
 namespace percale::scenes {
 
 /// An animation of a glTF, GLB, FBX or DAE file: nodes move, bones carry vertices (linear blend skinning: the mean of where its
-/// bones take a vertex, by weights), and morph targets are mixed. Vertices at one place move as the first of them.
+/// bones take a vertex, by weights), and morph targets are mixed. Vertices at one place become one where the clip keeps them
+/// together.
 class SkinClip : public ShapeSource {
 public:
     /// Reads all of obstacle.mesh. Throws SceneError for a file without that clip, or one that does not fit together.
@@ -46,6 +47,8 @@ private:
     };
 
     void add_joints(const aiNode& node, int parent);
+    void add_skins();
+    void weld_alike();
     int joint_of(const std::string& node) const;
     Skin make_skin(const VertexOrigin& origin) const;
     void add_bone(Skin& skin, const aiMesh& mesh, unsigned bone) const;

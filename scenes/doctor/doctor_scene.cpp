@@ -236,17 +236,18 @@ struct FastestShape {
     double displacement = 0.0, time = 0.0;
 };
 
-/// Looks at every shape once.
-FastestShape fastest_shape(BodyShapes& shapes, double end, double dt) {
+/// Looks at every shape once, from where it begins to move.
+FastestShape fastest_shape(BodyShapes& shapes, const ObstacleSpec& obstacle, double end, double dt) {
     FastestShape fastest;
-    const double interval = std::max(std::min(shapes.frame_time(), dt), 1e-4);
-    std::vector<Vec3> before = shapes.at(0.0);
-    for (int k = 1; (k - 1) * interval < std::min(end, shapes.once()); ++k) {
-        std::vector<Vec3> now = shapes.at(k * interval);
+    const double interval = std::max(std::min(shapes.frame_time(), dt), 1e-4), from = obstacle.play_from;
+    const double last = std::min({end, shapes.once(), from + most_shapes_looked_at * interval});
+    std::vector<Vec3> before = shapes.at(from);
+    for (int k = 1; from + (k - 1) * interval < last; ++k) {
+        std::vector<Vec3> now = shapes.at(from + k * interval);
         double squared = 0.0;
         for (std::size_t i = 0; i < now.size(); ++i) squared = std::max(squared, (now[i] - before[i]).squaredNorm());
         const double displacement = std::sqrt(squared) * dt / interval;
-        if (displacement > fastest.displacement) fastest = {displacement, k * interval};
+        if (displacement > fastest.displacement) fastest = {displacement, from + k * interval};
         before = std::move(now);
     }
     return fastest;
@@ -256,7 +257,7 @@ FastestShape fastest_shape(BodyShapes& shapes, double end, double dt) {
 void examine_shapes(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>& found) {
     try {
         BodyShapes shapes(scene, obstacle);
-        const FastestShape fastest = fastest_shape(shapes, scene.latest_end(), scene.step.time_step);
+        const FastestShape fastest = fastest_shape(shapes, obstacle, scene.latest_end(), scene.step.time_step);
         const double parts = obstacle.pose.scale * fastest.displacement / (bending_part_travel * least_thickness(scene));
         if (parts <= 1.0) return;
         found.push_back({.severity = parts > dear_motion_parts ? Severity::warning : Severity::note,

@@ -127,8 +127,9 @@ Field<ObstacleSpec> pinch_field() {
     return word_field<ObstacleSpec>(
         {.path = "on_pinch",
          .sentence =
-             "Where it leaves cloth less room than two thicknesses, between it and another surface or its own: the run stops "
-             "and says where, or its surface gives way there, which report.json tells of, and goes back when there is room."},
+             "Where it leaves cloth less room than 1.2 thicknesses, between it and another surface or its own: the run stops "
+             "and says where, or its surface gives way there, which report.json tells of, and goes back when there is room; its "
+             "edges should be no longer than a few thicknesses."},
         &ObstacleSpec::yields, words, std::vector{false, true});
 }
 
@@ -140,15 +141,16 @@ std::vector<Field<ObstacleSpec>> bend_fields() {
             "PC2 or MDD file with the vertices of mesh (OBJ, OFF or PLY) at many times, relative to the scene file; straight "
             "from one to the next.",
             &ObstacleSpec::cache),
-        value_field<ObstacleSpec>(frame_key("clip",
-                                            "Name, or number from 0, of an animation in the glTF, GLB, FBX or DAE file that mesh "
-                                            "is: nodes, skin and morph targets are played."),
-                                  &ObstacleSpec::clip),
+        value_field<ObstacleSpec>(
+            frame_key("clip",
+                      "Name, or number from 0, of an animation in the glTF, GLB, FBX or DAE file that mesh "
+                      "is: nodes, skin and morph targets are played, linear between keys whatever the file says."),
+            &ObstacleSpec::clip),
         fps_field(),
-        file_field(
-            "start_mesh",
-            "Mesh file with the triangles of mesh: the body before it plays, whose lead_in then takes it to the first shape.",
-            &ObstacleSpec::start_mesh),
+        file_field("start_mesh",
+                   "Mesh file with the triangles of mesh (of frames and caches): the body before it plays, whose lead_in then "
+                   "takes it to the first shape.",
+                   &ObstacleSpec::start_mesh),
         time_field(
             "lead_in",
             "Within this time after play_from each vertex goes straight from where it starts (start_mesh; without, the mesh "

@@ -78,6 +78,7 @@ std::optional<TriangleMesh> read_own(const std::string& format, const std::strin
 
 TriangleMesh read_with_assimp(const std::string& file, std::vector<std::string>* warnings, const std::string& part) {
     ImportedScene imported = import_scene(file, part);
+    weld(imported);
     const std::vector<std::string> clips = clip_names(imported);
     if (!clips.empty() && warnings != nullptr) {
         warnings->push_back(file +

@@ -2,6 +2,7 @@
 
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
@@ -47,12 +48,14 @@ public:
         : imported_(imported), file_(file), part_(part), most_(most_vertices(*imported.scene)) {}
 
     void join() {
-        add(*imported_.scene->mRootNode, aiMatrix4x4());
+        add(*imported_.scene->mRootNode, aiMatrix4x4(), 0);
         if (imported_.mesh.triangles.empty() && !part_.empty()) names_.fail(file_, part_);
     }
 
 private:
-    void add(const aiNode& node, const aiMatrix4x4& parent) {
+    void add(const aiNode& node, const aiMatrix4x4& parent, int depth) {
+        if (depth > deepest_node)
+            throw SceneError(file_, "its nodes are nested more than " + std::to_string(deepest_node) + " deep");
         const aiMatrix4x4 to_world = parent * node.mTransformation;
         for (unsigned k = 0; k < node.mNumMeshes; ++k) {
             const aiMesh& one = *imported_.scene->mMeshes[node.mMeshes[k]];
@@ -63,7 +66,7 @@ private:
         if (imported_.mesh.vertices.size() > most_)
             throw SceneError(file_,
                              "copies of its parts come to more than " + std::to_string(most_) + " vertices; leave some out");
-        for (unsigned k = 0; k < node.mNumChildren; ++k) add(*node.mChildren[k], to_world);
+        for (unsigned k = 0; k < node.mNumChildren; ++k) add(*node.mChildren[k], to_world, depth + 1);
     }
 
     /// Appends one mesh with its node's transform.
@@ -95,24 +98,6 @@ struct PositionHash {
     }
 };
 
-/// Vertices at the same place become one, at the first one's position in the order.
-void weld(ImportedScene& imported) {
-    TriangleMesh mesh;
-    std::vector<VertexOrigin> origins;
-    std::unordered_map<std::array<double, 3>, int, PositionHash> known;
-    std::vector<int> welded(imported.mesh.vertices.size());
-    for (std::size_t k = 0; k < welded.size(); ++k) {
-        const Vec3 x = imported.mesh.vertices[k] + Vec3::Zero();  // -0 becomes +0
-        const auto [entry, is_new] = known.try_emplace({x[0], x[1], x[2]}, static_cast<int>(mesh.vertices.size()));
-        if (is_new) mesh.vertices.push_back(imported.mesh.vertices[k]);
-        if (is_new) origins.push_back(imported.origins[k]);
-        welded[k] = entry->second;
-    }
-    for (const Triangle& t : imported.mesh.triangles) mesh.triangles.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
-    imported.mesh = std::move(mesh);
-    imported.origins = std::move(origins);
-}
-
 }  // namespace
 
 void check_finite(const Vec3& x, std::size_t vertex, const std::string& file) {
@@ -133,8 +118,31 @@ ImportedScene import_scene(const std::string& file, const std::string& part) {
         throw SceneError(file, std::string("cannot be imported: ") + imported.importer->GetErrorString());
     if (imported.scene->mRootNode == nullptr) throw SceneError(file, "no vertices");
     SceneJoin(imported, file, part).join();
-    weld(imported);
     return imported;
+}
+
+void weld(ImportedScene& imported, const std::function<bool(int vertex, int first)>& alike) {
+    TriangleMesh mesh;
+    std::vector<VertexOrigin> origins;
+    std::unordered_map<std::array<double, 3>, std::vector<std::pair<int, int>>, PositionHash> known;  // first ones: old, new
+    std::vector<int> welded(imported.mesh.vertices.size());
+    for (std::size_t k = 0; k < welded.size(); ++k) {
+        const int vertex = static_cast<int>(k);
+        const Vec3 x = imported.mesh.vertices[k] + Vec3::Zero();  // -0 becomes +0
+        auto& firsts = known[{x[0], x[1], x[2]}];
+        const auto same = std::ranges::find_if(firsts, [&](const auto& first) { return !alike || alike(vertex, first.first); });
+        if (same != firsts.end()) {
+            welded[k] = same->second;
+            continue;
+        }
+        welded[k] = static_cast<int>(mesh.vertices.size());
+        firsts.emplace_back(vertex, welded[k]);
+        mesh.vertices.push_back(imported.mesh.vertices[k]);
+        origins.push_back(imported.origins[k]);
+    }
+    for (const Triangle& t : imported.mesh.triangles) mesh.triangles.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+    imported.mesh = std::move(mesh);
+    imported.origins = std::move(origins);
 }
 
 std::vector<std::string> clip_names(const ImportedScene& imported) {

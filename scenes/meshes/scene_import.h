@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,9 +31,13 @@ struct ImportedScene {
     std::vector<VertexOrigin> origins;  // of each vertex of the mesh; of vertices at one place the first
 };
 
-/// Reads by assimp. `part`: a node or mesh that is taken alone; "": all. Exporters split vertices at seams of texture or shading,
-/// and STL shares none: vertices at one place become one, in the order of first appearance. Throws SceneError naming the file.
+/// Reads by assimp, vertices as the file has them. `part`: a node or mesh that is taken alone; "": all. Throws SceneError naming
+/// the file.
 ImportedScene import_scene(const std::string& file, const std::string& part = {});
+
+/// Exporters split vertices at seams of texture or shading, and STL shares none: vertices at one place become one, in the order
+/// of first appearance. Those for which `alike`, where given, is false of a vertex and a first one stay apart.
+void weld(ImportedScene& imported, const std::function<bool(int vertex, int first)>& alike = {});
 
 /// Throws SceneError naming the file and the vertex where a coordinate is NaN or infinite.
 void check_finite(const Vec3& x, std::size_t vertex, const std::string& file);

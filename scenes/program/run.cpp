@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
@@ -21,6 +22,7 @@
 #include "program/stop_signals.h"
 #include "run/scene_plan.h"
 #include "run/start_fault.h"
+#include "tolerances.h"
 
 namespace percale::program {
 
@@ -104,7 +106,11 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
         std::printf("warning: no cloth ever met an obstacle; is everything in its place, and in one unit?\n");
     std::vector<std::string> names;
     for (const ObstacleSpec& obstacle : built.scene.obstacles) names.push_back(obstacle.name);
-    for (const Pinch& pinch : result.totals.pinches) std::printf("warning: %s\n", pinch_text(pinch, names).c_str());
+    const std::span<const Pinch> pinches = result.totals.pinches;
+    for (const Pinch& pinch : pinches.first(std::min(pinches.size(), most_pinches_told)))
+        std::printf("warning: %s\n", pinch_text(pinch, names).c_str());
+    if (pinches.size() > most_pinches_told)
+        std::printf("warning: and so %zu times more; report.json lists them\n", pinches.size() - most_pinches_told);
     for (const std::string& text : strain_warnings(built, m.largest_strain)) std::printf("warning: %s\n", text.c_str());
     for (const ExpectationResult& expectation : expectations) std::printf("  %s\n", expectation.text.c_str());
 }

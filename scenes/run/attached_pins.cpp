@@ -4,7 +4,9 @@
 
 #include "common/nearest_name.h"
 #include "common/scene_file_error.h"
+#include "common/text.h"
 #include "garment/vertex_selection.h"
+#include "percale/error.h"
 #include "run/obstacle_motion.h"
 
 namespace percale::scenes {
@@ -42,7 +44,10 @@ std::vector<AttachedPin> attached_pins(const Scene& scene, std::span<const Trian
         for (const int vertex : vertices)
             places.push_back(before(start, cloth_meshes[i].vertices[static_cast<std::size_t>(vertex)]));
         std::vector<SurfacePoint> on;
-        if (body.bends()) on = attach(obstacle_meshes[static_cast<std::size_t>(obstacle)], places);
+        if (body.bends())
+            at_place(cloth.pin_place, "pin.to: '" + body.name + "': ", [&] {
+                on = attach(obstacle_meshes[static_cast<std::size_t>(obstacle)], places);
+            });
         for (std::size_t k = 0; k < vertices.size(); ++k) {
             pins.push_back({static_cast<int>(i), vertices[k], obstacle, places[k]});
             if (body.bends()) pins.back().on = on[k];
@@ -52,7 +57,15 @@ std::vector<AttachedPin> attached_pins(const Scene& scene, std::span<const Trian
 }
 
 Vec3 place_at(const AttachedPin& pin, const Scene& scene, std::span<const Vec3> shape, double time) {
-    const Vec3 place = pin.on ? place_of(*pin.on, shape) : pin.place;
+    Vec3 place = pin.place;
+    try {
+        if (pin.on) place = place_of(*pin.on, shape);
+    } catch (const SceneError& error) {
+        throw SceneError("vertex " + std::to_string(pin.vertex) + " of '" +
+                         scene.cloths[static_cast<std::size_t>(pin.cloth)].name + "', pinned to '" +
+                         scene.obstacles[static_cast<std::size_t>(pin.obstacle)].name + "', at " + number_text(time) +
+                         " s: " + error.what());
+    }
     return transform(obstacle_pose_at(scene.obstacles[static_cast<std::size_t>(pin.obstacle)], time), place);
 }
 

@@ -186,8 +186,9 @@ void add_pinch(std::vector<Pinch>& pinches, const StepReport& report) {
 std::string pinch_text(const Pinch& pinch, std::span<const std::string> obstacles) {
     const auto [first, second] = pinch.obstacles;
     const auto name = [&](int number) { return "'" + obstacles[static_cast<std::size_t>(number)] + "'"; };
-    return name(first) + (first == second ? "" : " and " + name(second)) + " left cloth no room and gave way, by up to " +
-           short_number(pinch.yielded) + " m, from " + short_number(pinch.from) + " s to " + short_number(pinch.to) + " s";
+    return name(first) + (first == second ? "" : " and " + name(second)) +
+           " left cloth no room; what yields gave way, by up to " + short_number(pinch.yielded) + " m, from " +
+           short_number(pinch.from) + " s to " + short_number(pinch.to) + " s";
 }
 
 std::map<std::string, double> measure_values(const Measures& measures) {

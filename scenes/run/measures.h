@@ -62,7 +62,7 @@ struct Pinch {
 /// An accepted step: it makes the last pinch of these obstacles longer, or is a new one.
 void add_pinch(std::vector<Pinch>& pinches, const StepReport& report);
 
-/// "body gave way to cloth by up to 0.012 m, from 1.2 s to 1.7 s", with names of obstacles.
+/// "'arm' and 'trunk' left cloth no room; what yields gave way, by up to 0.012 m, from 1.2 s to 1.7 s", with names of obstacles.
 std::string pinch_text(const Pinch& pinch, std::span<const std::string> obstacles);
 
 /// The measures of a run; the names of the fields are those of scene files and reports.

@@ -378,6 +378,11 @@ private:
             script_.timeline.go_on_from(built_, from.timeline);
             if (from.rest.fastest_cloth < -1 || from.rest.fastest_cloth >= static_cast<int>(built_.cloths.size()))
                 throw SceneError("how still the cloth is, is that of another scene");
+            const auto known = [&](int obstacle) {
+                return obstacle >= 0 && obstacle < static_cast<int>(built_.obstacles.size());
+            };
+            for (const Pinch& pinch : from.totals.pinches)
+                if (!std::ranges::all_of(pinch.obstacles, known)) throw SceneError("its pinches are of another scene");
             built_.simulation.restore(from.simulation);
         });
         result_.totals = from.totals;

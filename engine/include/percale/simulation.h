@@ -39,7 +39,7 @@ struct ObstacleSettings {
     double restitution = 0.0;       // share of its normal speed with which cloth that hits it leaves, 0 ... 1
     std::string name = "obstacle";  // for messages
     bool deforming = false;         // its vertices may move one by one; costs contacts more, and time
-    /// What happens where it leaves cloth less room than two thicknesses, between it and what is on the other side. False: the
+    /// What happens where it leaves cloth less room than 1.2 thicknesses, between it and what is on the other side. False: the
     /// step fails. True: its surface gives way there, as flesh does, and goes back as soon as there is room; StepReport::pinched
     /// tells. It is deforming then. Its mesh needs edges not much longer than a few thicknesses.
     bool yields = false;

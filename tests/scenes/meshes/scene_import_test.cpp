@@ -46,7 +46,12 @@ endloop
 endfacet
 endsolid two
 )";
-    const ImportedScene imported = import_scene(folder.write("two.stl", stl));
+    ImportedScene imported = import_scene(folder.write("two.stl", stl));
+    CHECK(imported.mesh.vertices.size() == 6);
+    ImportedScene apart = imported;
+    weld(apart, [](int, int) { return false; });
+    CHECK(apart.mesh.vertices.size() == 6);
+    weld(imported);
     CHECK(imported.mesh.vertices.size() == 4);
     CHECK(imported.mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
     CHECK(imported.origins[3].vertex == 4);

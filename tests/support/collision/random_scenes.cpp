@@ -176,7 +176,7 @@ scenes::BuiltScene build(const Draw& draw) {
                              .rest_shapes = {{}},
                              .obstacles = {},
                              .obstacle_meshes = {draw.obstacle.mesh},
-                             .sequences = {nullptr},
+                             .shapes = {nullptr},
                              .pattern_seams = {},
                              .seams = {},
                              .warnings = {}};
