@@ -34,7 +34,68 @@ struct Bar {
     }
 };
 
+/// A triangle on a node that goes by 3 m along x within 2 s, and one that stays, as Collada.
+const std::string moving_node = R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+</accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_animations><animation id="slide">
+<source id="t"><float_array id="ta" count="2">0 2</float_array><technique_common>
+<accessor source="#ta" count="2"><param name="TIME" type="float"/></accessor></technique_common></source>
+<source id="o"><float_array id="oa" count="6">5 0 0 8 0 0</float_array><technique_common>
+<accessor source="#oa" count="2" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+</accessor></technique_common></source>
+<sampler id="s"><input semantic="INPUT" source="#t"/><input semantic="OUTPUT" source="#o"/></sampler>
+<channel source="#s" target="n1/place"/></animation></library_animations>
+<library_visual_scenes><visual_scene id="scene">
+<node id="n1"><translate sid="place">5 0 0</translate><instance_geometry url="#g"/></node>
+<node id="n2"><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#scene"/></scene></COLLADA>
+)";
+
 }  // namespace
+
+TEST_CASE("A clip of a Collada file moves a node and leaves another") {
+    Bar given;
+    given.folder.write("two.dae", moving_node);
+    given.obstacle.mesh = "two.dae";
+    given.obstacle.clip = "0";
+    SkinClip clip(given.scene, given.obstacle);
+    CHECK(clip.length() == Approx(2.0));
+    for (const double time : {0.0, 0.5, 2.0}) {
+        const Vec3 gone(5.0 + 1.5 * time, 0.0, 0.0);
+        const std::vector<Vec3> expected = {gone, gone + Vec3(1, 0, 0), gone + Vec3(0, 1, 0), {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        CHECK(farthest_apart(clip.at(time), expected) < 1e-6);
+    }
+}
+
+TEST_CASE("Vertices at one place that a clip moves apart stay two, and those that it keeps together are one") {
+    Bar given;
+    CHECK(SkinClip(given.scene, given.obstacle).mesh().vertices.size() == 12);
+    // The same bar once more, without a skin: it stays straight when the first bends, but for the ring about the root.
+    std::string text = given.folder.read("bar.gltf");
+    const auto replace = [&](const std::string& before, const std::string& after) {
+        REQUIRE(text.find(before) != std::string::npos);
+        text.replace(text.find(before), before.size(), after);
+    };
+    replace("\"nodes\":[0,1]", "\"nodes\":[0,1,3]");
+    replace("{\"name\":\"joint\",\"translation\":[0,1,0]}",
+            "{\"name\":\"joint\",\"translation\":[0,1,0]},{\"name\":\"stiff\",\"mesh\":1}");
+    replace("\"targets\":[{\"POSITION\":4}]}]}",
+            "\"targets\":[{\"POSITION\":4}]}]},{\"name\":\"stiff\",\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":"
+            "3}]}");
+    given.folder.write("bar.gltf", text);
+    SkinClip two(given.scene, given.obstacle);
+    CHECK(two.mesh().triangles.size() == 2 * given.bar.triangles.size());
+    CHECK(two.mesh().vertices.size() == 20);
+}
 
 TEST_CASE("A clip bends a skin by its joints: each vertex is the mean, by weights, of where its joints take it") {
     const Bar given;
