@@ -269,17 +269,13 @@ private:
 
     /// Lowers `safe` to what all clusters allow.
     double cut(const ClothMove& move, double safe) {
-        double obstacle_displacement = 0.0;
-        for (const auto& obstacle : obstacles_)
-            obstacle_displacement = std::max(obstacle_displacement, obstacle->largest_displacement());
-        obstacle_displacement *= move.fraction.to - move.fraction.from;
         // Stretches are the same for any number of threads; within one, what a cluster allows is all that the next ones look at.
         constexpr std::size_t grain = tolerances::clusters_a_cut;
         cuts_.resize(stretch_count(lists_->lists().size(), grain));
         for_stretches(workers_, lists_->lists().size(), grain, [&](std::size_t first, std::size_t last, int) {
             StretchCut& own = cuts_[first / grain];
             own.safe = safe;
-            for (std::size_t i = first; i < last; ++i) cut_cluster(move, obstacle_displacement, i, own);
+            for (std::size_t i = first; i < last; ++i) cut_cluster(move, i, own);
         });
         for (const StretchCut& own : cuts_) safe = std::min(safe, own.safe);
         return safe;
@@ -362,19 +358,23 @@ private:
 
     /// Where a cloth feature goes during a move.
     struct FeatureMove {
-        int number = -1;  // in the list
-        double displacement = 0.0, thickness = 0.0;
+        int number = -1;        // in the list
+        double approach = 0.0;  // m, of it and the listed obstacles
+        double thickness = 0.0;
         Box room;
     };
-    void set_move(const ClothMove& move, const ContactPair& feature, FeatureMove& own) const {
+    void set_move(const ClothMove& move, const ContactPair& feature, const ClusterList& list, FeatureMove& own) const {
         own.thickness = thickness_[feature.cloth[0]];
-        own.displacement = 0.0;
+        const double part = move.fraction.to - move.fraction.from;
+        const Vec3 drift = part * list.drift;
+        double square = 0.0;
         own.room = Box();
         for (const int vertex : feature.vertices()) {
-            own.displacement = std::max(own.displacement, lists_->displacements()[vertex]);
+            square = std::max(square, (move.to[vertex] - move.from[vertex] - drift).squaredNorm());
             own.room.add(move.from[vertex]);
             own.room.add(move.to[vertex]);
         }
+        own.approach = std::sqrt(square) + part * list.spread;
         own.room.grow(tolerances::cut_floor * own.thickness);
     }
 
@@ -384,13 +384,11 @@ private:
         std::vector<int> found;
     };
 
-    /// Lowers own.safe where a pair of the cluster needs it. `obstacle_displacement`: how far obstacles go during the whole move.
-    void cut_cluster(const ClothMove& move, double obstacle_displacement, std::size_t cluster, StretchCut& stretch) {
+    /// Lowers own.safe where a pair of the cluster needs it.
+    void cut_cluster(const ClothMove& move, std::size_t cluster, StretchCut& stretch) {
         double& safe = stretch.safe;
         ClusterList& list = lists_->lists()[cluster];
-        const double limit =
-            list.travel +
-            distance_that_keeps_floor((lists_->cluster_displacement(cluster) + obstacle_displacement) * safe, list.thickness);
+        const double limit = list.travel + distance_that_keeps_floor(lists_->approach(cluster, move) * safe, list.thickness);
         if (list.smallest_reach >= limit) return;
         FeatureMove own;
         for (const int pack : packs_up_to(list.packs.reach, limit, stretch.found)) {
@@ -398,9 +396,9 @@ private:
             const ContactPair& feature = at.feature();
             if (own.number != list.packs.at[pack].feature) {
                 own.number = list.packs.at[pack].feature;
-                set_move(move, feature, own);
+                set_move(move, feature, list, own);
             }
-            const double near = distance_that_keeps_floor((own.displacement + obstacle_displacement) * safe, own.thickness);
+            const double near = distance_that_keeps_floor(own.approach * safe, own.thickness);
             if (static_cast<double>(list.packs.reach[pack]) - list.travel >= near) continue;
             const PackHull& hull = hull_of(at);
             const bool may_cross =

@@ -90,13 +90,13 @@ bool CandidateLists::covers(std::size_t cluster, const ClothMove& move, int vers
     ClusterList& list = memory_.lists[cluster];
     if (list.version != version) return false;
     const std::span<const int> vertices = vertices_of(cluster);
-    if (list.travel + cluster_displacement_[cluster] <= list.inside_until) return true;
+    if (list.cloth_travel + cluster_displacement_[cluster] <= list.inside_until) return true;
     double room = list.thickness, room_at_end = room;
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         room = std::min(room, depth(list.boxes[k], move.from[vertices[k]]));
         room_at_end = std::min(room_at_end, depth(list.boxes[k], move.to[vertices[k]]));
     }
-    list.inside_until = list.travel + room;
+    list.inside_until = list.cloth_travel + room;
     return std::min(room, room_at_end) >= 0.0;
 }
 
@@ -131,6 +131,7 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
     const std::size_t before = list.packs.size();
     for (const int patch : build.patches) {
         if (!packs.box[patch].overlaps(room)) continue;
+        const std::size_t so_far = list.packs.size();
         const auto [first, last] = packs.packs_of(patch, pair.kind);
         for (int number = first; number < last; ++number) {
             const PackHull& hull = packs.hulls[number];
@@ -139,6 +140,7 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
             const double apart = std::max(box.gap(now), height_above(hull, vertices, move.from));
             list.packs.add(feature, number, apart, list.thickness);
         }
+        if (obstacle.moves() && list.packs.size() > so_far) build.motions.push_back(obstacle.motion_of(patch));
     }
     if (list.packs.size() == before) return;
     list.features.push_back(pair);
@@ -254,7 +256,7 @@ void CandidateLists::empty_dirty(const ClothMove& move) {
         list.features.clear();
         list.packs.clear();
         list.has_standing = false;
-        list.travel = 0.0;
+        list.travel = list.cloth_travel = 0.0;
         asked_.push_back(set_boxes(i, move));
     }
 }
@@ -293,14 +295,43 @@ void CandidateLists::build_list(std::size_t dirty, const ClothMove& move, const 
     ClusterList& list = memory_.lists[cluster];
     const std::vector<int>& vertices = clusters_.clusters[cluster].all_vertices;
     for (std::size_t k = 0; k < vertices.size(); ++k) build.vertex_boxes[vertices[k]] = list.boxes[k];
+    build.motions.clear();
+    bool some_stay = false;
     for (std::size_t number = 0; number < obstacles.size(); ++number) {
         const IdLists& found = found_[number];
         const int first = found.start[dirty], count = found.start[dirty + 1] - first;
         if (count == 0) continue;
         build.patches = std::span<const int>(found.ids).subspan(first, count);
+        const std::size_t before = list.packs.size();
         add_features(cluster, static_cast<int>(number), move, *obstacles[number], build);
+        some_stay = some_stay || (!obstacles[number]->moves() && list.packs.size() > before);
     }
+    if (some_stay && !build.motions.empty()) build.motions.push_back({});
+    set_drift(list, build.motions);
     set_smallest_bounds(list);
+}
+
+/// The middle of all means, and what is farthest from it.
+void CandidateLists::set_drift(ClusterList& list, std::span<const PatchMotion> motions) const {
+    list.drift = Vec3::Zero();
+    list.spread = 0.0;
+    if (motions.empty()) return;
+    Box means;
+    for (const PatchMotion& motion : motions) means.add(motion.mean);
+    list.drift = 0.5 * (means.low + means.high);
+    for (const PatchMotion& motion : motions)
+        list.spread = std::max(list.spread, (motion.mean - list.drift).norm() + motion.spread);
+}
+
+double CandidateLists::approach(std::size_t cluster, const ClothMove& move) const {
+    const ClusterList& list = memory_.lists[cluster];
+    const double part = move.fraction.to - move.fraction.from;
+    if (list.drift == Vec3::Zero()) return cluster_displacement_[cluster] + part * list.spread;
+    const Vec3 drift = part * list.drift;
+    double square = 0.0;
+    for (const int vertex : vertices_of(cluster))
+        square = std::max(square, (move.to[vertex] - move.from[vertex] - drift).squaredNorm());
+    return std::sqrt(square) + part * list.spread;
 }
 
 void CandidateLists::collect_standing(std::size_t cluster, const Obstacles& obstacles) {
@@ -343,30 +374,42 @@ void CandidateLists::activate(ClusterList& list, std::size_t feature, int place)
 }
 
 void CandidateLists::advance(std::span<const Vec3> positions, double fraction, const Obstacles& obstacles, Workers* workers) {
-    double displacement = 0.0;
-    for (const auto& obstacle : obstacles) displacement = std::max(displacement, obstacle->largest_displacement());
-    displacement *= std::abs(fraction - memory_.seen_fraction);
+    const bool obstacles_move = std::any_of(obstacles.begin(), obstacles.end(), [](const auto& o) { return o->moves(); });
+    const double part = obstacles_move ? fraction - memory_.seen_fraction : 0.0;
     memory_.seen_fraction = fraction;
+    if (part != 0.0) gone_.resize(moved_.size());
     constexpr std::size_t grain = tolerances::vertices_a_part;
     most_moved_.assign(stretch_count(moved_.size(), grain), 0.0);
     for_stretches(workers, moved_.size(), grain, [&](std::size_t first, std::size_t last, int) {
         double most = 0.0;
         for (std::size_t i = first; i < last; ++i) {
-            moved_[i] = (positions[i] - memory_.seen[i]).squaredNorm();
+            const Vec3 gone = positions[i] - memory_.seen[i];
+            if (part != 0.0) gone_[i] = gone;
+            moved_[i] = gone.squaredNorm();
             most = std::max(most, moved_[i]);
         }
         most_moved_[first / grain] = most;
         if (most > 0.0) std::copy(positions.begin() + first, positions.begin() + last, memory_.seen.begin() + first);
     });
     const bool moved = std::any_of(most_moved_.begin(), most_moved_.end(), [](double most) { return most > 0.0; });
-    if (!moved && displacement == 0.0) return;
+    if (!moved && part == 0.0) return;
     for_stretches(workers, memory_.lists.size(), tolerances::clusters_a_pass, [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t i = first; i < last; ++i) {
-            double square = 0.0;
-            for (const int vertex : vertices_of(i)) square = std::max(square, moved_[vertex]);
-            memory_.lists[i].travel += std::sqrt(square) + displacement;
-        }
+        for (std::size_t i = first; i < last; ++i) advance_list(i, part);
     });
+}
+
+/// A distance shrinks by at most how far the cloth goes beside the drift of the obstacles, and these beside it.
+void CandidateLists::advance_list(std::size_t cluster, double part) {
+    ClusterList& list = memory_.lists[cluster];
+    const bool drifts = part != 0.0 && list.drift != Vec3::Zero();
+    const Vec3 drift = part * list.drift;
+    double square = 0.0, beside = 0.0;
+    for (const int vertex : vertices_of(cluster)) {
+        square = std::max(square, moved_[vertex]);
+        if (drifts) beside = std::max(beside, (gone_[vertex] - drift).squaredNorm());
+    }
+    list.cloth_travel += std::sqrt(square);
+    list.travel += std::sqrt(drifts ? beside : square) + std::abs(part) * list.spread;
 }
 
 }  // namespace percale

@@ -61,9 +61,12 @@ struct ClusterList {
     ListedPacks packs;
     double thickness = 0.0;       // m, largest of its vertices
     double travel = 0.0;          // m, bound of how much any distance has shrunk since the list was made
+    double cloth_travel = 0.0;    // m, bound of how far any of its vertices has gone since then
+    Vec3 drift = Vec3::Zero();    // m, displacement of the listed patches during the step, all of whose vertices
+    double spread = 0.0;          // m, go so far within this
     double smallest_reach = 0.0;  // smallest ListedPacks::reach
     double quiet_until = 0.0;     // smallest ListedPacks::wake
-    double inside_until = -1.0;   // m, travel up to which all vertices are surely in their boxes
+    double inside_until = -1.0;   // m, cloth_travel up to which all vertices are surely in their boxes
     bool has_standing = false;    // some lane is standing
     int version = no_version;     // of the obstacles' motion it was built for
 };
@@ -106,9 +109,8 @@ public:
     bool empty() const { return memory_.empty; }
     std::span<const ClothCluster> clusters() const { return clusters_.clusters; }
     std::span<ClusterList> lists() { return memory_.lists; }
-    /// m, how far each vertex goes in the move that was covered last, and the farthest of a cluster.
-    std::span<const double> displacements() const { return displacement_; }
-    double cluster_displacement(std::size_t cluster) const { return cluster_displacement_[cluster]; }
+    /// m, by how much a move brings any vertex of a cluster, and any listed obstacle, nearer to each other at most.
+    double approach(std::size_t cluster, const ClothMove& move) const;
     /// Sets the smallest bounds of a list whose packs' bounds have changed.
     static void set_smallest_bounds(ClusterList& list);
 
@@ -118,9 +120,10 @@ private:
     }
     /// What a cluster's list is built with.
     struct Build {
-        std::vector<Box> vertex_boxes;  // of the cluster's vertices
-        std::span<const int> patches;   // near it, ascending
-        long listed = 0;                // packs so far
+        std::vector<Box> vertex_boxes;     // of the cluster's vertices
+        std::span<const int> patches;      // near it, ascending
+        long listed = 0;                   // packs so far
+        std::vector<PatchMotion> motions;  // of patches with listed packs
     };
 
     bool covers(std::size_t cluster, const ClothMove& move, int version);
@@ -135,6 +138,8 @@ private:
     void activate_again(const Obstacles& obstacles);
     void activate(ClusterList& list, std::size_t feature, int place) const;
     bool is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version);
+    void advance_list(std::size_t cluster, double part);
+    void set_drift(ClusterList& list, std::span<const PatchMotion> motions) const;
     void set_displacements(const ClothMove& move, Workers* workers);
 
     std::vector<Triangle> triangles_;
@@ -145,6 +150,7 @@ private:
     std::vector<double> displacement_, cluster_displacement_;  // m
     bool displaced_ = false;                                   // one of them may not be 0
     std::vector<double> moved_;                                // m^2, since the last advance
+    std::vector<Vec3> gone_;                                   // m, likewise, where obstacles move
     std::vector<double> most_moved_;                           // m^2, of stretches of vertices
     std::vector<Build> builds_;                                // one a slot
     std::vector<std::size_t> dirty_;

@@ -33,6 +33,7 @@ Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, 
     packs_ = make_packs(surface_);  // with edges that are flat for now
     if (deforms()) mark_flat(start_, end_, surface_);
     set_pack_boxes();
+    set_patch_motions();
     make_patch_tree(make_tree);
 }
 
@@ -54,6 +55,22 @@ void Obstacle::set_pack_boxes() {
     for (const Box& box : packs_.box) whole_box_.add(box);
 }
 
+void Obstacle::set_patch_motions() {
+    patch_motions_.assign(packs_.patch_count(), {});
+    if (!moves_) return;
+    std::vector<double> corners(packs_.patch_count(), 0.0);
+    for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+        for (const int vertex : surface_.triangles[i]) patch_motions_[packs_.patch_of[i]].mean += end_[vertex] - start_[vertex];
+        corners[packs_.patch_of[i]] += 3.0;
+    }
+    for (std::size_t patch = 0; patch < corners.size(); ++patch) patch_motions_[patch].mean /= std::max(1.0, corners[patch]);
+    for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+        PatchMotion& motion = patch_motions_[packs_.patch_of[i]];
+        for (const int vertex : surface_.triangles[i])
+            motion.spread = std::max(motion.spread, (end_[vertex] - start_[vertex] - motion.mean).norm());
+    }
+}
+
 void Obstacle::move(const Pose& start, const Pose& end) {
     const bool stays = start == start_pose_ && end == end_pose_ && start == end && !reshaped_;
     if (stays && !moves_) return;
@@ -65,6 +82,7 @@ void Obstacle::move(const Pose& start, const Pose& end) {
     reshaped_ = false;
     place_vertices();
     set_pack_boxes();
+    set_patch_motions();
     if (deforms()) refit();
 }
 

@@ -12,6 +12,12 @@
 
 namespace percale {
 
+/// Displacements of a patch's vertices during a step: all within `spread` of `mean`, m.
+struct PatchMotion {
+    Vec3 mean = Vec3::Zero();
+    double spread = 0.0;
+};
+
 /// One obstacle in motion. Within a step each vertex runs straight from its place at the start to its place at the end.
 class Obstacle {
 public:
@@ -32,6 +38,8 @@ public:
     bool moves() const { return moves_; }
     /// m, largest displacement of a vertex in the coming step.
     double largest_displacement() const { return largest_displacement_; }
+    /// How a patch moves in the coming step.
+    const PatchMotion& motion_of(int patch) const { return patch_motions_[patch]; }
     /// At the two ends of the coming step.
     const Pose& start_pose() const { return start_pose_; }
     const Pose& end_pose() const { return end_pose_; }
@@ -70,6 +78,7 @@ private:
     void place_vertices();
     void refit();
     void set_pack_boxes();
+    void set_patch_motions();
     void make_patch_tree(TreeFactory make_tree);
     VertexPaths paths() const { return {start_, moves_ ? end_ : start_}; }
 
@@ -82,6 +91,7 @@ private:
     ObstaclePacks packs_;
     Box whole_box_;
     std::vector<Box> boxes_;  // of the patches where the tree was built
+    std::vector<PatchMotion> patch_motions_;
     std::vector<Vec3> stand_in_corners_;
     std::vector<Triangle> stand_ins_;  // one triangle for each patch, with the patch's box: what the tree holds
     std::unique_ptr<ObstacleTree> tree_;
