@@ -60,8 +60,12 @@ std::string failure_text(const StepReport& report) {
             break;
         case StepStatus::obstacle_too_fast:
             if (report.second_obstacle >= 0) {
-                text << blocker << " and " << numbered("obstacle", report.second_obstacle, report.second_name)
-                     << " close on the cloth, which cannot get out of their way; "
+                const bool alone = report.second_obstacle == report.blocking_obstacle;
+                if (alone)
+                    text << "parts of " << blocker;
+                else
+                    text << blocker << " and " << numbered("obstacle", report.second_obstacle, report.second_name);
+                text << " close on the cloth, which cannot get out of their way; "
                      << (report.yielded_in_vain ? "what yields gave way, but not enough in 64 parts of the step (are its edges "
                                                   "longer than a few thicknesses?); "
                                                 : "one that yields (on_pinch) would give way; ")

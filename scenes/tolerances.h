@@ -116,6 +116,9 @@ constexpr long most_samples = 1000000;
 /// Pinches that `run` prints; the report has all.
 constexpr std::size_t most_pinches_told = 8;
 
+/// Thicknesses of cloth, and share of an obstacle's area: where more of it has edges so long, it hardly gives way.
+constexpr double coarse_edge_thicknesses = 12.0, told_coarse_share = 0.05;
+
 /// Steps. A pinch that pauses no longer is one. 0: every step in which a surface springs back and forth begins another.
 constexpr double pause_of_pinch = 6.0;
 
@@ -189,6 +192,9 @@ constexpr int most_shapes_looked_at = 20000;
 
 /// Thicknesses that a vertex of a body that bends goes in a step that is made whole, as the engine has it.
 constexpr double bending_part_travel = 20.0;
+
+/// Parts of a step from which a body that bends likely has a frame that jumps.
+constexpr double bending_jump_parts = 8.0;
 
 /// Share of the longest stable step that is advised.
 constexpr double advised_stable_share = 0.8;

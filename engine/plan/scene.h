@@ -60,6 +60,7 @@ struct ObstacleState {
     }
     /// Sets the shape that it should have at the end of the step.
     void aim_at(Shape shape) {
+        if (yielding && aim && *aim == *shape) return;  // dents that rest do so on
         if (yielding) aim = shape;
         go_to(std::move(shape));
     }

@@ -6,6 +6,9 @@
 namespace percale {
 namespace {
 
+/// Cosine between the directions of contacts on opposite sides of cloth.
+constexpr double opposite_sides = -0.5;
+
 /// Of a pin that is blocked, or blocks.
 void name_vertex(const StepScene& scene, int vertex, StepReport& report) {
     report.blocked_cloth = cloth_of(scene.model, vertex);
@@ -26,7 +29,15 @@ void name_blocked_pin(const StepScene& scene, const Workspace& work, StepReport&
     }
 }
 
-/// Of the contacts with other obstacles that push against the closest one's direction, the closest.
+/// Whether two contacts press one vertex of cloth from opposite sides.
+bool press_from_both_sides(const ContactRows& rows, std::size_t one, std::size_t other) {
+    if (rows.obstacle[other] < 0 || rows.direction[one].dot(rows.direction[other]) > opposite_sides) return false;
+    const auto holds = [&](int vertex) { return vertex >= 0 && std::ranges::count(rows.vertex[other], vertex) > 0; };
+    return std::ranges::any_of(rows.vertex[one], holds);
+}
+
+/// Of the contacts with other obstacles that push against the closest one's direction, the closest; without one the same
+/// obstacle, if it presses cloth from both sides.
 void name_second_obstacle(const StepScene& scene, const ContactRows& rows, std::size_t closest, StepReport& report) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -34,6 +45,9 @@ void name_second_obstacle(const StepScene& scene, const ContactRows& rows, std::
         if (!other || rows.direction[row].dot(rows.direction[closest]) >= 0.0 || rows.distance[row] >= least) continue;
         least = rows.distance[row];
         report.second_obstacle = rows.obstacle[row];
+    }
+    for (std::size_t row = 0; row < rows.size() && report.second_obstacle < 0; ++row) {
+        if (press_from_both_sides(rows, closest, row)) report.second_obstacle = rows.obstacle[row];
     }
     if (report.second_obstacle >= 0) report.second_name = scene.script.obstacles[report.second_obstacle].name;
 }

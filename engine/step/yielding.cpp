@@ -24,6 +24,9 @@ constexpr double beyond = 1.2;
 constexpr double dent_thicknesses = 4.0, dent_edges = 2.0;
 /// A row whose vertices have less than this share of its retreat has moved nothing.
 constexpr double least_share = 0.1;
+/// Thicknesses by which dents go back in a step. Larger: where cloth is just out of contact they come too near, are pushed back,
+/// and tremble.
+constexpr double returned = 0.25;
 /// Thicknesses of room more than is kept, of which dents do not make use: what is pinched comes to rest.
 constexpr double slack = 0.2;
 /// Thicknesses. A dent that would change by less, and cloth that moves by less in a step, is at rest.
@@ -138,7 +141,7 @@ PressedSurface pressed_surface(const ObstacleState& obstacle, double thickness) 
         .places = transform(obstacle.start, *obstacle.start_shape), .normals = {}, .moved = {}, .may_return = {}};
     surface.normals = normals_of(*obstacle.yielding, surface.places);
     surface.moved.resize(surface.places.size(), Vec3::Zero());
-    surface.may_return.resize(surface.places.size(), thickness);
+    surface.may_return.resize(surface.places.size(), returned * thickness);
     return surface;
 }
 
@@ -180,7 +183,7 @@ int push_back(const ObstacleState& obstacle, int number, const ContactRows& rows
     return pushed;
 }
 
-/// Dents nearer to nothing, by at most a thickness, m.
+/// Dents nearer to nothing, by at most what they may, m.
 void relax_dent(ObstacleState& obstacle, std::span<const double> may_return) {
     for (std::size_t i = 0; i < obstacle.next_dent.size(); ++i) {
         Vec3& x = obstacle.next_dent[i];

@@ -27,8 +27,8 @@ bool any_yields(const Script& script);
 /// ends of obstacles that yield are moved apart. At a vertex of cloth that is pressed from A along a and from B along b, a . b <
 /// -0.5, also through layers of cloth in between, the room at the end is r = d_A + d_B + a . (u_B - u_A), d the distances and u
 /// the displacements of the points that press; what it lacks is taken off, half from each where both yield. Around these points
-/// the surface goes along, (1 - (s/R)^2)^2 at a distance s. Dents go back by a thickness, in each part of a divided step, where
-/// nothing hinders them, and stay where nothing moves. The detector knows what becomes of it.
+/// the surface goes along, (1 - (s/R)^2)^2 at a distance s. Dents go back by a quarter of a thickness, in each part of a divided
+/// step, where nothing hinders them, and stay where nothing moves. The detector knows what becomes of it.
 struct Pinches {
     int count = 0;                         // pressing points at which a surface gave way
     std::array<int, 2> obstacles{-1, -1};  // between which there is least room

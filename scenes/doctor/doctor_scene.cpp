@@ -35,6 +35,13 @@ struct Meshes {
     std::vector<const ObstacleSpec*> obstacle_specs;
 };
 
+std::string fix_of_mesh(const ClothSpec&) { return "name a mesh file that `percale doctor FILE` finds readable"; }
+std::string fix_of_mesh(const ObstacleSpec& obstacle) {
+    const bool bends = obstacle.bends() || obstacle.loop || obstacle.fps || obstacle.lead_in > 0.0;
+    return bends ? "correct it there; `percale explain obstacle` lists what bodies that bend take"
+                 : "name a mesh file that `percale doctor FILE` finds readable";
+}
+
 template <class Spec, class Read>
 std::optional<ExaminedMesh> read_mesh(const Spec& spec, MeshRole role, std::vector<Finding>& found, Read read) {
     ExaminedMesh mesh{.role = role,
@@ -50,7 +57,7 @@ std::optional<ExaminedMesh> read_mesh(const Spec& spec, MeshRole role, std::vect
                          .role = role,
                          .place = mesh.place,
                          .what = mesh.name + ": " + error.what(),
-                         .fix = "name a mesh file that `percale doctor FILE` finds readable"});
+                         .fix = fix_of_mesh(spec)});
         return std::nullopt;
     }
     mesh.facts = mesh_facts(mesh.mesh);
@@ -260,20 +267,20 @@ void examine_shapes(const Scene& scene, const ObstacleSpec& obstacle, std::vecto
         const FastestShape fastest = fastest_shape(shapes, obstacle, scene.latest_end(), scene.step.time_step);
         const double parts = obstacle.pose.scale * fastest.displacement / (bending_part_travel * least_thickness(scene));
         if (parts <= 1.0) return;
-        found.push_back({.severity = parts > dear_motion_parts ? Severity::warning : Severity::note,
+        found.push_back({.severity = parts > bending_jump_parts ? Severity::warning : Severity::note,
                          .kind = "fast_obstacle",
                          .place = place_text(obstacle.place),
                          .what = "obstacle '" + obstacle.name + "' bends so fast that near cloth a step is made in up to " +
                                  short_number(std::ceil(parts)) + " parts: a vertex goes " +
                                  short_number(obstacle.pose.scale * fastest.displacement) + " m in a step at " +
                                  short_number(fastest.time) + " s",
-                         .fix = "play it slower, or look whether a frame jumps"});
+                         .fix = "play it slower, or mend the frame if it jumps there: bodies that bend are not teleported"});
     } catch (const SceneError& error) {
         found.push_back({.severity = Severity::error,
                          .kind = "bad_frame",
                          .place = place_text(obstacle.place),
                          .what = "obstacle '" + obstacle.name + "': " + error.what(),
-                         .fix = "mend that frame, or play none that come so late"});
+                         .fix = "mend that frame, or end before it"});
     }
 }
 

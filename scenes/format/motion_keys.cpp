@@ -124,13 +124,14 @@ Field<ObstacleSpec> spin_field() {
 
 Field<ObstacleSpec> pinch_field() {
     static constexpr std::string_view words[] = {"stop", "yield"};
-    return word_field<ObstacleSpec>(
-        {.path = "on_pinch",
-         .sentence =
-             "Where it leaves cloth less room than 1.2 thicknesses, between it and another surface or its own: the run stops "
-             "and says where, or its surface gives way there, which report.json tells of, and goes back when there is room; its "
-             "edges should be no longer than a few thicknesses."},
-        &ObstacleSpec::yields, words, std::vector{false, true});
+    return word_field<ObstacleSpec>({.path = "on_pinch",
+                                     .sentence = "Where it leaves cloth no room, between it and another surface or its own. "
+                                                 "stop: the run ends, and names the obstacles, "
+                                                 "when cloth can no longer be kept from crossing. yield: from 1.2 thicknesses of "
+                                                 "room on its surface gives way there, and "
+                                                 "goes back when there is room; report.json tells when and how far. Edges should "
+                                                 "be no longer than a few thicknesses."},
+                                    &ObstacleSpec::yields, words, std::vector{false, true});
 }
 
 std::vector<Field<ObstacleSpec>> bend_fields() {
@@ -143,7 +144,7 @@ std::vector<Field<ObstacleSpec>> bend_fields() {
             &ObstacleSpec::cache),
         value_field<ObstacleSpec>(
             frame_key("clip",
-                      "Name, or number from 0, of an animation in the glTF, GLB, FBX or DAE file that mesh "
+                      "Name, or number from 0 as text (\"1\"), of an animation in the glTF, GLB, FBX or DAE file that mesh "
                       "is: nodes, skin and morph targets are played, linear between keys whatever the file says."),
             &ObstacleSpec::clip),
         fps_field(),
@@ -159,9 +160,10 @@ std::vector<Field<ObstacleSpec>> bend_fields() {
         time_field("play_from", "When it begins to move; until then it keeps its first shape.", &ObstacleSpec::play_from),
         time_field("play_offset", "Where in the frames, the cache or the clip it begins.", &ObstacleSpec::play_offset),
         value_field<ObstacleSpec>(
-            frame_key("loop",
-                      "Whether it is played again and again: after the last shape comes the first, one frame "
-                      "later, or at once where they are the same; else the last stays."),
+            frame_key(
+                "loop",
+                "Whether it is played again and again: after the last shape comes the first (not that of play_offset), one frame "
+                "later, or at once where they are the same; else the last stays."),
             &ObstacleSpec::loop),
     };
 }

@@ -47,7 +47,7 @@ void check_output() {
 }
 
 int parse_and_act(int argc, char** argv) {
-    CLI::App program("Simulates cloth over rigid mesh obstacles.", "percale");
+    CLI::App program("Simulates cloth over mesh obstacles, rigid or bending.", "percale");
     program.footer("Example: percale run data/scenes/poncho_on_mannequin.toml\n`percale COMMAND --help` says more.");
     program.set_version_flag("--version", "percale " PERCALE_VERSION);
     program.require_subcommand(1);

@@ -171,7 +171,12 @@ double largest_vertex_distance(const Simulation& simulation, std::span<const Clo
 }
 
 void add_pinch(std::vector<Pinch>& pinches, const StepReport& report) {
-    if (report.pinched == 0) return;
+    if (report.yielded == 0.0) return;
+    if (report.pinched == 0) {  // it goes back
+        const bool recent = !pinches.empty() && pinches.back().to > report.time - (1.0 + pause_of_pinch) * report.dt;
+        if (recent) pinches.back().to = report.time;
+        return;
+    }
     const auto [low, high] = std::minmax(report.pinching[0], report.pinching[1]);
     const double from = report.time - report.dt;
     const auto goes_on = [&](const Pinch& pinch) {
@@ -187,7 +192,7 @@ std::string pinch_text(const Pinch& pinch, std::span<const std::string> obstacle
     const auto [first, second] = pinch.obstacles;
     const auto name = [&](int number) { return "'" + obstacles[static_cast<std::size_t>(number)] + "'"; };
     return name(first) + (first == second ? "" : " and " + name(second)) +
-           " left cloth no room; what yields gave way, by up to " + short_number(pinch.yielded) + " m, from " +
+           " pinched cloth; what yields (on_pinch) was dented, by up to " + short_number(pinch.yielded) + " m, from " +
            short_number(pinch.from) + " s to " + short_number(pinch.to) + " s";
 }
 

@@ -59,10 +59,11 @@ struct Pinch {
     double yielded = 0.0;                  // m, the largest distance of an obstacle's vertex from where it should have been
 };
 
-/// An accepted step: it makes the last pinch of these obstacles longer, or is a new one.
+/// An accepted step: it makes the last pinch of these obstacles longer, or is a new one. A pinch lasts until its dents are gone.
 void add_pinch(std::vector<Pinch>& pinches, const StepReport& report);
 
-/// "'arm' and 'trunk' left cloth no room; what yields gave way, by up to 0.012 m, from 1.2 s to 1.7 s", with names of obstacles.
+/// "'arm' and 'trunk' pinched cloth; what yields (on_pinch) was dented, by up to 0.012 m, from 1.2 s to 1.7 s", with names of
+/// obstacles.
 std::string pinch_text(const Pinch& pinch, std::span<const std::string> obstacles);
 
 /// The measures of a run; the names of the fields are those of scene files and reports.

@@ -1,6 +1,7 @@
 #include "run/scene_build.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
@@ -113,7 +114,31 @@ void warn_of_passed_frames(BuiltScene& built, const ObstacleSpec& obstacle, cons
     const double step = built.scene.step.time_step;
     if (obstacle.clip || built.scene.step.adaptive || step <= (1.0 + 1e-9) * shapes.frame_time()) return;
     built.warnings.push_back(told(obstacle) + ": its frames are " + short_number(shapes.frame_time()) +
-                             " s apart, step.time_step = " + short_number(step) + " s passes some by");
+                             " s apart, step.time_step = " + short_number(step) + " s passes some by; take step.time_step = " +
+                             short_number(shapes.frame_time()) + " or less where none is to be missed");
+}
+
+/// The share of a mesh's area in triangles with an edge above a length.
+double coarse_share(const TriangleMesh& mesh, double longest) {
+    double coarse = 0.0, whole = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec3 u = mesh.vertices[b] - mesh.vertices[a], v = mesh.vertices[c] - mesh.vertices[a];
+        const double area = u.cross(v).norm();
+        whole += area;
+        if (std::max({u.norm(), v.norm(), (u - v).norm()}) > longest) coarse += area;
+    }
+    return whole > 0.0 ? coarse / whole : 0.0;
+}
+
+/// A surface gives way at its vertices alone.
+void warn_of_coarse_yielding(BuiltScene& built, const ObstacleSpec& obstacle, const TriangleMesh& mesh) {
+    double thickness = std::numeric_limits<double>::infinity();
+    for (const ClothSpec& cloth : built.scene.cloths) thickness = std::min(thickness, fabric_of(built.scene, cloth).thickness);
+    const double longest = coarse_edge_thicknesses * thickness, share = coarse_share(mesh, longest / obstacle.pose.scale);
+    if (share <= told_coarse_share) return;
+    built.warnings.push_back(told(obstacle) + ": on_pinch = \"yield\", but " + percent_text(share) +
+                             " of its surface has edges above " + short_number(longest) +
+                             " m, and it gives way at vertices alone; refine its mesh");
 }
 
 void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
@@ -127,6 +152,7 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
                                     .deforming = shapes != nullptr,
                                     .yields = obstacle.yields};
     if (shapes) warn_of_passed_frames(built, obstacle, *shapes);
+    if (obstacle.yields) warn_of_coarse_yielding(built, obstacle, mesh);
     built.shapes.push_back(std::move(shapes));
     built.obstacles.push_back(built.simulation.add_obstacle(mesh, obstacle_pose_at(obstacle, 0.0), settings));
     built.obstacle_meshes.push_back(std::move(mesh));

@@ -19,6 +19,10 @@ ScriptedChanges changes_of(const Scene& scene) {
     changes.obstacles = std::any_of(scene.obstacles.begin(), scene.obstacles.end(), [](const ObstacleSpec& obstacle) {
         return !obstacle.motion.empty() || obstacle.spin || obstacle.bends();
     });
+    for (const ClothSpec& cloth : scene.cloths) {  // pins that go with an obstacle
+        const auto* box = std::get_if<VertexBox>(&cloth.pin);
+        changes.pins = changes.pins || (box != nullptr && !box->to.empty() && changes.obstacles);
+    }
     for (const EventSpec& event : scene.events) {
         const bool gravity = std::holds_alternative<GravityEvent>(event.what),
                    wind = std::holds_alternative<WindEvent>(event.what);

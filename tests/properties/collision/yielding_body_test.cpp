@@ -184,4 +184,45 @@ TEST_CASE("An obstacle that would yield but need not is one that bends, in every
     CHECK(yields.shape(yields.left) == yields.ball.vertices);
 }
 
+TEST_CASE("Dents of a pinch that lasts stay as they are, in every bit, and one body pinches with its own parts") {
+    // Two balls in one mesh that come together about a small sheet that lies on nothing else.
+    TriangleMesh jaws = make_sphere(radius, 3);
+    const std::vector<Vec3> ball = jaws.vertices;
+    const auto shape = [&](double gap) {
+        std::vector<Vec3> both;
+        for (const double side : {-1.0, 1.0})
+            for (const Vec3& x : ball) both.emplace_back(x + Vec3(0.0, side * (radius + 0.5 * gap), 0.0));
+        return both;
+    };
+    const std::size_t count = jaws.triangles.size();
+    const int shift = static_cast<int>(ball.size());
+    for (std::size_t i = 0; i < count; ++i)
+        jaws.triangles.push_back({jaws.triangles[i][0] + shift, jaws.triangles[i][1] + shift, jaws.triangles[i][2] + shift});
+    jaws.vertices = shape(0.03);
+    for (const bool yields : {true, false}) {
+        Simulation simulation({}, backends().back().make_detector());
+        simulation.add_cloth(make_grid(0.1, 0.1, 7, 7), felt(false));
+        const ObstacleId body = simulation.add_obstacle(jaws, {}, {.name = "jaws", .deforming = true, .yields = yields});
+        StepReport report;
+        std::vector<Vec3> before;
+        int same = 0;  // last steps in which no vertex moved
+        for (int n = 1; n <= 160 && report.ok(); ++n) {
+            simulation.deform_obstacle(body, shape(std::max(-0.02, 0.03 - 0.001 * n)));
+            report = simulation.step();
+            const auto now = simulation.obstacle_shape(body);
+            same = std::ranges::equal(now, before) ? same + 1 : 0;
+            before.assign(now.begin(), now.end());
+        }
+        CAPTURE(report.explanation());
+        CHECK(report.ok() == yields);
+        if (yields) {
+            CHECK(same > 20);
+            CHECK(report.pinched > 0);
+            CHECK(report.yielded > 0.01);
+            continue;
+        }
+        CHECK(report.explanation().find("parts of obstacle 0 (jaws) close on the cloth") != std::string::npos);
+    }
+}
+
 }  // namespace percale::test

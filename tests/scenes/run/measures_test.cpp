@@ -238,6 +238,6 @@ TEST_CASE("steps in which obstacles give way are one pinch as long as they pause
     CHECK(pinches[2].from == Approx(2.9));
     const std::vector<std::string> names = {"arm", "trunk", "leg"};
     CHECK(pinch_text(pinches[0], names) ==
-          "'arm' and 'leg' left cloth no room; what yields gave way, by up to 0.01 m, from 0.9 s to 1.3 s");
-    CHECK(pinch_text(pinches[1], names).find("'trunk' left cloth no room") == 0);
+          "'arm' and 'leg' pinched cloth; what yields (on_pinch) was dented, by up to 0.01 m, from 0.9 s to 1.3 s");
+    CHECK(pinch_text(pinches[1], names).find("'trunk' pinched cloth") == 0);
 }
