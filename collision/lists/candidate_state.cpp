@@ -32,8 +32,8 @@ void exchange(Archive& archive, Value& packs) {
 
 template <class Archive, OfType<ClusterList> Value>
 void exchange(Archive& archive, Value& list) {
-    archive(list.boxes, list.features, list.packs, list.travel, list.cloth_travel, list.drift, list.spread,
-            list.inside_until, list.version);
+    archive(list.boxes, list.features, list.packs, list.travel, list.cloth_travel, list.drift, list.spread, list.inside_until,
+            list.version);
 }
 
 namespace {
