@@ -108,7 +108,7 @@ void Obstacle::find_doubles() {
     std::vector<int> order;  // of used vertices
     for (const Triangle& t : mesh_.triangles) order.insert(order.end(), t.begin(), t.end());
     std::ranges::sort(order);
-    order.erase(std::ranges::unique(order).begin(), order.end());
+    order.erase(std::unique(order.begin(), order.end()), order.end());
     const auto place = [&](int i) {
         const Vec3& x = mesh_.vertices[i];
         return std::array{x.x(), x.y(), x.z()};

@@ -1,6 +1,7 @@
 #include "run/measures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -178,12 +179,13 @@ void add_pinch(std::vector<Pinch>& pinches, const StepReport& report) {
         return;
     }
     const auto [low, high] = std::minmax(report.pinching[0], report.pinching[1]);
+    const std::array pair{low, high};
     const double from = report.time - report.dt;
     const auto goes_on = [&](const Pinch& pinch) {
-        return pinch.obstacles == std::array{low, high} && pinch.to > from - pause_of_pinch * report.dt;
+        return pinch.obstacles == pair && pinch.to > from - pause_of_pinch * report.dt;
     };
     const auto known = std::ranges::find_if(pinches, goes_on);
-    Pinch& pinch = known != pinches.end() ? *known : pinches.emplace_back(Pinch{.obstacles = {low, high}, .from = from});
+    Pinch& pinch = known != pinches.end() ? *known : pinches.emplace_back(Pinch{.obstacles = pair, .from = from});
     pinch.to = report.time;
     pinch.yielded = std::max(pinch.yielded, report.yielded);
 }
