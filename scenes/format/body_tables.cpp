@@ -7,6 +7,7 @@
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "format/motion_keys.h"
+#include "format/ranges.h"
 
 namespace percale::scenes {
 namespace {

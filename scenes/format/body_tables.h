@@ -6,10 +6,6 @@
 // The fields of what a scene is made of: [[cloth]] and [[obstacle]].
 namespace percale::scenes {
 
-/// Largest coordinates and times of a scene.
-inline constexpr double farthest = 1e6;  // m
-inline constexpr double longest = 1e6;   // s
-
 const FieldTable<ClothSpec>& cloth_table();
 const FieldTable<ObstacleSpec>& obstacle_table();
 

@@ -2,7 +2,7 @@
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
-#include "format/body_tables.h"
+#include "format/ranges.h"
 
 namespace percale::scenes {
 namespace {

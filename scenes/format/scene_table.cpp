@@ -4,6 +4,7 @@
 #include "common/text.h"
 #include "fields/option_fields.h"
 #include "format/body_tables.h"
+#include "format/ranges.h"
 #include "format/script_tables.h"
 #include "frames/cloth_fit.h"
 #include "frames/frame_formats.h"

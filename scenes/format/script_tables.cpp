@@ -4,6 +4,7 @@
 
 #include "format/body_tables.h"
 #include "format/expectations.h"
+#include "format/ranges.h"
 
 namespace percale::scenes {
 namespace {
