@@ -67,6 +67,10 @@ MOST_FUNCTION_LINES, P90_FUNCTION_LINES, MEDIAN_FUNCTION_LINES = 60, 25, 8
 MOST_FILE_LINES, P90_FILE_LINES = 450, 300
 MOST_PARAMETERS, DEEPEST_NESTING = 6, 3
 MOST_FILE_BYTES = 1 << 20
+# Files that may be longer, and why.
+LONG_FILES = {
+    'engine/tolerances.h': (600, 'all constants of the layer that decide something are in one place, so it grows with the layer'),
+}
 MOST_FOLDER_FILES = 25
 # Folders that may hold more files of their own, and why.
 LARGE_FOLDERS = {
@@ -346,8 +350,9 @@ def check_files(tree):
     """Length of files; gives the lengths of the library's."""
     lengths = {path: len(tree.text[path].splitlines()) for path in tree.code(*LIBRARY, 'tests')}
     for path, length in lengths.items():
-        if length > MOST_FILE_LINES:
-            tree.complain(path, 1, f'file too long ({length}, {MOST_FILE_LINES})')
+        most, _ = LONG_FILES.get(path, (MOST_FILE_LINES, ''))
+        if length > most:
+            tree.complain(path, 1, f'file too long ({length}, {most})')
     return [length for path, length in lengths.items() if path.startswith(LIBRARY)]
 
 

@@ -409,6 +409,44 @@ constexpr double weld_time = 0.05, widest_weld = 0.01;
 /// iterations. Smaller: more steps until the limit is kept. Larger hold: what cannot be kept pulls ever harder.
 constexpr double limit_stiffness = 10.0, most_held_strain = 2.0, limit_time = 1.0 / 60.0;
 
+// ---- step/: obstacles that yield
+
+/// Surfaces give way from this share of the room on that two contact zones have, which is where cloth between them begins to be
+/// pressed. Larger: they have given way before the contacts that tell of it are there. Smaller: cloth is pressed hard.
+constexpr double kept_room = 0.6;
+
+/// h of room more than is kept, of which dents do not make use; and h by which they go back in a step. Slack 0: dents go back and
+/// forth for ever. Larger: they stay deeper than they have to. Return larger: where cloth is just out of contact they come too
+/// near, are pushed back, and tremble. Smaller: dents last.
+constexpr double dent_slack = 0.2, dent_return = 0.25;
+
+/// h. A dent that would change by less, and cloth that goes by less in a step, is at rest. 0: no dent rests. Larger: it stays
+/// where it should change.
+constexpr double resting_dent = 0.02;
+
+/// h, and mean edges: how far around a pressing point the surface goes along. Smaller: spikes. Larger: dents wider than the
+/// cloth.
+constexpr double dent_thicknesses = 4.0, dent_edges = 2.0;
+
+/// By how much more the corners around a pressing point go back than it has to, since a point inside a triangle goes less.
+/// Smaller: more steps until there is room. Larger: more room than is kept.
+constexpr double beyond_press = 1.2;
+
+/// Weight in a contact from which on it presses a vertex, and share of a retreat below which a vertex has not moved. Larger:
+/// pairs that pinch are not seen. Smaller: places that hardly matter count.
+constexpr double least_pressing_weight = 0.05, least_dent_share = 0.1;
+
+/// Cosines between the directions of two contacts: at most that of those on opposite sides of cloth, at least that of those on
+/// one. Nearer to 0: surfaces beside each other count as a pinch. Farther: slanted ones are not seen.
+constexpr double opposite_sides = -0.5, same_side = 0.5;
+
+/// Passes over contacts between cloths; each sees through one layer at least. Fewer: thick bundles are pinched unseen.
+constexpr int yielding_passes = 3;
+
+/// Into how many equal parts a step is divided, in turn, where a surface came up too fast to give way in time. Cost alone, but
+/// for the last: what is too fast for it fails.
+constexpr int yielding_parts[] = {4, 16, 64};
+
 // ---- checks/: derivatives against differences, for settings.check_derivatives. Smaller: right forces are found wrong. Larger:
 // wrong ones pass.
 

@@ -113,6 +113,9 @@ constexpr long most_samples = 1000000;
 
 // ---- run/
 
+/// Share by which a step may be longer than a frame and passes none by. 0: rounding warns.
+constexpr double frame_rounding = 1e-9;
+
 /// Pinches that `run` prints; the report has all.
 constexpr std::size_t most_pinches_told = 8;
 
@@ -189,6 +192,9 @@ constexpr double dear_motion_parts = 100.0;
 
 /// Shapes of a body that doctor looks at. More: it takes minutes.
 constexpr int most_shapes_looked_at = 20000;
+
+/// s, between two that doctor looks at. Less: as above.
+constexpr double least_time_between_shapes = 1e-4;
 
 /// Thicknesses that a vertex of a body that bends goes in a step that is made whole, as the engine has it.
 constexpr double bending_part_travel = 20.0;

@@ -29,6 +29,18 @@ bool stays_above(const PackHull& hull, std::span<const int> vertices, const std:
     });
 }
 
+/// The middle of all means, and what is farthest from it.
+void set_drift(ClusterList& list, std::span<const PatchMotion> motions) {
+    list.drift = Vec3::Zero();
+    list.spread = 0.0;
+    if (motions.empty()) return;
+    Box means;
+    for (const PatchMotion& motion : motions) means.add(motion.mean);
+    list.drift = 0.5 * (means.low + means.high);
+    for (const PatchMotion& motion : motions)
+        list.spread = std::max(list.spread, (motion.mean - list.drift).norm() + motion.spread);
+}
+
 }  // namespace
 
 void ListedPacks::clear() {
@@ -309,18 +321,6 @@ void CandidateLists::build_list(std::size_t dirty, const ClothMove& move, const 
     if (some_stay && !build.motions.empty()) build.motions.push_back({});
     set_drift(list, build.motions);
     set_smallest_bounds(list);
-}
-
-/// The middle of all means, and what is farthest from it.
-void CandidateLists::set_drift(ClusterList& list, std::span<const PatchMotion> motions) const {
-    list.drift = Vec3::Zero();
-    list.spread = 0.0;
-    if (motions.empty()) return;
-    Box means;
-    for (const PatchMotion& motion : motions) means.add(motion.mean);
-    list.drift = 0.5 * (means.low + means.high);
-    for (const PatchMotion& motion : motions)
-        list.spread = std::max(list.spread, (motion.mean - list.drift).norm() + motion.spread);
 }
 
 double CandidateLists::approach(std::size_t cluster, const ClothMove& move) const {

@@ -139,7 +139,6 @@ private:
     void activate(ClusterList& list, std::size_t feature, int place) const;
     bool is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version);
     void advance_list(std::size_t cluster, double part);
-    void set_drift(ClusterList& list, std::span<const PatchMotion> motions) const;
     void set_displacements(const ClothMove& move, Workers* workers);
 
     std::vector<Triangle> triangles_;

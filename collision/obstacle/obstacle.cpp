@@ -7,17 +7,6 @@
 #include "tolerances.h"
 
 namespace percale {
-namespace {
-
-/// The point whose image under the pose is `x`.
-Vec3 inverse_transform(const Pose& pose, const Vec3& x) {
-    const Rotation& q = pose.rotation;
-    const Pose back{.translation = Vec3::Zero(), .rotation = {q.w, -q.x, -q.y, -q.z}, .scale = 1.0 / pose.scale};
-    return transform(back, x - pose.translation);
-}
-
-}  // namespace
-
 Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree, SurfaceShape shape)
     : mesh_(mesh), built_(pose), start_pose_(pose), end_pose_(pose), friction_(friction), shape_(shape) {
     placing_ = std::make_unique<std::array<std::mutex, 16>>();

@@ -39,6 +39,12 @@ Vec3 transform(const Pose& pose, const Vec3& point) {
     return pose.translation + scaled + pose.rotation.w * turn + axis.cross(turn);
 }
 
+Vec3 inverse_transform(const Pose& pose, const Vec3& x) {
+    const Rotation& q = pose.rotation;
+    const Pose back{.translation = Vec3::Zero(), .rotation = {q.w, -q.x, -q.y, -q.z}, .scale = 1.0 / pose.scale};
+    return transform(back, x - pose.translation);
+}
+
 std::vector<Vec3> transform(const Pose& pose, std::span<const Vec3> points) {
     std::vector<Vec3> image;
     image.reserve(points.size());

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
-
-/// Cosine between the directions of contacts on opposite sides of cloth.
-constexpr double opposite_sides = -0.5;
 
 /// Of a pin that is blocked, or blocks.
 void name_vertex(const StepScene& scene, int vertex, StepReport& report) {

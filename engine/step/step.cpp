@@ -136,19 +136,13 @@ StepReport step_yielding(World& world, int parts, StepReport report) {
     for (const int more : yielding_parts) {
         if (!yields_in_vain(world.scene.script, report) || more <= parts) continue;
         const StepReport before = report;
-        if (parts == 1 && more == yielding_parts.front()) world.work.iterations_left -= before.newton_iterations;
+        if (parts == 1 && more == yielding_parts[0]) world.work.iterations_left -= before.newton_iterations;
         if (world.work.iterations_left <= 0) {
             report.status = StepStatus::work_limit;
             return report;
         }
         report = step_divided(world, more);
-        report.newton_iterations += before.newton_iterations;
-        report.linear_iterations += before.linear_iterations;
-        report.line_search_cuts += before.line_search_cuts;
-        report.halvings += before.halvings;
-        report.rejected += before.rejected;
-        report.dropped += before.dropped;
-        report.stages += before.stages;
+        add_work(before, report);
     }
     report.yielded_in_vain = yields_in_vain(world.scene.script, report);
     return report;

@@ -75,11 +75,9 @@ private:
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
             const auto& [start, end] = std::pair(obstacles_[k].start, obstacles_[k].end);
             if (angle_between(start.rotation, end.rotation) == 0.0) continue;
-            const Rotation& q = start.rotation;
-            const Pose back{.rotation = {q.w, -q.x, -q.y, -q.z}};
             for (int i = 0; i < vertices_; ++i) {
                 if (scene.is_free(i)) continue;
-                const Vec3 place = transform(back, state_.cloth.positions.at(i) - start.translation) / start.scale;
+                const Vec3 place = inverse_transform(start, state_.cloth.positions.at(i));
                 if ((transform(end, place) - pin_targets_.at(i)).norm() < carried_pin_error) carried_.push_back({i, k, place});
             }
         }
@@ -101,25 +99,29 @@ void add_part(StepReport part, StepReport& sum) {
     sum.smallest_dt = std::min(sum.smallest_dt, before.smallest_dt);
     sum.largest_dt = std::max(sum.largest_dt, before.largest_dt);
     sum.parts += before.parts;
-    sum.rejected += before.rejected;
-    sum.newton_iterations += before.newton_iterations;
-    sum.linear_iterations += before.linear_iterations;
-    sum.line_search_cuts += before.line_search_cuts;
-    sum.halvings += before.halvings;
-    sum.dropped += before.dropped;
+    add_work(before, sum);
     sum.smallest_fraction = std::min(sum.smallest_fraction, before.smallest_fraction);
     sum.contact_stiffness = std::max(sum.contact_stiffness, before.contact_stiffness);
     if (sum.pinched < before.pinched) {
         sum.pinched = before.pinched;
         sum.pinching = before.pinching;
     }
-    sum.stages += before.stages;
     StepEnergy energy = before.energy;
     add_step_energy(sum.energy, energy);
     sum.energy = energy;
 }
 
 }  // namespace
+
+void add_work(const StepReport& other, StepReport& report) {
+    report.rejected += other.rejected;
+    report.newton_iterations += other.newton_iterations;
+    report.linear_iterations += other.linear_iterations;
+    report.line_search_cuts += other.line_search_cuts;
+    report.halvings += other.halvings;
+    report.dropped += other.dropped;
+    report.stages += other.stages;
+}
 
 StepReport step_in_parts(World& world, int parts, StepReport (*step_once)(World&)) {
     StepSettings& settings = world.scene.settings;

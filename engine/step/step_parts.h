@@ -10,4 +10,7 @@ namespace percale {
 /// the first, and the report is that step's, with what the others did. `step_once` makes one.
 StepReport step_in_parts(World& world, int parts, StepReport (*step_once)(World&));
 
+/// Adds to a report what else was done for its step: iterations, dropped spans, CPU times.
+void add_work(const StepReport& other, StepReport& report);
+
 }  // namespace percale

@@ -8,29 +8,10 @@
 #include <numeric>
 
 #include "motion.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
-
-/// Weights below press a vertex no more than its neighbours.
-constexpr double least_weight = 0.05;
-/// Cosine between directions from which on two pressing points are on opposite sides, and on one.
-constexpr double opposite = -0.5, along = 0.5;
-/// Passes over contacts between cloths; each sees through one layer of cloth at least.
-constexpr int layer_passes = 3;
-/// A point inside a triangle gets less than the corners around a pressing point are moved: by this much more are they.
-constexpr double beyond = 1.2;
-/// Thicknesses and mean edges: how far around a pressing point the surface goes along.
-constexpr double dent_thicknesses = 4.0, dent_edges = 2.0;
-/// A row whose vertices have less than this share of its retreat has moved nothing.
-constexpr double least_share = 0.1;
-/// Thicknesses by which dents go back in a step. Larger: where cloth is just out of contact they come too near, are pushed back,
-/// and tremble.
-constexpr double returned = 0.25;
-/// Thicknesses of room more than is kept, of which dents do not make use: what is pinched comes to rest.
-constexpr double slack = 0.2;
-/// Thicknesses. A dent that would change by less, and cloth that moves by less in a step, is at rest.
-constexpr double resting_dent = 0.02;
 
 /// What presses a vertex of cloth.
 struct Presser {
@@ -52,7 +33,7 @@ void add(Pressers& pressers, int vertex, const Presser& more) {
 template <class Work>
 void for_each_vertex(const ContactRows& rows, std::size_t row, double sign, Work work) {
     for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-        if (sign * rows.weight[row][k] > least_weight) work(rows.vertex[row][k]);
+        if (sign * rows.weight[row][k] > least_pressing_weight) work(rows.vertex[row][k]);
     }
 }
 
@@ -62,7 +43,7 @@ void pass_through(const ContactRows& rows, std::size_t row, double side, Presser
     std::vector<Presser> passed;
     for_each_vertex(rows, row, -side, [&](int vertex) {
         for (const Presser& one : pressers[vertex]) {
-            if (one.direction.dot(across) > along)
+            if (one.direction.dot(across) > same_side)
                 passed.push_back({one.row, one.direction, one.distance + rows.distance[row], one.zone + rows.thickness[row]});
         }
     });
@@ -78,7 +59,7 @@ Pressers pressers_of(const ContactRows& rows) {
         const Presser one{row, rows.direction[row], rows.distance[row], rows.thickness[row]};
         for_each_vertex(rows, row, 1.0, [&](int vertex) { add(pressers, vertex, one); });
     }
-    for (int pass = 0; layers && pass < layer_passes; ++pass) {
+    for (int pass = 0; layers && pass < yielding_passes; ++pass) {
         for (std::size_t row = 0; row < rows.size(); ++row) {
             if (rows.obstacle[row] >= 0) continue;
             for (const double side : {1.0, -1.0}) pass_through(rows, row, side, pressers);
@@ -99,14 +80,14 @@ Retreats retreats_of(const ContactRows& rows, const Script& script) {
     const auto yields = [&](const Presser& one) { return script.obstacles[rows.obstacle[one.row]].yielding != nullptr; };
     const auto keep_apart = [&](const Presser& a, const Presser& b) {
         const int sharers = int{yields(a)} + int{yields(b)};
-        if (sharers == 0 || a.direction.dot(b.direction) > opposite) return;
+        if (sharers == 0 || a.direction.dot(b.direction) > opposite_sides) return;
         const Vec3 closing = rows.obstacle_displacement[b.row] - rows.obstacle_displacement[a.row];
         const double room = a.distance + b.distance + closing.dot(a.direction);
         const double lack = kept_room * (a.zone + b.zone) - room;
         for (const Presser& one : {a, b}) {
             if (yields(one)) retreats.by_row[one.row] = std::max(retreats.by_row[one.row], lack / sharers);
         }
-        if (lack / sharers <= -slack * rows.thickness[a.row] || room >= retreats.least_room) return;
+        if (lack / sharers <= -dent_slack * rows.thickness[a.row] || room >= retreats.least_room) return;
         retreats.least_room = room;
         retreats.obstacles = {rows.obstacle[a.row], rows.obstacle[b.row]};
     };
@@ -141,7 +122,7 @@ PressedSurface pressed_surface(const ObstacleState& obstacle, double thickness) 
         .places = transform(obstacle.start, *obstacle.start_shape), .normals = {}, .moved = {}, .may_return = {}};
     surface.normals = normals_of(*obstacle.yielding, surface.places);
     surface.moved.resize(surface.places.size(), Vec3::Zero());
-    surface.may_return.resize(surface.places.size(), returned * thickness);
+    surface.may_return.resize(surface.places.size(), dent_return * thickness);
     return surface;
 }
 
@@ -172,10 +153,10 @@ int push_back(const ObstacleState& obstacle, int number, const ContactRows& rows
         bool gave = false;
         for (const auto& [i, weight] : around) {
             const double share = weight * std::clamp(side * surface.normals[i].dot(outward), 0.0, 1.0);
-            if (share <= least_share) continue;
-            surface.may_return[i] = std::min(surface.may_return[i], std::max(0.0, -retreat - slack * rows.thickness[row]));
-            const double lack = beyond * share * retreat + surface.moved[i].dot(outward);
-            gave = gave || retreat > -slack * rows.thickness[row];
+            if (share <= least_dent_share) continue;
+            surface.may_return[i] = std::min(surface.may_return[i], std::max(0.0, -retreat - dent_slack * rows.thickness[row]));
+            const double lack = beyond_press * share * retreat + surface.moved[i].dot(outward);
+            gave = gave || retreat > -dent_slack * rows.thickness[row];
             if (retreat > 0.0 && lack > 0.0) surface.moved[i] -= lack * outward;
         }
         pushed += gave ? 1 : 0;
@@ -244,10 +225,9 @@ Pinches keep_dents(Script& script) {
 }
 
 void add_dent(ObstacleState& obstacle, std::span<const Vec3> moved) {
-    const Rotation& q = obstacle.end.rotation;
-    const Pose back{.rotation = {q.w, -q.x, -q.y, -q.z}, .scale = 1.0 / obstacle.end.scale};
+    const Pose turn{.rotation = obstacle.end.rotation, .scale = obstacle.end.scale};
     obstacle.next_dent.resize(moved.size(), Vec3::Zero());
-    for (std::size_t i = 0; i < moved.size(); ++i) obstacle.next_dent[i] += transform(back, moved[i]);
+    for (std::size_t i = 0; i < moved.size(); ++i) obstacle.next_dent[i] += inverse_transform(turn, moved[i]);
 }
 
 }  // namespace

@@ -8,13 +8,6 @@
 
 namespace percale {
 
-/// Surfaces give way from this share of the room on that two contact zones have, which is where cloth between them begins to be
-/// pressed. Larger: they have given way before the contacts that tell of it are there. Smaller: cloth is pressed hard.
-inline constexpr double kept_room = 0.6;
-
-/// Into how many equal parts a step is divided, in turn, where a surface came up too fast to give way in time.
-inline constexpr std::array<int, 3> yielding_parts = {4, 16, 64};
-
 std::shared_ptr<const YieldingMesh> yielding_mesh(const TriangleMesh& mesh);
 
 /// Whether an obstacle may have these: finite, vertices at one place together, and neither if it does not yield.

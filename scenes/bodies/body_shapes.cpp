@@ -39,27 +39,6 @@ std::vector<Vec3> start_of(const Scene& scene, const ObstacleSpec& obstacle, con
     return std::move(start.vertices);
 }
 
-std::vector<Vec3> between(const std::vector<Vec3>& from, const std::vector<Vec3>& to, double share) {
-    std::vector<Vec3> vertices(from.size());
-    for (std::size_t i = 0; i < from.size(); ++i) vertices[i] = from[i] + share * (to[i] - from[i]);
-    return vertices;
-}
-
-double diagonal(const std::vector<Vec3>& points) {
-    Vec3 low = points[0], high = points[0];
-    for (const Vec3& x : points) {
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-    }
-    return (high - low).norm();
-}
-
-double farthest_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    double squared = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) squared = std::max(squared, (a[i] - b[i]).squaredNorm());
-    return std::sqrt(squared);
-}
-
 }  // namespace
 
 BodyShapes::BodyShapes(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings)
@@ -73,7 +52,7 @@ BodyShapes::BodyShapes(const Scene& scene, const ObstacleSpec& obstacle, std::ve
                          " s that are played");
     if (!obstacle.start_mesh.empty() && lead_in_ == 0.0) throw SceneError("start_mesh needs a lead_in");
     if (lead_in_ > 0.0) start_ = start_of(scene, obstacle, source_->mesh());
-    const double apart = loop_ ? farthest_apart(source_->at(0.0), source_->at(source_->length())) : 0.0;
+    const double apart = loop_ ? largest_displacement(source_->at(0.0), source_->at(source_->length())) : 0.0;
     if (apart > same_shape * diagonal(source_->mesh().vertices)) closing_ = source_->frame_time();
     first_ = source_->mesh();
     first_.vertices = at(0.0);

@@ -1,10 +1,31 @@
 #include "bodies/shape_source.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/text.h"
 
 namespace percale::scenes {
+
+std::vector<Vec3> between(std::vector<Vec3> from, const std::vector<Vec3>& to, double share) {
+    for (std::size_t i = 0; i < from.size(); ++i) from[i] += share * (to[i] - from[i]);
+    return from;
+}
+
+double largest_displacement(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+    double squared = 0.0;
+    for (std::size_t i = 0; i < from.size(); ++i) squared = std::max(squared, (to[i] - from[i]).squaredNorm());
+    return std::sqrt(squared);
+}
+
+double diagonal(const std::vector<Vec3>& shape) {
+    Vec3 low = shape[0], high = low;
+    for (const Vec3& x : shape) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    return (high - low).norm();
+}
 
 void SampledShapes::set_equal_times(int count, double rate) {
     times_.clear();
@@ -24,12 +45,9 @@ std::vector<Vec3> SampledShapes::at(double time) {
     const double t = std::clamp(time, 0.0, length());
     const int from = static_cast<int>(std::upper_bound(times_.begin(), times_.end(), t) - times_.begin()) - 1;
     const int to = std::min(from + 1, static_cast<int>(times_.size()) - 1);
-    std::vector<Vec3> vertices = sample(from, to);
+    const std::vector<Vec3>& vertices = sample(from, to);
     if (t == times_[from]) return vertices;
-    const double share = (t - times_[from]) / (times_[to] - times_[from]);
-    const std::vector<Vec3>& next = sample(to, from);
-    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] += share * (next[i] - vertices[i]);
-    return vertices;
+    return between(vertices, sample(to, from), (t - times_[from]) / (times_[to] - times_[from]));
 }
 
 std::string SampledShapes::text() const {

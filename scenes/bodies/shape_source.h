@@ -24,6 +24,12 @@ public:
     virtual std::string text() const = 0;
 };
 
+/// Each vertex a share of the way from one shape to another; the largest displacement of a vertex between two, m; and the
+/// diagonal of a shape's box, m.
+std::vector<Vec3> between(std::vector<Vec3> from, const std::vector<Vec3>& to, double share);
+double largest_displacement(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
+double diagonal(const std::vector<Vec3>& shape);
+
 /// Shapes that are there at some times, straight from one to the next in between. Two of them are kept.
 class SampledShapes : public ShapeSource {
 public:

@@ -102,12 +102,7 @@ void SkinClip::add_skins() {
 void SkinClip::weld_alike() {
     std::vector<std::vector<Vec3>> shapes = {shape({})};
     for (int k = 0; k < times_compared; ++k) shapes.push_back(at(length_ * k / (times_compared - 1)));
-    Vec3 low = shapes[0][0], high = low;
-    for (const Vec3& x : shapes[0]) {
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-    }
-    const double apart = moved_alike * (high - low).norm();
+    const double apart = moved_alike * diagonal(shapes[0]);
     weld(imported_, [&](int vertex, int first) {
         return std::ranges::all_of(shapes, [&](const std::vector<Vec3>& x) { return (x[vertex] - x[first]).norm() <= apart; });
     });

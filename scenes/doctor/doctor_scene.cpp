@@ -246,14 +246,12 @@ struct FastestShape {
 /// Looks at every shape once, from where it begins to move.
 FastestShape fastest_shape(BodyShapes& shapes, const ObstacleSpec& obstacle, double end, double dt) {
     FastestShape fastest;
-    const double interval = std::max(std::min(shapes.frame_time(), dt), 1e-4), from = obstacle.play_from;
+    const double interval = std::max(std::min(shapes.frame_time(), dt), least_time_between_shapes), from = obstacle.play_from;
     const double last = std::min({end, shapes.once(), from + most_shapes_looked_at * interval});
     std::vector<Vec3> before = shapes.at(from);
     for (int k = 1; from + (k - 1) * interval < last; ++k) {
         std::vector<Vec3> now = shapes.at(from + k * interval);
-        double squared = 0.0;
-        for (std::size_t i = 0; i < now.size(); ++i) squared = std::max(squared, (now[i] - before[i]).squaredNorm());
-        const double displacement = std::sqrt(squared) * dt / interval;
+        const double displacement = largest_displacement(before, now) * dt / interval;
         if (displacement > fastest.displacement) fastest = {displacement, from + k * interval};
         before = std::move(now);
     }

@@ -246,9 +246,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     json["scheme"] = result.plan.scheme_word;
     if (!result.plan.scheme_reason.empty()) json["scheme_reason"] = result.plan.scheme_reason;
     json["warnings"] = result.plan.warnings;
-    std::vector<std::string> names;
-    for (const ObstacleSpec& obstacle : built.scene.obstacles) names.push_back(obstacle.name);
-    for (const Pinch& pinch : result.totals.pinches) json["warnings"].push_back(pinch_text(pinch, names));
+    for (const Pinch& pinch : result.totals.pinches) json["warnings"].push_back(pinch_text(pinch, built.scene));
     json["skipped"] = skipped_list(result.plan.skipped);
     put_contact_and_energy(json, result.totals);
     put_measures(json, result.measures);

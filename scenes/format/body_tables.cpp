@@ -1,8 +1,7 @@
 #include "format/body_tables.h"
 
-#include <algorithm>
 #include <cctype>
-#include <iterator>
+#include <initializer_list>
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
@@ -263,16 +262,15 @@ const FieldTable<Shape>& shape_table() {
     return table;
 }
 
-std::string cloth_shown(const TomlNode& table) { return "cloth '" + table.find("name")->text + "'"; }
-/// Keys of obstacles that bend follow on those of mesh files.
-FieldTable<ObstacleSpec> with_frames(FieldTable<ObstacleSpec> table) {
-    const auto is_part = [](const Field<ObstacleSpec>& field) { return field.key.path == "part"; };
-    const auto after = std::next(std::ranges::find_if(table.fields, is_part));
-    std::vector<Field<ObstacleSpec>> frames = bend_fields();
-    table.fields.insert(after, std::make_move_iterator(frames.begin()), std::make_move_iterator(frames.end()));
-    return table;
+/// Lists of rows, one after the other.
+template <class Spec>
+std::vector<Field<Spec>> in_turn(std::initializer_list<std::vector<Field<Spec>>> lists) {
+    std::vector<Field<Spec>> fields;
+    for (const std::vector<Field<Spec>>& list : lists) fields.insert(fields.end(), list.begin(), list.end());
+    return fields;
 }
 
+std::string cloth_shown(const TomlNode& table) { return "cloth '" + table.find("name")->text + "'"; }
 std::string obstacle_shown(const TomlNode& table) { return "obstacle '" + table.find("name")->text + "'"; }
 
 }  // namespace
@@ -352,27 +350,27 @@ const FieldTable<ClothSpec>& cloth_table() {
 }
 
 const FieldTable<ObstacleSpec>& obstacle_table() {
-    static const FieldTable<ObstacleSpec> table = with_frames(
-        {.fields = {name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
-                    mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."),
-                    unit_field<ObstacleSpec>(), part_field<ObstacleSpec>(),
-                    table_field<ObstacleSpec>(
-                        {.path = "shape",
-                         .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",
-                         .alternative = true},
-                        &ObstacleSpec::shape, shape_table()),
-                    value_field<ObstacleSpec>(
-                        {.path = "friction", .sentence = "Coulomb coefficient against cloth.", .lowest = 0.0, .highest = 10.0},
-                        &ObstacleSpec::friction),
-                    value_field<ObstacleSpec>(
-                        {.path = "restitution",
-                         .sentence = "Share of its normal speed with which cloth that hits it leaves; slower "
-                                     "than gravity makes it in a step, it stays.",
-                         .lowest = 0.0,
-                         .highest = 1.0},
-                        &ObstacleSpec::restitution),
-                    pose_field<ObstacleSpec>(), motion_field(), spin_field(), pinch_field()},
-         .rules = {.shown = obstacle_shown}});
+    static const FieldTable<ObstacleSpec> table = {
+        .fields = in_turn<ObstacleSpec>(
+            {{name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
+              mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."), unit_field<ObstacleSpec>(),
+              part_field<ObstacleSpec>()},
+             bend_fields(),
+             {table_field<ObstacleSpec>({.path = "shape",
+                                         .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",
+                                         .alternative = true},
+                                        &ObstacleSpec::shape, shape_table()),
+              value_field<ObstacleSpec>(
+                  {.path = "friction", .sentence = "Coulomb coefficient against cloth.", .lowest = 0.0, .highest = 10.0},
+                  &ObstacleSpec::friction),
+              value_field<ObstacleSpec>({.path = "restitution",
+                                         .sentence = "Share of its normal speed with which cloth that hits it leaves; slower "
+                                                     "than gravity makes it in a step, it stays.",
+                                         .lowest = 0.0,
+                                         .highest = 1.0},
+                                        &ObstacleSpec::restitution),
+              pose_field<ObstacleSpec>(), motion_field(), spin_field(), pinch_field()}}),
+        .rules = {.shown = obstacle_shown}};
     return table;
 }
 

@@ -104,11 +104,9 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
     const bool finished = result.status == RunStatus::finished;
     if (finished && !built.obstacles.empty() && std::isinf(m.smallest_distance) && !maybe_met)
         std::printf("warning: no cloth ever met an obstacle; is everything in its place, and in one unit?\n");
-    std::vector<std::string> names;
-    for (const ObstacleSpec& obstacle : built.scene.obstacles) names.push_back(obstacle.name);
     const std::span<const Pinch> pinches = result.totals.pinches;
     for (const Pinch& pinch : pinches.first(std::min(pinches.size(), most_pinches_told)))
-        std::printf("warning: %s\n", pinch_text(pinch, names).c_str());
+        std::printf("warning: %s\n", pinch_text(pinch, built.scene).c_str());
     if (pinches.size() > most_pinches_told)
         std::printf("warning: and so %zu times more; report.json lists them\n", pinches.size() - most_pinches_told);
     for (const std::string& text : strain_warnings(built, m.largest_strain)) std::printf("warning: %s\n", text.c_str());

@@ -20,13 +20,6 @@ int obstacle_number(const Scene& scene, const ClothSpec& cloth, const std::strin
     fail_at(cloth.pin_place, "pin.to: no obstacle '" + name + "'" + suggestion(name, names));
 }
 
-/// What a pose takes to the point.
-Vec3 before(const Pose& pose, const Vec3& point) {
-    const Rotation& q = pose.rotation;
-    const Pose back{.translation = Vec3::Zero(), .rotation = {q.w, -q.x, -q.y, -q.z}, .scale = 1.0 / pose.scale};
-    return transform(back, Vec3(point - pose.translation));
-}
-
 }  // namespace
 
 std::vector<AttachedPin> attached_pins(const Scene& scene, std::span<const TriangleMesh> cloth_meshes,
@@ -42,7 +35,7 @@ std::vector<AttachedPin> attached_pins(const Scene& scene, std::span<const Trian
         const std::vector<int> vertices = select_vertices(cloth.pin, cloth_meshes[i], cloth.name);
         std::vector<Vec3> places;
         for (const int vertex : vertices)
-            places.push_back(before(start, cloth_meshes[i].vertices[static_cast<std::size_t>(vertex)]));
+            places.push_back(inverse_transform(start, cloth_meshes[i].vertices[static_cast<std::size_t>(vertex)]));
         std::vector<SurfacePoint> on;
         if (body.bends())
             at_place(cloth.pin_place, "pin.to: '" + body.name + "': ", [&] {

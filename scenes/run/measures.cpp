@@ -190,9 +190,9 @@ void add_pinch(std::vector<Pinch>& pinches, const StepReport& report) {
     pinch.yielded = std::max(pinch.yielded, report.yielded);
 }
 
-std::string pinch_text(const Pinch& pinch, std::span<const std::string> obstacles) {
+std::string pinch_text(const Pinch& pinch, const Scene& scene) {
     const auto [first, second] = pinch.obstacles;
-    const auto name = [&](int number) { return "'" + obstacles[static_cast<std::size_t>(number)] + "'"; };
+    const auto name = [&](int number) { return "'" + scene.obstacles[static_cast<std::size_t>(number)].name + "'"; };
     return name(first) + (first == second ? "" : " and " + name(second)) +
            " pinched cloth; what yields (on_pinch) was dented, by up to " + short_number(pinch.yielded) + " m, from " +
            short_number(pinch.from) + " s to " + short_number(pinch.to) + " s";

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "format/scene.h"
 #include "garment/seam_stitches.h"
 #include "percale/certify.h"
 #include "percale/simulation.h"
@@ -62,9 +63,8 @@ struct Pinch {
 /// An accepted step: it makes the last pinch of these obstacles longer, or is a new one. A pinch lasts until its dents are gone.
 void add_pinch(std::vector<Pinch>& pinches, const StepReport& report);
 
-/// "'arm' and 'trunk' pinched cloth; what yields (on_pinch) was dented, by up to 0.012 m, from 1.2 s to 1.7 s", with names of
-/// obstacles.
-std::string pinch_text(const Pinch& pinch, std::span<const std::string> obstacles);
+/// "'arm' and 'trunk' pinched cloth; what yields (on_pinch) was dented, by up to 0.012 m, from 1.2 s to 1.7 s".
+std::string pinch_text(const Pinch& pinch, const Scene& scene);
 
 /// The measures of a run; the names of the fields are those of scene files and reports.
 struct Measures {

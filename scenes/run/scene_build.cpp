@@ -112,7 +112,7 @@ void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
 /// Steps longer than a frame pass by frames.
 void warn_of_passed_frames(BuiltScene& built, const ObstacleSpec& obstacle, const BodyShapes& shapes) {
     const double step = built.scene.step.time_step;
-    if (obstacle.clip || built.scene.step.adaptive || step <= (1.0 + 1e-9) * shapes.frame_time()) return;
+    if (obstacle.clip || built.scene.step.adaptive || step <= (1.0 + frame_rounding) * shapes.frame_time()) return;
     built.warnings.push_back(told(obstacle) + ": its frames are " + short_number(shapes.frame_time()) +
                              " s apart, step.time_step = " + short_number(step) + " s passes some by; take step.time_step = " +
                              short_number(shapes.frame_time()) + " or less where none is to be missed");

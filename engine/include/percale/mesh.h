@@ -42,6 +42,8 @@ bool operator==(const Pose& a, const Pose& b);
 /// solver, the frames on disk and the certificate see the same bits.
 Vec3 transform(const Pose& pose, const Vec3& point);
 std::vector<Vec3> transform(const Pose& pose, std::span<const Vec3> points);
+/// The point whose image under the pose is `x`.
+Vec3 inverse_transform(const Pose& pose, const Vec3& x);
 
 /// The turn that does what `second` does after `first`.
 Rotation product(const Rotation& second, const Rotation& first);

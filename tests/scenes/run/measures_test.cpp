@@ -236,8 +236,9 @@ TEST_CASE("steps in which obstacles give way are one pinch as long as they pause
     CHECK(pinches[0].yielded == 0.01);
     CHECK(pinches[1].obstacles == std::array{1, 1});
     CHECK(pinches[2].from == Approx(2.9));
-    const std::vector<std::string> names = {"arm", "trunk", "leg"};
-    CHECK(pinch_text(pinches[0], names) ==
+    Scene scene;
+    for (const char* name : {"arm", "trunk", "leg"}) scene.obstacles.emplace_back().name = name;
+    CHECK(pinch_text(pinches[0], scene) ==
           "'arm' and 'leg' pinched cloth; what yields (on_pinch) was dented, by up to 0.01 m, from 0.9 s to 1.3 s");
-    CHECK(pinch_text(pinches[1], names).find("'trunk' pinched cloth") == 0);
+    CHECK(pinch_text(pinches[1], scene).find("'trunk' pinched cloth") == 0);
 }
