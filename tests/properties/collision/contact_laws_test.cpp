@@ -4,6 +4,7 @@
 #include "percale/percale.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
+#include "tests/support/collision/contact_laws.h"
 #include "tests/support/laws.h"
 
 using namespace percale;
@@ -18,21 +19,6 @@ Fabric fabric(double spring_damping = 0.1) {
             .thickness = h,
             .springs = {.structural = 1000.0, .shear = 500.0, .bend = 10.0},
             .spring_damping = spring_damping};
-}
-
-Simulation simulation_on_meshes(const StepSettings& settings) { return Simulation(settings, backends().back().make_detector()); }
-
-StepReport step_well(Simulation& simulation) {
-    const StepReport report = simulation.step();
-    CAPTURE(report.explanation());
-    REQUIRE(report.ok());
-    return report;
-}
-
-Vec3 mean(std::span<const Vec3> values) {
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& value : values) sum += value;
-    return sum / static_cast<double>(values.size());
 }
 
 Rotation about_y(double angle) { return {std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0}; }

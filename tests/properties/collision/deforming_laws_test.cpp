@@ -9,6 +9,7 @@
 #include "percale/percale.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
+#include "tests/support/collision/contact_laws.h"
 #include "tests/support/collision/shapes.h"
 #include "tests/support/laws.h"
 
@@ -30,21 +31,6 @@ Fabric fabric(double structural = 1000.0) {
 
 const std::array responses = {ContactResponse::penalty, ContactResponse::projection};
 std::string word(ContactResponse response) { return response == ContactResponse::penalty ? "penalty" : "projection"; }
-
-Simulation on_meshes(const StepSettings& settings) { return Simulation(settings, backends().back().make_detector()); }
-
-StepReport step_well(Simulation& simulation) {
-    const StepReport report = simulation.step();
-    CAPTURE(report.explanation());
-    REQUIRE(report.ok());
-    return report;
-}
-
-Vec3 mean(std::span<const Vec3> values) {
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& value : values) sum += value;
-    return sum / static_cast<double>(values.size());
-}
 
 Vec3 momentum(const Simulation& simulation, ClothId cloth) {
     Vec3 sum = Vec3::Zero();
@@ -113,7 +99,7 @@ struct Plate {
     bool by_shape;
 
     Plate(bool by_shape_, StepSettings settings, ObstacleSettings obstacle, double height, const Fabric& material = fabric())
-        : simulation(on_meshes(settings)), by_shape(by_shape_) {
+        : simulation(simulation_on_meshes(settings)), by_shape(by_shape_) {
         cloth = simulation.add_cloth(sheet, material, {.translation = {aside, height, behind}});
         obstacle.deforming = by_shape;
         plate = simulation.add_obstacle(mesh, {}, obstacle);
@@ -136,7 +122,7 @@ struct Ripples {
     ClothId cloth;
     ObstacleId body;
 
-    explicit Ripples(ContactResponse response) : simulation(on_meshes({.contact_response = response})) {
+    explicit Ripples(ContactResponse response) : simulation(simulation_on_meshes({.contact_response = response})) {
         cloth = simulation.add_cloth(sheet, fabric(), {.translation = {aside, h, behind}});
         body = simulation.add_obstacle(plane, {}, {.friction = 0.4, .name = "plane", .deforming = true});
     }
@@ -306,7 +292,7 @@ TEST_CASE("A deforming body that keeps its shape is a rigid one for cloth on it"
             std::ranges::max(mapped(mesh, [](const Vec3& x) { return x; }), {}, [](const Vec3& x) { return x.y(); }).y();
         std::vector<std::vector<Vec3>> ends;
         for (const bool deforming : {false, true}) {
-            Simulation simulation = on_meshes({});
+            Simulation simulation = simulation_on_meshes({});
             const ClothId cloth =
                 simulation.add_cloth(make_grid(0.3, 0.3, 11, 11), fabric(), {.translation = {aside, top + h, behind}});
             simulation.add_obstacle(mesh, {}, {.friction = 0.4, .name = "body", .deforming = deforming});
@@ -329,7 +315,7 @@ TEST_CASE("A ball that is blown up in a ball of cloth stretches it to its own si
     const double e = largest_edge(ball), sagitta = last * (1.0 - std::cos(e / std::sqrt(3.0))),
                  highest = (last + h) / std::cos(e);
     for (const ContactResponse response : responses) {
-        Simulation simulation = on_meshes({.contact_response = response, .gravity = Vec3::Zero()});
+        Simulation simulation = simulation_on_meshes({.contact_response = response, .gravity = Vec3::Zero()});
         const ClothId cloth = simulation.add_cloth(cover, {.thickness = h, .springs = {.structural = k}, .spring_damping = 1.0});
         const ObstacleId body =
             simulation.add_obstacle(ball, {.scale = first}, {.friction = 0.3, .name = "ball", .deforming = true});
@@ -368,7 +354,7 @@ TEST_CASE("A ring that closes on a sleeve stops when there is no room, with a re
     const TriangleMesh ring = inside_out(make_tube({.low = 0.13, .top = 0.13, .height = 0.1, .around = corners, .rows = 5}));
     const TriangleMesh inner = make_cylinder(pole, 0.4, 48);
     for (const ContactResponse response : responses) {
-        Simulation simulation = on_meshes({.contact_response = response, .gravity = Vec3::Zero()});
+        Simulation simulation = simulation_on_meshes({.contact_response = response, .gravity = Vec3::Zero()});
         const ClothId cloth = simulation.add_cloth(sleeve, {.thickness = h, .springs = {.structural = 500.0}});
         const ObstacleId rigid = simulation.add_obstacle(inner, {}, {.name = "pole"});
         const ObstacleId closing = simulation.add_obstacle(ring, {}, {.name = "ring", .deforming = true});
@@ -401,7 +387,7 @@ TEST_CASE("A ring that closes on a sleeve stops when there is no room, with a re
 TEST_CASE("Cloth that starts inside of a deforming ball is pushed out as out of a rigid one") {
     const TriangleMesh ball = make_sphere(0.2, 3), sheet = make_grid(0.3, 0.3, 13, 13);
     const auto start = [&](bool deforming, double size, StartRule rule) {
-        Simulation simulation = on_meshes({.start = rule});
+        Simulation simulation = simulation_on_meshes({.start = rule});
         const ClothId cloth = simulation.add_cloth(sheet, fabric(), {.translation = {0.0, 0.19, 0.0}});
         const ObstacleId body = simulation.add_obstacle(ball, {}, {.name = "ball", .deforming = deforming});
         if (size != 1.0) simulation.deform_obstacle(body, mapped(ball, [&](const Vec3& x) { return size * x; }));
@@ -422,7 +408,7 @@ TEST_CASE("Cloth that starts inside of a deforming ball is pushed out as out of 
 TEST_CASE("A refused start is good once the body has another shape, and cloth that is put into a new shape is pushed out") {
     const TriangleMesh ball = make_sphere(0.2, 3), sheet = make_grid(0.3, 0.3, 13, 13);
     const auto sized = [&](double size) { return mapped(ball, [&](const Vec3& x) { return size * x; }); };
-    Simulation simulation = on_meshes({.start = StartRule::refuse});
+    Simulation simulation = simulation_on_meshes({.start = StartRule::refuse});
     const ClothId cloth = simulation.add_cloth(sheet, fabric(), {.translation = {0.0, 0.19, 0.0}});
     const ObstacleId body = simulation.add_obstacle(ball, {}, {.name = "ball", .deforming = true});
     CHECK_THROWS_AS(simulation.step(), StartError);

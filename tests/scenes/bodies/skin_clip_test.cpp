@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/scenes/bodies/bending_bar.h"
+#include "tests/scenes/collada_text.h"
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
@@ -35,17 +36,11 @@ struct Bar {
 };
 
 /// A triangle on a node that goes by 3 m along x within 2 s, and one that stays, as Collada.
-const std::string moving_node = R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><up_axis>Y_UP</up_axis></asset>
-<library_geometries><geometry id="g"><mesh>
-<source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
-<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
-</accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
-</mesh></geometry></library_geometries>
-<library_animations><animation id="slide">
+const std::string moving_node =
+    collada(R"(<node id="n1"><translate sid="place">5 0 0</translate><instance_geometry url="#g"/></node>
+<node id="n2"><instance_geometry url="#g"/></node>
+)",
+            R"(<library_animations><animation id="slide">
 <source id="t"><float_array id="ta" count="2">0 2</float_array><technique_common>
 <accessor source="#ta" count="2"><param name="TIME" type="float"/></accessor></technique_common></source>
 <source id="o"><float_array id="oa" count="6">5 0 0 8 0 0</float_array><technique_common>
@@ -53,12 +48,7 @@ const std::string moving_node = R"(<?xml version="1.0"?>
 </accessor></technique_common></source>
 <sampler id="s"><input semantic="INPUT" source="#t"/><input semantic="OUTPUT" source="#o"/></sampler>
 <channel source="#s" target="n1/place"/></animation></library_animations>
-<library_visual_scenes><visual_scene id="scene">
-<node id="n1"><translate sid="place">5 0 0</translate><instance_geometry url="#g"/></node>
-<node id="n2"><instance_geometry url="#g"/></node>
-</visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#scene"/></scene></COLLADA>
-)";
+)");
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "tests/scenes/collada_text.h"
 #include "tests/scenes/message_of.h"
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
@@ -71,22 +72,9 @@ std::vector<std::array<double, 9>> as_points(const TriangleMesh& mesh) {
 }
 
 /// A COLLADA scene: one triangle, used by two nodes, the second one inside a moved and scaled node.
-const std::string two_nodes = R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><up_axis>Y_UP</up_axis></asset>
-<library_geometries><geometry id="g"><mesh>
-<source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
-<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
-</accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
-</mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="s">
-<node id="n1"><instance_geometry url="#g"/></node>
+const std::string two_nodes = test::collada(R"(<node id="n1"><instance_geometry url="#g"/></node>
 <node id="n2"><translate>10 0 0</translate><node id="n3"><scale>2 2 2</scale><instance_geometry url="#g"/></node></node>
-</visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#s"/></scene></COLLADA>
-)";
+)");
 
 }  // namespace
 
