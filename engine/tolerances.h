@@ -183,7 +183,8 @@ constexpr float jacobi_damping = 0.7f;
 constexpr float sewn_point_easing = 2.0f / 3.0f;
 
 /// Pairs in a thread's part, and from which the work is shared out. Cost alone.
-constexpr int pair_grain = 2048, least_shared_pairs = 16384;
+constexpr int pair_grain = 512, least_shared_pairs = 2048;
+constexpr int row_grain = 256, least_shared_rows = 512;  // of contact
 
 /// Coefficient of a finer pair's block in a coarser one. Smaller ones are left out. Larger: coarser levels miss stiffness.
 constexpr double least_galerkin_coefficient = 1e-4;

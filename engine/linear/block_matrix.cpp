@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
@@ -59,16 +61,20 @@ void gather_contacts(BlockMatrix& matrix) {
 
 void invert_with_contacts(BlockMatrix& matrix) {
     const std::size_t padded = matrix.padded();
-    for (const VertexContact& contact : matrix.contacts_by_vertex) {
-        std::array<double, 6> block;
-        for (int k = 0; k < 6; ++k) block[k] = matrix.diagonal[k][contact.vertex] + contact.k[k];
-        const std::array<double, 6> inverse = inverse_block(block);
-        for (int k = 0; k < 6; ++k) matrix.inverse[k * padded + contact.vertex] = static_cast<float>(inverse[k]);
-    }
-    for (std::size_t i = 0; i < padded; ++i) {
-        if (matrix.free[i] > 0.0) continue;
+    const int vertices = static_cast<int>(matrix.contacts_by_vertex.size());
+    for_stretches(*matrix.compute, vertices, row_grain, vertices >= least_shared_rows, [&](int first, int last, int) {
+        for (int c = first; c < last; ++c) {
+            const VertexContact& contact = matrix.contacts_by_vertex[c];
+            std::array<double, 6> block;
+            for (int k = 0; k < 6; ++k) block[k] = matrix.diagonal[k][contact.vertex] + contact.k[k];
+            const std::array<double, 6> inverse = inverse_block(block);
+            for (int k = 0; k < 6; ++k) matrix.inverse[k * padded + contact.vertex] = static_cast<float>(inverse[k]);
+        }
+    });
+    for_each_vertex(*matrix.compute, matrix.slices(), [&](std::size_t i) {
+        if (matrix.free[i] > 0.0) return;
         for (int k = 0; k < 6; ++k) matrix.inverse[k * padded + i] = 0.0f;
-    }
+    });
 }
 
 }  // namespace
@@ -128,8 +134,12 @@ void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> conta
 }
 
 double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y) {
+    pack_points(*matrix.compute, *matrix.pattern, x, points);
+    return multiply_placed(matrix, x, points, y);
+}
+
+double multiply_placed(const BlockMatrix& matrix, const Vectors& x, const AlignedVector<double>& points, Vectors& y) {
     const Compute& compute = *matrix.compute;
-    pack_points(compute, *matrix.pattern, x, points);
     const BlockPass pass{
         .pattern = matrix.pattern->pattern(), .values = matrix.springs->values.data(), .ground = matrix.mass.data()};
     double sum = sum_chunks(compute, matrix.slices(), [&](Slices range) {
@@ -164,18 +174,15 @@ void add_enclosed_product(const BlockMatrix& matrix, const Vectors& x, Vectors& 
 
 void set_residual(const BlockMatrix& matrix, const Vectors& b, const Vectors& x, AlignedVector<double>& points, Vectors& r) {
     multiply(matrix, x, points, r);
-    const auto subtract = [&](const AlignedVector<double>& right, AlignedVector<double>& product) {
-        for (std::size_t i = 0; i < product.size(); ++i) product[i] = matrix.free[i] * right[i] - product[i];
-    };
-    subtract(b.x, r.x);
-    subtract(b.y, r.y);
-    subtract(b.z, r.z);
+    for_each_vertex(*matrix.compute, matrix.slices(), [&](std::size_t i) {
+        r.x[i] = matrix.free[i] * b.x[i] - r.x[i];
+        r.y[i] = matrix.free[i] * b.y[i] - r.y[i];
+        r.z[i] = matrix.free[i] * b.z[i] - r.z[i];
+    });
 }
 
-void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z) {
-    for_chunks(*matrix.compute, matrix.slices(), [&](Slices range) {
-        matrix.compute->kernels->jacobi(matrix.inverse.data(), matrix.padded(), r.axes(), z.axes(), range);
-    });
+void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z, Slices range) {
+    matrix.compute->kernels->jacobi(matrix.inverse.data(), matrix.padded(), r.axes(), z.axes(), range);
 }
 
 void filter(const BlockMatrix& matrix, Vectors& x) {

@@ -59,11 +59,14 @@ void add_enclosed_product(const BlockMatrix& matrix, const Vectors& x, Vectors& 
 /// y = A x on the free vertices, 0 at prescribed ones; returns x . y over the free ones. `points` is work space.
 double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y);
 
+/// The same with x in `points` already (place_points).
+double multiply_placed(const BlockMatrix& matrix, const Vectors& x, const AlignedVector<double>& points, Vectors& y);
+
 /// r = b - A x on the free vertices, 0 at prescribed ones.
 void set_residual(const BlockMatrix& matrix, const Vectors& b, const Vectors& x, AlignedVector<double>& points, Vectors& r);
 
-/// z = D^-1 r for free vertices, 0 for the others (D: block diagonal).
-void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z);
+/// z = D^-1 r for free vertices, 0 for the others (D: block diagonal), on a range.
+void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z, Slices range);
 
 /// x = 0 at prescribed vertices.
 void filter(const BlockMatrix& matrix, Vectors& x);

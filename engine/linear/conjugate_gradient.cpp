@@ -1,5 +1,6 @@
 #include "conjugate_gradient.h"
 
+#include <array>
 #include <cmath>
 
 #include "gain_record.h"
@@ -18,28 +19,29 @@ public:
         if (first_square == 0.0) return {.iterations = 0, .converged = true};
         const double tolerance = target.relative_residual * target.relative_residual * first_square;
         GainRecord gains(10);
-        double rz = apply_preconditioner();
+        double rz = apply_preconditioner(), beta = 0.0;
         space_.p = space_.z;
+        prepare_points(*matrix_.pattern, space_.points);
         SolveReport report;
         while (report.iterations < target.most_iterations) {
             ++report.iterations;
-            const double curvature = multiply(matrix_, space_.p, space_.points, space_.q);
+            for_chunks(compute_, matrix_.slices(), [&](Slices range) {
+                kernels().turn(beta, view(space_.z), space_.p.axes(), range);
+                place_points(compute_, *matrix_.pattern, space_.p, space_.points, range);
+            });
+            const double curvature = multiply_placed(matrix_, space_.p, space_.points, space_.q);
             if (!(curvature > 0.0) || !std::isfinite(rz)) {
                 if (!matrix_.enclosed.empty() && report.iterations == 1) add_scaled(x, 1.0, space_.p);
                 return report;
             }
             const double alpha = rz / curvature;
             gains.add(alpha * rz);
-            const double square = sum_chunks(compute_, matrix_.slices(), [&](Slices range) {
-                return kernels().advance(alpha, view(space_.p), view(space_.q), x.axes(), space_.r.axes(), range);
-            });
+            const auto [square, product] = advance(alpha, x);
             report.converged = square <= tolerance || square == 0.0 || (gains.small_enough(target) && keeps_net(target.net));
             if (report.converged) return report;
-            const double next = apply_preconditioner();
-            const double beta = next / rz;
+            const double next = preconditioner_ ? apply_preconditioner() : product;
+            beta = next / rz;
             rz = next;
-            for_chunks(compute_, matrix_.slices(),
-                       [&](Slices range) { kernels().turn(beta, view(space_.z), space_.p.axes(), range); });
         }
         return report;
     }
@@ -61,12 +63,22 @@ private:
         return net_is_small<double>(limits, {space_.r.x.data(), space_.r.y.data(), space_.r.z.data()}, 1.0);
     }
 
+    /// x += alpha p, r -= alpha q, and z where the preconditioner is the diagonal; returns r . r and then r . z.
+    std::array<double, 2> advance(double alpha, Vectors& x) {
+        return sum_pairs(compute_, matrix_.slices(), chunk_slices, [&](Slices range, int) {
+            const double square = kernels().advance(alpha, view(space_.p), view(space_.q), x.axes(), space_.r.axes(), range);
+            if (preconditioner_) return std::array<double, 2>{square, 0.0};
+            precondition(matrix_, space_.r, space_.z, range);
+            return std::array<double, 2>{square, kernels().dot(view(space_.r), view(space_.z), range)};
+        });
+    }
+
     /// z = preconditioned r; returns r . z.
     double apply_preconditioner() {
         if (preconditioner_) {
             preconditioner_(space_.r, space_.z);
         } else {
-            precondition(matrix_, space_.r, space_.z);
+            for_chunks(compute_, matrix_.slices(), [&](Slices range) { precondition(matrix_, space_.r, space_.z, range); });
         }
         return dot(compute_, space_.r, space_.z);
     }

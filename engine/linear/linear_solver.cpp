@@ -111,7 +111,7 @@ bool StepSolver::estimate(const Vectors& r, Vectors& z) {
         compute.kernels->to_float(1.0 / scale, r.axes(), {multigrid_->residual().data(), padded}, range);
     });
     multigrid_->cycle();
-    z.resize(static_cast<int>(r.padded_size()));
+    set_zero(compute, z, static_cast<int>(r.padded_size()));
     for_chunks(compute, matrix.slices(), [&](Slices range) {
         compute.kernels->add_float(scale, {multigrid_->correction().data(), padded}, z.axes(), range);
     });

@@ -30,34 +30,6 @@ std::array<float, 6> to_float(const Block& a) {
     return result;
 }
 
-std::array<float, 3> times(const std::array<float, 6>& m, const std::array<float, 3>& u) {
-    return {m[0] * u[0] + m[1] * u[1] + m[2] * u[2], m[1] * u[0] + m[3] * u[1] + m[4] * u[2],
-            m[2] * u[0] + m[4] * u[1] + m[5] * u[2]};
-}
-
-std::array<float, 3> at(const FloatVectors& v, int i) { return {v.data[i], v.data[v.padded + i], v.data[2 * v.padded + i]}; }
-
-void set(const FloatVectors& v, int i, const std::array<float, 3>& value) {
-    for (int axis = 0; axis < 3; ++axis) v.data[axis * v.padded + i] = value[axis];
-}
-
-/// Adds the rows' product at vertices that are not prescribed.
-void add_contacts(std::span<const CoupledBlock> contacts, FloatVectors x, FloatVectors y) {
-    for (const CoupledBlock& block : contacts) {
-        std::array<float, 3> u{};
-        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
-            const std::array<float, 3> value = at(x, block.vertex[k]);
-            for (int axis = 0; axis < 3; ++axis) u[axis] += static_cast<float>(block.weight[k]) * value[axis];
-        }
-        const std::array<float, 3> f = times(to_float(block.k), u);
-        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
-            std::array<float, 3> value = at(y, block.vertex[k]);
-            for (int axis = 0; axis < 3; ++axis) value[axis] += static_cast<float>(block.weight[k]) * f[axis];
-            set(y, block.vertex[k], value);
-        }
-    }
-}
-
 }  // namespace
 
 Multigrid::Multigrid(const Compute& compute, const Adjacency& pattern, std::span<const Vec3> rest)
@@ -80,6 +52,7 @@ Multigrid::Multigrid(const Compute& compute, const Adjacency& pattern, std::span
     patterns_ = make_hierarchy(std::move(graph));
     Level fine = sized_level(pattern.pattern(), pattern.slices());
     fine.ground.resize(fine.padded);
+    fine.inverse.resize(6 * fine.padded);
     fine.blocks.assign(8 * (pair_value_.size() + 1), 0.0f);
     guarded_.assign(pattern.bands.count > 0 ? pattern.point_count() : 0, 0.0f);
     levels_.push_back(std::move(fine));
@@ -141,40 +114,24 @@ Multigrid::Level Multigrid::sized_level(EntryPattern pattern, int slices) const 
     level.slices = slices;
     level.padded = static_cast<std::size_t>(level.slices) * slice_lanes;
     for (auto* list : {&level.x, &level.b, &level.r}) list->assign(3 * level.padded, 0.0f);
-    level.points.assign(4 * level.padded, 0.0f);
+    for (auto* list : {&level.points, &level.handed}) list->assign(4 * level.padded, 0.0f);
     return level;
-}
-
-FloatVectors Multigrid::view(const AlignedVector<float>& data, const Level& level) const {
-    return {const_cast<float*>(data.data()), level.padded};
-}
-
-void Multigrid::pack(Level& level, const AlignedVector<float>& from) const {
-    for_chunks(compute_, level.slices,
-               [&](Slices range) { compute_.kernels->pack_float_points(view(from, level), level.points.data(), range); });
-}
-
-void Multigrid::copy_guarded(const BandPattern& bands, const AlignedVector<float>& from) {
-    const int slices = static_cast<int>(bands.padded / slice_lanes);
-    for_chunks(compute_, slices, [&](Slices range) {
-        const std::size_t first = static_cast<std::size_t>(range.first) * slice_lanes;
-        const std::size_t count = static_cast<std::size_t>(range.last - range.first) * slice_lanes;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const float* source = from.data() + axis * bands.padded + first;
-            std::copy_n(source, count, &guarded_[axis * (bands.padded + 2 * bands.guard) + bands.guard + first]);
-        }
-    });
 }
 
 void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {
     Level& fine = levels_[0];
     fine.values = matrix.springs->values.data();
     fine.corners = matrix.springs->corners.empty() ? nullptr : matrix.springs->corners.data();
-    std::transform(matrix.mass.begin(), matrix.mass.end(), fine.ground.begin(), [](double m) { return static_cast<float>(m); });
-    fine.inverse = matrix.inverse;
+    for_each_vertex(compute_, fine.slices, [&](std::size_t i) {
+        fine.ground[i] = static_cast<float>(matrix.mass[i]);
+        for (std::size_t entry = 0; entry < 6; ++entry) {
+            fine.inverse[entry * fine.padded + i] = matrix.inverse[entry * fine.padded + i];
+        }
+    });
     ease(fine);
     contacts_ = matrix.contacts;
     set_filters(matrix);
+    set_contact_rows(matrix);
     if (coarser == Coarser::kept) return;
     expand_blocks(*matrix.springs);
     for (int k = 1; k < levels(); ++k) fill_level(k);
@@ -183,6 +140,7 @@ void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {
 
 void Multigrid::set_filters(const BlockMatrix& matrix) {
     filtered_.clear();
+    filter_of_slot_.assign(matrix.contacts_by_vertex.size(), -1);
     const auto diagonal = [&](int i) {
         Block block;
         for (int k = 0; k < 6; ++k) block[k] = matrix.diagonal[k][i];
@@ -194,19 +152,53 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
         for (const int k : {0, 3, 5}) ground[k] -= matrix.mass[i];
         filtered_.push_back({.vertex = i, .filter = {}, .contact = {}, .ground = ground});
     }
-    prescribed_ = filtered_.size();
-    for (const VertexContact& contact : matrix.contacts_by_vertex) {
+    prescribed_ = static_cast<int>(filtered_.size());
+    for (std::size_t slot = 0; slot < filter_of_slot_.size(); ++slot) {
+        const VertexContact& contact = matrix.contacts_by_vertex[slot];
         if (!(trace(contact.k) > 0.0)) continue;
         const double d = size_along(diagonal(contact.vertex), contact.k);
         Block sum = contact.k;
         for (const int k : {0, 3, 5}) sum[k] += d;
         Block filter = inverse_block(sum);
         for (double& entry : filter) entry *= d;
+        filter_of_slot_[slot] = static_cast<int>(filtered_.size());
         filtered_.push_back({.vertex = contact.vertex,
                              .filter = to_float(filter),
                              .contact = to_float(contact.k),
                              .ground = block_product(filter, contact.k)});
     }
+    by_vertex_.clear();
+    int next = 0;
+    for (int i = 0; i < adjacency_.vertex_count; ++i) {
+        if (next < prescribed_ && filtered_[next].vertex == i) by_vertex_.push_back(next++);
+        const int slot = matrix.contact_slot[i];
+        if (slot >= 0 && filter_of_slot_[slot] >= 0) by_vertex_.push_back(filter_of_slot_[slot]);
+    }
+    before_.resize(filtered_.size());
+}
+
+/// Vertex by vertex in the order of the rows, so that sums over a vertex do not depend on who makes them.
+void Multigrid::set_contact_rows(const BlockMatrix& matrix) {
+    row_force_.resize(contacts_.size());
+    const auto for_ends = [&](auto work) {
+        for (std::size_t row = 0; row < contacts_.size(); ++row) {
+            const CoupledBlock& block = contacts_[row];
+            for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
+                const int slot = matrix.contact_slot[block.vertex[k]];
+                if (slot < 0 || filter_of_slot_[slot] < 0 || block.weight[k] == 0.0) continue;
+                work(filtered_[filter_of_slot_[slot]], static_cast<int>(row), static_cast<float>(block.weight[k]));
+            }
+        }
+    };
+    for_ends([](Filtered& vertex, int, float) { ++vertex.rows; });
+    int first = 0;
+    for (Filtered& vertex : filtered_) {
+        vertex.first_row = first;
+        first += vertex.rows;
+        vertex.rows = 0;
+    }
+    row_ends_.resize(first);
+    for_ends([&](Filtered& vertex, int row, float weight) { row_ends_[vertex.first_row + vertex.rows++] = {row, weight}; });
 }
 
 void Multigrid::expand_blocks(const SpringTerms& springs) {
@@ -264,17 +256,17 @@ void Multigrid::fill_level(int k) {
 /// Row sums: what holds a finer vertex holds the coarser ones by its weights.
 void Multigrid::restrict_ground(int k) {
     Level& level = levels_[k];
-    std::fill(level.ground.begin(), level.ground.end(), 0.0f);
     if (k == 1) {
-        scatter_ground();
+        restrict_mass();
     } else {
         Level& finer = levels_[k - 1];
         for (const std::size_t half : {0, 3}) {
             const FloatVectors from{finer.ground.data() + half * finer.padded, finer.padded};
             for_chunks(compute_, finer.slices,
-                       [&](Slices range) { compute_.kernels->pack_float_points(from, finer.points.data(), range); });
-            transfer(patterns_[k - 1].restriction, level.slices, finer.points,
-                     {level.ground.data() + half * level.padded, level.padded}, false);
+                       [&](Slices range) { compute_.kernels->pack_float_points(from, finer.handed.data(), range); });
+            const FloatVectors to{level.ground.data() + half * level.padded, level.padded};
+            for_chunks(compute_, level.slices,
+                       [&](Slices range) { transfer(patterns_[k - 1].restriction, finer.handed, to, false, range); });
         }
     }
     for (const std::size_t entry : {0, 3, 5}) {
@@ -282,15 +274,20 @@ void Multigrid::restrict_ground(int k) {
     }
 }
 
-void Multigrid::scatter_ground() {
-    Level& level = levels_[1];
+/// At the finest level masses, and what holds the filtered vertices.
+void Multigrid::restrict_mass() {
+    Level &fine = levels_[0], &level = levels_[1];
+    for_each_vertex(compute_, fine.slices, [&](std::size_t i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) fine.handed[4 * i + axis] = fine.ground[i];
+    });
+    for_chunks(compute_, level.slices, [&](Slices range) {
+        transfer(patterns_[0].restriction, fine.handed, {level.ground.data(), level.padded}, false, range);
+    });
+    for_each_vertex(compute_, level.slices, [&](std::size_t i) {
+        for (const std::size_t entry : {3, 5}) level.ground[entry * level.padded + i] = level.ground[i];
+        for (const std::size_t entry : {1, 2, 4}) level.ground[entry * level.padded + i] = 0.0f;
+    });
     const std::vector<InterpolationRow>& rows = patterns_[0].rows;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (int k = 0; k < rows[i].count; ++k) {
-            const float part = static_cast<float>(rows[i].weight[k]) * levels_[0].ground[i];
-            for (const std::size_t entry : {0, 3, 5}) level.ground[entry * level.padded + rows[i].vertex[k]] += part;
-        }
-    }
     for (const Filtered& vertex : filtered_) {
         const InterpolationRow& row = rows[vertex.vertex];
         for (int k = 0; k < row.count; ++k) {
@@ -326,113 +323,6 @@ void Multigrid::fill_bottom() {
     compute_.kernels->invert(bottom_.data(), bottom_size_, bottom_stride_);
     std::transform(bottom_.begin(), bottom_.end(), bottom_inverse_.begin(),
                    [](double value) { return static_cast<float>(value); });
-}
-
-void Multigrid::multiply(const AlignedVector<float>& x, AlignedVector<float>& y) {
-    multiply_level(0, x, nullptr, y);
-    const FloatVectors result = view(y, levels_[0]);
-    add_contacts(contacts_, view(x, levels_[0]), result);
-    for (std::size_t i = 0; i < prescribed_; ++i) set(result, filtered_[i].vertex, {});
-}
-
-void Multigrid::cycle(int k) {
-    Level& level = levels_[k];
-    const bool bottom = k + 1 == levels();
-    if (bottom && bottom_size_ > 0) return solve_bottom(level);
-    smooth(k, true);
-    if (!bottom) {
-        set_residual(k);
-        if (k == 0) filter_residual();
-        pack(level, level.r);
-        Level& coarser = levels_[k + 1];
-        transfer(patterns_[k].restriction, coarser.slices, level.points, view(coarser.b, coarser), false);
-        cycle(k + 1);
-        prolong(k);
-    }
-    smooth(k, false);
-}
-
-/// x += omega D^-1 (b - A x), from x = 0 with `fresh`.
-void Multigrid::smooth(int k, bool fresh) {
-    Level& level = levels_[k];
-    if (!fresh) set_residual(k);
-    const SmoothPass pass{.inverse = level.inverse.data(),
-                          .r = view(fresh ? level.b : level.r, level),
-                          .x = view(level.x, level),
-                          .factor = jacobi_damping,
-                          .fresh = fresh};
-    for_chunks(compute_, level.slices, [&](Slices range) { compute_.kernels->smooth(pass, range); });
-}
-
-/// y = A x, or right - A x; springs and ground only.
-void Multigrid::multiply_level(int k, const AlignedVector<float>& x, const float* right, AlignedVector<float>& y) {
-    Level& level = levels_[k];
-    const BandPattern* bands = level.pattern.bands;
-    bands ? copy_guarded(*bands, x) : pack(level, x);
-    const FloatPass pass{.pattern = level.pattern,
-                         .values = level.values,
-                         .ground = level.ground.data(),
-                         .x = view(x, level),
-                         .y = view(y, level),
-                         .points = bands ? guarded_.data() : level.points.data(),
-                         .right = right};
-    const auto kernel = k == 0 ? compute_.kernels->multiply_fine : compute_.kernels->multiply_coarse;
-    for_chunks(compute_, level.slices, [&](Slices range) { kernel(pass, range); });
-    if (!level.corners) return;
-    const CornerProduct corners{adjacency_.membrane.corners(), level.corners};
-    for_chunks(compute_, level.slices, [&](Slices range) { compute_.kernels->multiply_float_corners(corners, pass, range); });
-}
-
-/// r = b - A x.
-void Multigrid::set_residual(int k) {
-    Level& level = levels_[k];
-    multiply_level(k, level.x, level.b.data(), level.r);
-    if (k > 0) return;
-    const FloatVectors x = view(level.x, level), r = view(level.r, level);
-    for (const Filtered& vertex : filtered_) {
-        const std::array<float, 3> part = times(vertex.contact, at(x, vertex.vertex));
-        std::array<float, 3> rest = at(r, vertex.vertex);
-        for (int axis = 0; axis < 3; ++axis) rest[axis] -= part[axis];
-        set(r, vertex.vertex, rest);
-    }
-}
-
-void Multigrid::filter_residual() {
-    const FloatVectors r = view(levels_[0].r, levels_[0]);
-    for (const Filtered& vertex : filtered_) set(r, vertex.vertex, times(vertex.filter, at(r, vertex.vertex)));
-}
-
-/// x += P (coarser x), filtered at the finest level.
-void Multigrid::prolong(int k) {
-    Level &level = levels_[k], &coarser = levels_[k + 1];
-    const FloatVectors x = view(level.x, level);
-    before_.clear();
-    if (k == 0) {
-        for (const Filtered& vertex : filtered_) before_.push_back(at(x, vertex.vertex));
-    }
-    pack(coarser, coarser.x);
-    transfer(patterns_[k].prolongation, level.slices, coarser.points, x, true);
-    for (std::size_t i = 0; i < before_.size(); ++i) {
-        const Filtered& vertex = filtered_[i];
-        std::array<float, 3> value = at(x, vertex.vertex);
-        for (int axis = 0; axis < 3; ++axis) value[axis] -= before_[i][axis];
-        value = times(vertex.filter, value);
-        for (int axis = 0; axis < 3; ++axis) value[axis] += before_[i][axis];
-        set(x, vertex.vertex, value);
-    }
-}
-
-void Multigrid::transfer(const TransferLists& lists, int slices, const AlignedVector<float>& points, FloatVectors to,
-                         bool add) const {
-    const TransferPass pass{
-        .pattern = lists.pattern(), .weights = lists.weight.data(), .points = points.data(), .y = to, .add = add};
-    for_chunks(compute_, slices, [&](Slices range) { compute_.kernels->transfer(pass, range); });
-}
-
-void Multigrid::solve_bottom(Level& level) {
-    for (int i = 0; i < bottom_size_; ++i) bottom_x_[i] = level.b[(i % 3) * level.padded + i / 3];
-    compute_.kernels->dense_multiply(bottom_inverse_.data(), bottom_size_, bottom_stride_, bottom_x_.data(), bottom_y_.data());
-    for (int i = 0; i < bottom_size_; ++i) level.x[(i % 3) * level.padded + i / 3] = bottom_y_[i];
 }
 
 }  // namespace percale

@@ -25,12 +25,23 @@ public:
     void fill(const BlockMatrix& matrix, Coarser coarser);
 
     /// One cycle for A z = r at the finest level: r in residual(), z in correction(). r should be of about unit size.
-    void cycle() { cycle(0); }
+    void cycle();
     AlignedVector<float>& residual() { return levels_[0].b; }
     AlignedVector<float>& correction() { return levels_[0].x; }
 
+    /// The same in parts, for a caller who makes each pass over the vectors do as much as it can: `begin` for all ranges, once
+    /// residual() is there in the range; then `correct`; then `finish` for all ranges, after which correction() is there in the
+    /// range.
+    void begin(Slices range) { begin(0, range); }
+    void correct() { correct(0); }
+    void finish(Slices range) { finish(0, range); }
+
     /// y = A x at the finest level, contact rows exact; x and y are 0 at prescribed vertices.
     void multiply(const AlignedVector<float>& x, AlignedVector<float>& y);
+    /// The same in parts: `place` for all ranges, then `set_row_forces`, then `product` for all ranges.
+    void place(const AlignedVector<float>& x, Slices range) { place(0, x, range); }
+    void set_row_forces(const AlignedVector<float>& x);
+    void product(const AlignedVector<float>& x, AlignedVector<float>& y, Slices range);
 
     std::size_t padded() const { return levels_[0].padded; }
     int slices() const { return levels_[0].slices; }
@@ -48,8 +59,10 @@ private:
         AlignedVector<float> blocks;      // eight numbers a pair (six used), one zero block more
         AlignedVector<float> ground;      // the mass alone (finest), or six arrays
         AlignedVector<float> inverse;
-        AlignedVector<float> x, b, r, points;
-        std::vector<int> eased;  // vertices, ascending: damped more in smoothing
+        AlignedVector<float> x, b, r;
+        AlignedVector<float> points;  // x in its place for a product, unless that is in bands
+        AlignedVector<float> handed;  // as points: the residual for the coarser level, or x for the finer one
+        std::vector<int> eased;       // vertices, ascending: damped more in smoothing
     };
     /// A vertex of the finest level whose transfers are filtered.
     struct Filtered {
@@ -57,6 +70,12 @@ private:
         std::array<float, 6> filter;   // S
         std::array<float, 6> contact;  // K, kg; applied by the smoother
         std::array<double, 6> ground;  // kg, for the next level
+        int first_row = 0, rows = 0;   // in row_ends_
+    };
+    /// What a contact row does at one vertex: weight * row_force_[row].
+    struct RowEnd {
+        int row;
+        float weight;
     };
 
     void add_level(const LevelPattern& pattern);
@@ -64,23 +83,28 @@ private:
     void ease(Level& level) const;
     Level sized_level(EntryPattern pattern, int slices) const;
     void set_filters(const BlockMatrix& matrix);
+    void set_contact_rows(const BlockMatrix& matrix);
     void expand_blocks(const SpringTerms& springs);
     void expand_stretch(const SpringTerms& springs, int first_pair, int last_pair);
     void fill_level(int k);
     void restrict_ground(int k);
-    void scatter_ground();
+    void restrict_mass();
     void fill_bottom();
-    void cycle(int k);
-    void smooth(int k, bool fresh);
-    void multiply_level(int k, const AlignedVector<float>& x, const float* right, AlignedVector<float>& y);
-    void set_residual(int k);
+    // Of one range; what they read of other ranges is what an earlier pass wrote.
+    void begin(int k, Slices range);
+    void finish(int k, Slices range);
+    void hand_down(int k, Slices range);
+    void prolong(int k, Slices range);
+    void smooth(int k, bool fresh, Slices range);
+    void set_residual(int k, Slices range);
+    void place(int k, const AlignedVector<float>& x, Slices range);
+    void multiply_level(int k, const AlignedVector<float>& x, const float* right, AlignedVector<float>& y, Slices range);
+    void transfer(const TransferLists& lists, const AlignedVector<float>& points, FloatVectors to, bool add, Slices range) const;
+    template <class Work>
+    void for_filtered(Slices range, Work work);
+    void correct(int k);
     void solve_bottom(Level& level);
-    void transfer(const TransferLists& lists, int slices, const AlignedVector<float>& points, FloatVectors to, bool add) const;
-    void filter_residual();
-    void prolong(int k);
-    FloatVectors view(const AlignedVector<float>& data, const Level& level) const;
-    void copy_guarded(const BandPattern& bands, const AlignedVector<float>& from);
-    void pack(Level& level, const AlignedVector<float>& from) const;
+    static FloatVectors view(const AlignedVector<float>& data, const Level& level);
 
     const Compute& compute_;
     const Adjacency& adjacency_;
@@ -89,9 +113,12 @@ private:
     std::vector<LevelPattern> patterns_;
     std::vector<Level> levels_;
     std::span<const CoupledBlock> contacts_;
-    std::vector<Filtered> filtered_;  // prescribed vertices first
-    std::size_t prescribed_ = 0;
-    std::vector<std::array<float, 3>> before_;  // work space of prolong
+    std::vector<Filtered> filtered_;               // prescribed vertices first
+    std::vector<int> by_vertex_, filter_of_slot_;  // of filtered_: ascending by vertex; of BlockMatrix::contacts_by_vertex
+    int prescribed_ = 0;
+    std::vector<RowEnd> row_ends_;
+    std::vector<std::array<float, 3>> row_force_;  // work space of products
+    std::vector<std::array<float, 3>> before_;     // work space of prolong
     AlignedVector<double> bottom_;
     AlignedVector<float> bottom_inverse_, bottom_x_, bottom_y_;
     int bottom_size_ = 0, bottom_stride_ = 0;

@@ -1,5 +1,6 @@
 #include "multigrid_solve.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tolerances.h"
@@ -49,8 +50,21 @@ private:
         return std::sqrt(dot(compute_, space_.r, space_.r));
     }
 
-    double sum(FloatVectors a, FloatVectors b) const {
-        return sum_chunks(compute_, multigrid_.slices(), [&](Slices range) { return compute_.kernels->float_dot(a, b, range); });
+    const Kernels& kernels() const { return *compute_.kernels; }
+
+    static void fill(FloatVectors a, float value, Slices range) {
+        const std::size_t first = static_cast<std::size_t>(range.first) * slice_lanes;
+        const std::size_t count = static_cast<std::size_t>(range.last - range.first) * slice_lanes;
+        for (std::size_t axis = 0; axis < 3; ++axis) std::fill_n(a.data + axis * a.padded + first, count, value);
+    }
+
+    /// The rest of a cycle that has begun; returns r . z.
+    double end_cycle(FloatVectors r, FloatVectors z) {
+        multigrid_.correct();
+        return sum_chunks(compute_, multigrid_.slices(), [&](Slices range) {
+            multigrid_.finish(range);
+            return kernels().float_dot(r, z, range);
+        });
     }
 
     /// space.x = A^-1 r/norm in floats, until the residual is at `wanted` or what floats reach, or the gains are small: true
@@ -61,30 +75,39 @@ private:
         const SolveTarget scaled{.relative_residual = std::max(float_aim_share * wanted, float_residual),
                                  .relative_gain = target.relative_gain,
                                  .absolute_gain = target.absolute_gain / (norm * norm)};
-        std::fill(space_.x.begin(), space_.x.end(), 0.0f);
-        for_chunks(compute_, multigrid_.slices(),
-                   [&](Slices range) { compute_.kernels->to_float(1.0 / norm, space_.r.axes(), r, range); });
-        multigrid_.cycle();
-        space_.p = multigrid_.correction();
-        double rz = sum(r, z);
+        for_chunks(compute_, multigrid_.slices(), [&](Slices range) {
+            fill(x, 0.0f, range);
+            fill(p, 0.0f, range);
+            kernels().to_float(1.0 / norm, space_.r.axes(), r, range);
+            multigrid_.begin(range);
+        });
+        double rz = end_cycle(r, z);
+        float beta = 0.0f;
         GainRecord gains(1);
         while (report_.iterations < target.most_iterations) {
             ++report_.iterations;
-            multigrid_.multiply(space_.p, space_.q);
-            const double curvature = sum(p, q);
+            for_chunks(compute_, multigrid_.slices(), [&](Slices range) {
+                kernels().float_turn(beta, z, p, range);
+                multigrid_.place(space_.p, range);
+            });
+            multigrid_.set_row_forces(space_.p);
+            const double curvature = sum_chunks(compute_, multigrid_.slices(), [&](Slices range) {
+                multigrid_.product(space_.p, space_.q, range);
+                return kernels().float_dot(p, q, range);
+            });
             if (!(curvature > 0.0) || !std::isfinite(rz)) return false;
             const double alpha = rz / curvature;
             gains.add(alpha * rz);
             const double square = sum_chunks(compute_, multigrid_.slices(), [&](Slices range) {
-                return compute_.kernels->float_advance(static_cast<float>(alpha), p, q, x, r, range);
+                const double part = kernels().float_advance(static_cast<float>(alpha), p, q, x, r, range);
+                multigrid_.begin(range);
+                return part;
             });
             if (gains.small_enough(scaled) && net_is_small<float>(target.net, axes_of(r), norm)) return true;
             if (square <= scaled.relative_residual * scaled.relative_residual) return false;
-            multigrid_.cycle();
-            const double next = sum(r, z);
-            const float beta = static_cast<float>(next / rz);
+            const double next = end_cycle(r, z);
+            beta = static_cast<float>(next / rz);
             rz = next;
-            for_chunks(compute_, multigrid_.slices(), [&](Slices range) { compute_.kernels->float_turn(beta, z, p, range); });
         }
         return false;
     }

@@ -188,18 +188,31 @@ std::size_t Adjacency::point_count() const {
 }
 
 void pack_points(const Compute& compute, const Adjacency& adjacency, const Vectors& from, AlignedVector<double>& points) {
+    prepare_points(adjacency, points);
+    for_chunks(compute, from.slices(), [&](Slices range) { place_points(compute, adjacency, from, points, range); });
+}
+
+void prepare_points(const Adjacency& adjacency, AlignedVector<double>& points) {
     points.resize(adjacency.point_count());
     const BandPattern& bands = adjacency.bands;
-    if (bands.count == 0) {
-        for_chunks(compute, from.slices(),
-                   [&](Slices range) { compute.kernels->pack_points(from.axes(), points.data(), range); });
-        return;
+    if (bands.count == 0) return;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double* own = points.data() + axis * (bands.padded + 2 * bands.guard);
+        std::fill_n(own, bands.guard, 0.0);
+        std::fill_n(own + bands.guard + bands.padded, bands.guard, 0.0);
     }
-    auto to = points.begin();
+}
+
+void place_points(const Compute& compute, const Adjacency& adjacency, const Vectors& from, AlignedVector<double>& points,
+                  Slices range) {
+    const BandPattern& bands = adjacency.bands;
+    if (bands.count == 0) return compute.kernels->pack_points(from.axes(), points.data(), range);
+    const std::size_t first = static_cast<std::size_t>(range.first) * slice_lanes;
+    const std::size_t count = static_cast<std::size_t>(range.last - range.first) * slice_lanes;
+    double* to = points.data() + bands.guard + first;
     for (const auto* axis : {&from.x, &from.y, &from.z}) {
-        to = std::fill_n(to, bands.guard, 0.0);
-        to = std::copy(axis->begin(), axis->end(), to);
-        to = std::fill_n(to, bands.guard, 0.0);
+        std::copy_n(axis->data() + first, count, to);
+        to += bands.padded + 2 * bands.guard;
     }
 }
 

@@ -50,6 +50,10 @@ struct Adjacency {
 
 /// A copy of vectors as the kernels want it for these springs: x y z 0 of every vertex, or with bands three guarded arrays.
 void pack_points(const Compute& compute, const Adjacency& adjacency, const Vectors& from, AlignedVector<double>& points);
+/// The same in parts: once for the size and the guards, then range by range.
+void prepare_points(const Adjacency& adjacency, AlignedVector<double>& points);
+void place_points(const Compute& compute, const Adjacency& adjacency, const Vectors& from, AlignedVector<double>& points,
+                  Slices range);
 
 /// How the numbers of all springs are laid out.
 enum class SpringLayout { best, slices };

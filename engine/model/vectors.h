@@ -52,6 +52,20 @@ void set_each(const Compute& compute, const Vectors& a, const Vectors& b, Vector
     });
 }
 
+inline void set_zero(const Compute& compute, Vectors& to, int count) {
+    const std::size_t padded = static_cast<std::size_t>((count + slice_lanes - 1) / slice_lanes) * slice_lanes;
+    if (to.padded_size() != padded) return to.resize(count);
+    for_chunks(compute, to.slices(), [&](Slices range) {
+        const std::size_t first = static_cast<std::size_t>(range.first) * slice_lanes;
+        const std::size_t last = static_cast<std::size_t>(range.last) * slice_lanes;
+        for (auto* axis : {&to.x, &to.y, &to.z}) std::fill(axis->begin() + first, axis->begin() + last, 0.0);
+    });
+}
+
+inline void copy(const Compute& compute, const Vectors& from, Vectors& to) {
+    set_each(compute, from, from, to, [](double value, double) { return value; });
+}
+
 /// y += factor x
 inline void add_scaled(Vectors& y, double factor, const Vectors& x) {
     const auto add = [factor](AlignedVector<double>& to, const AlignedVector<double>& from) {
@@ -94,6 +108,32 @@ double largest_term(int first, int count, Term term) {
     }
     for (; i < last; ++i) largest[0] = std::max(largest[0], term(i));
     return std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3]));
+}
+
+/// The same on all threads. Beyond a chunk the sum is that of the chunks' sums.
+template <class Term>
+double sum_terms(const Compute& compute, int first, int count, Term term) {
+    constexpr int vertices = chunk_slices * slice_lanes;
+    return sum_chunks(compute, (count + slice_lanes - 1) / slice_lanes, [&](Slices range) {
+        const int from = range.first * slice_lanes;
+        return sum_terms(first + from, std::min(count - from, vertices), term);
+    });
+}
+
+template <class Term>
+double largest_term(const Compute& compute, int first, int count, Term term) {
+    constexpr int vertices = chunk_slices * slice_lanes;
+    const int slices = (count + slice_lanes - 1) / slice_lanes;
+    if (!compute.workers || slices < least_shared_slices) return largest_term(first, count, term);
+    auto& parts = compute.sums;
+    parts.resize((count + vertices - 1) / vertices);
+    for_stretches(compute, slices, chunk_slices, true, [&](int begin, int, int) {
+        const int from = begin * slice_lanes;
+        parts[begin / chunk_slices][0] = largest_term(first + from, std::min(count - from, vertices), term);
+    });
+    double largest = 0.0;
+    for (const auto& part : parts) largest = std::max(largest, part[0]);
+    return largest;
 }
 
 /// |a_i - b_i|^2

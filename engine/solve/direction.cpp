@@ -10,7 +10,7 @@ namespace {
 
 void set_prescribed(const StageEquations& equations, Vectors& direction) {
     const ImplicitStage& stage = equations.stage();
-    direction.resize(stage.scene.model.vertex_count());
+    set_zero(stage.scene.compute, direction, stage.scene.model.vertex_count());
     if (!stage.scene.plan.pins_move || equations.arrived()) return;
     const Vectors& positions = equations.space().current.positions;
     for (int i = 0; i < stage.scene.model.vertex_count(); ++i) {
@@ -41,8 +41,7 @@ void fill_system(const StageEquations& equations, const ForeseenRows* foreseen) 
     StageTimer timer(equations.times().setup);
     space.solver.fill(point.forces.spring_terms, foreseen ? foreseen->blocks : point.contact.blocks);
     space.solver.add_enclosed(point.forces.enclosed, point.positions);
-    space.right_side.resize(stage.scene.model.vertex_count());
-    add_scaled(space.right_side, -1.0, point.residual);
+    set_each(stage.scene.compute, point.residual, point.residual, space.right_side, [](double r, double) { return 0.0 - r; });
     if (foreseen) foreseen->add_to(stage.scene.script.free, space.right_side);
     leave_settled(stage.scene.model, space);
     if (!stage.scene.plan.obstacles_move || equations.arrived()) return;
@@ -120,7 +119,8 @@ bool estimate_direction(const StageEquations& equations) {
     NewtonSpace& space = equations.space();
     StageTimer timer(equations.times().solve);
     if (!space.solver.estimate(space.current.residual, space.direction)) return false;
-    add_scaled(space.direction, -2.0, space.direction);  // the direction is -A^-1 r
+    set_each(equations.stage().scene.compute, space.direction, space.direction, space.direction,
+             [](double z, double) { return -z; });  // the direction is -A^-1 r
     return true;
 }
 

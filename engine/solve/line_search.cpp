@@ -48,7 +48,7 @@ bool moves_nothing(const StageEquations& equations) {
     const NewtonSpace& space = equations.space();
     const int count = equations.stage().scene.model.vertex_count();
     const auto largest = [&](const Vectors& vectors) {
-        return largest_term(0, count, [&](int i) { return square_at(vectors, i); });
+        return largest_term(equations.stage().scene.compute, 0, count, [&](int i) { return square_at(vectors, i); });
     };
     const double moved = equations.stage().base.h * std::sqrt(largest(space.direction));
     return moved <= position_rounding * std::sqrt(largest(space.current.positions));

@@ -23,12 +23,12 @@ struct Search {
 
 /// |r| in velocity units weighted by mass: sqrt(sum |r_i|^2/m_i).
 double residual_norm(const StepScene& scene, const Vectors& residual) {
-    return std::sqrt(
-        sum_terms(0, scene.model.vertex_count(), [&](int i) { return square_at(residual, i) / scene.model.mass[i]; }));
+    return std::sqrt(sum_terms(scene.compute, 0, scene.model.vertex_count(),
+                               [&](int i) { return square_at(residual, i) / scene.model.mass[i]; }));
 }
 
 double total_mass(const StepScene& scene) {
-    return sum_terms(0, scene.model.vertex_count(), [&](int i) { return scene.model.mass[i]; });
+    return sum_terms(scene.compute, 0, scene.model.vertex_count(), [&](int i) { return scene.model.mass[i]; });
 }
 
 /// The momentum that gravity gives in a stage, as a norm: what a residual is measured against in a scene that is at rest.
@@ -155,8 +155,8 @@ NewtonEnd end_of(const StageEquations& equations, const Search& search, const Ne
 void leave(const StageEquations& equations, StageEnd end) {
     const ImplicitStage& stage = equations.stage();
     const StagePoint& point = equations.space().current;
-    end.cloth.positions = point.positions;
-    end.cloth.velocities = point.velocities;
+    copy(stage.scene.compute, point.positions, end.cloth.positions);
+    copy(stage.scene.compute, point.velocities, end.cloth.velocities);
     for (int i = 0; i < stage.scene.model.vertex_count(); ++i) {
         if (!stage.scene.is_free(i) && equations.arrived()) end.cloth.positions.set(i, stage.targets.at(i));
     }
@@ -167,7 +167,7 @@ void leave(const StageEquations& equations, StageEnd end) {
         end.cloth.impacts = stage.start.impacts;
     }
     end.cloth.points.resize(stage.start.points.size());
-    update_points(end.cloth);
+    copy_out(stage.scene.compute, end.cloth.positions, end.cloth.points);
     equations.end_contact(end.contact);
 }
 

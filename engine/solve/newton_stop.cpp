@@ -11,13 +11,14 @@ namespace {
 
 double squared_from(const TimeError& error, int first, int count, const Vectors& velocities, const Vectors& from) {
     const double *free = error.free->data(), *mass = error.model->mass.data();
-    return sum_terms(first, count, [&](int i) { return free[i] * mass[i] * square_between(velocities, from, i); });
+    return sum_terms(*error.compute, first, count,
+                     [&](int i) { return free[i] * mass[i] * square_between(velocities, from, i); });
 }
 
 /// The same for the worst vertex of a cloth, m^2/s^2.
 double largest_error(const TimeError& error, const ClothRange& cloth, const Vectors& velocities) {
     const auto largest_from = [&](const Vectors& from) {
-        return largest_term(cloth.first, cloth.count, [&](int i) { return square_between(velocities, from, i); });
+        return largest_term(*error.compute, cloth.first, cloth.count, [&](int i) { return square_between(velocities, from, i); });
     };
     const double change = largest_from(*error.start);
     if (!error.foreseen) return change;
@@ -40,7 +41,8 @@ double allowed_share(const StepSettings& settings) {
 TimeError time_error_of(const ImplicitStage& stage) {
     const Vectors& foreseen = stage.base.foreseen;
     const StepSettings& settings = stage.scene.settings;
-    TimeError error{.model = &stage.scene.model,
+    TimeError error{.compute = &stage.scene.compute,
+                    .model = &stage.scene.model,
                     .free = &stage.scene.script.free,
                     .dt = stage.base.h,
                     .start = &stage.start.velocities,
@@ -61,10 +63,11 @@ bool change_is_small(const TimeError& error, const NewtonChange& change, double 
     const auto last = model.cloths.begin() + cloth_of(model, body.first + body.count - 1);
     return std::all_of(first, last + 1, [&](const ClothRange& cloth) {
         const Vectors &residual = change.residual, &direction = change.direction;
-        const double gain = -sum_terms(cloth.first, cloth.count, [&](int i) {
+        const double gain = -sum_terms(*error.compute, cloth.first, cloth.count, [&](int i) {
             return residual.x[i] * direction.x[i] + residual.y[i] * direction.y[i] + residual.z[i] * direction.z[i];
         });
-        const double worst = largest_term(cloth.first, cloth.count, [&](int i) { return square_at(direction, i); });
+        const double worst =
+            largest_term(*error.compute, cloth.first, cloth.count, [&](int i) { return square_at(direction, i); });
         const double worst_error = largest_error(error, cloth, change.ahead);
         const double moved = error.dt * std::sqrt(std::max(gain, 0.0) / cloth.mass);
         const double time_error =

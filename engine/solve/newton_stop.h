@@ -9,6 +9,7 @@ namespace percale {
 
 /// What tells the error that the time step makes, against which the solver's own is held.
 struct TimeError {
+    const Compute* compute = nullptr;
     const ClothModel* model = nullptr;
     const AlignedVector<double>* free = nullptr;
     double dt = 0.0;                    // s, h of the stage

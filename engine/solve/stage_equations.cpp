@@ -9,21 +9,16 @@ namespace percale {
 namespace {
 
 /// Before and after contact is added, so that the factor of all other forces is 1.
-void weigh(double factor, Forces& forces) {
+void weigh(const Compute& compute, double factor, Forces& forces) {
     if (factor == 1.0) return;
-    for (auto* axis : {&forces.total.x, &forces.total.y, &forces.total.z}) {
-        for (double& force : *axis) force *= factor;
-    }
+    Vectors& total = forces.total;
+    set_each(compute, total, total, total, [factor](double force, double) { return force * factor; });
     forces.potential *= factor;
 }
 
 /// to = from + fraction (to - from)
-void shorten(const Vectors& from, double fraction, Vectors& to) {
-    for (std::size_t i = 0; i < to.padded_size(); ++i) {
-        to.x[i] = from.x[i] + fraction * (to.x[i] - from.x[i]);
-        to.y[i] = from.y[i] + fraction * (to.y[i] - from.y[i]);
-        to.z[i] = from.z[i] + fraction * (to.z[i] - from.z[i]);
-    }
+void shorten(const Compute& compute, const Vectors& from, double fraction, Vectors& to) {
+    set_each(compute, from, to, to, [fraction](double a, double b) { return a + fraction * (b - a); });
 }
 
 }  // namespace
@@ -36,16 +31,19 @@ StageEquations::StageEquations(const ImplicitStage& stage, const ContactMemory& 
       contact_dt_(stage.base.h * std::sqrt(stage.contact_weight)) {
     const StepScene& scene = stage.scene;
     StagePoint& current = space.current;
-    current.positions = stage.start.positions;
-    current.velocities = stage.start.velocities;
-    current.points = space.trial.points = stage.start.points;
+    copy(scene.compute, stage.start.positions, current.positions);
+    copy(scene.compute, stage.start.velocities, current.velocities);
+    if (scene.plan.contacts) {
+        current.points = stage.start.points;
+        space.trial.points.resize(current.points.size());
+    }
     current.fraction = stage.moves_are_scripted() ? stage.span.from : stage.span.to;
     space.frozen_diagonal.padded = 0;
     if (!space.solver.is_for(scene.model)) space.solver.set_model(scene.compute, scene.model, scene.settings.linear_solver);
     space.solver.matrix.free = scene.script.free;
     space.solver.start_stage();
     if (scene.plan.contacts) law_.begin(memory);
-    for (auto* vectors : {&space.direction, &space.right_side}) vectors->resize(scene.model.vertex_count());
+    for (auto* vectors : {&space.direction, &space.right_side}) set_zero(scene.compute, *vectors, scene.model.vertex_count());
     space.friction = {
         .positions = &stage.start.positions, .fraction = stage.span.from, .grips = stage.start.grips, .flows = stage.flows};
     set_step_springs(
@@ -57,14 +55,16 @@ StageEquations::StageEquations(const ImplicitStage& stage, const ContactMemory& 
 void StageEquations::predict() {
     const StepScene& scene = stage_.scene;
     StagePoint& current = space_.current;
-    for (int i = 0; i < scene.model.vertex_count(); ++i) {
-        const Vec3 to_target = (stage_.targets.at(i) - stage_.base.positions.at(i)) / stage_.base.h;
-        space_.direction.set(i, scene.is_free(i) ? stage_.start.velocities.at(i) : to_target);
-    }
+    const double h = stage_.base.h, rate = 1.0 / h;
     // Velocities along the way are (q - q*)/h: what a cut takes from the move is not stored as energy.
-    current.velocities.resize(scene.model.vertex_count());
-    set_extrapolated(current.velocities, 1.0 / stage_.base.h, stage_.start.positions, stage_.base.positions, current.velocities);
-    add_scaled(space_.direction, -1.0, current.velocities);
+    set_each(scene.compute, stage_.start.positions, stage_.base.positions, current.velocities,
+             [rate](double start, double base) { return rate * start - rate * base; });
+    set_each(scene.compute, stage_.start.velocities, current.velocities, space_.direction,
+             [](double start, double now) { return start - now; });
+    for (int i = 0; i < scene.model.vertex_count(); ++i) {
+        if (scene.is_free(i)) continue;
+        space_.direction.set(i, (stage_.targets.at(i) - stage_.base.positions.at(i)) / h - current.velocities.at(i));
+    }
     aim(1.0);
     if (scene.plan.contacts) {
         StageTimer timer(times_.refresh);
@@ -99,7 +99,7 @@ double StageEquations::cut() {
     const double kept = stage_.scene.detector->largest_safe_fraction(current.points, trial.points, span);
     smallest_fraction_ = std::min(smallest_fraction_, kept);
     if (kept >= 1.0) return 1.0;
-    shorten(current.velocities, kept, trial.velocities);
+    shorten(stage_.scene.compute, current.velocities, kept, trial.velocities);
     place(trial);
     if (stage_.moves_are_scripted()) trial.fraction = current.fraction + kept * (span.to - span.from);
     return kept;
@@ -134,9 +134,9 @@ void StageEquations::add_contact(StagePoint& point) {
         space_.frozen_load = point.forces.total;
         law_.meet(point.rows);
     }
-    weigh(1.0 / stage_.contact_weight, point.forces);
+    weigh(stage_.scene.compute, 1.0 / stage_.contact_weight, point.forces);
     law_.evaluate(contact_point(point, first), contact_forces(point));
-    weigh(stage_.contact_weight, point.forces);
+    weigh(stage_.scene.compute, stage_.contact_weight, point.forces);
     largest_stiffness_ = std::max(largest_stiffness_, point.contact.largest_stiffness);
 }
 

@@ -43,8 +43,8 @@ StepEnergy energy_of(const StepScene& scene, const StepState& state) {
     const ClothState& cloth = state.cloth;
     const std::vector<double>& mass = scene.model.mass;
     StepEnergy energy;
-    energy.kinetic =
-        0.5 * sum_terms(0, scene.model.vertex_count(), [&](int i) { return mass[i] * square_at(cloth.velocities, i); });
+    energy.kinetic = 0.5 * sum_terms(scene.compute, 0, scene.model.vertex_count(),
+                                     [&](int i) { return mass[i] * square_at(cloth.velocities, i); });
     for (const ForceTerm* term : force_terms()) {
         if (!term->entry() || !term->acts({.model = &scene.model})) continue;
         energy.*term->entry() += term->energy({scene.model, cloth.positions, cloth.rest_length, scene.settings.gravity});
@@ -57,11 +57,11 @@ double largest_speed(const Vectors& velocities, int count) {
     return std::sqrt(largest_term(0, count, [&](int i) { return square_at(velocities, i); }));
 }
 
-bool all_finite(const ClothState& cloth) {
+bool all_finite(const Compute& compute, const ClothState& cloth) {
     double sum = 0.0;
     for (const auto* vectors : {&cloth.positions, &cloth.velocities}) {
         for (const auto* axis : {&vectors->x, &vectors->y, &vectors->z}) {
-            sum += sum_terms(0, static_cast<int>(axis->size()), [&](int i) { return 0.0 * (*axis)[i]; });
+            sum += sum_terms(compute, 0, static_cast<int>(axis->size()), [&](int i) { return 0.0 * (*axis)[i]; });
         }
     }
     return sum == 0.0;

@@ -11,7 +11,7 @@ StepEnergy energy_of(const StepScene& scene, const StepState& state);
 double largest_speed(const Vectors& velocities, int count);
 
 /// No position or velocity is infinite or NaN.
-bool all_finite(const ClothState& cloth);
+bool all_finite(const Compute& compute, const ClothState& cloth);
 
 /// Fills a step's report with what its end is like: energies, strain, speed, contacts.
 class StepMeasure {

@@ -46,7 +46,7 @@ double plan_step(World& world) {
 
 /// Whether the end that was found is one: nothing infinite, no force that contradicts its energy.
 void check_end(const StepScene& scene, const StepState& start, const StepState& end, const Workspace& work, StepReport& report) {
-    if (report.ok() && !all_finite(end.cloth)) report.status = StepStatus::not_finite;
+    if (report.ok() && !all_finite(scene.compute, end.cloth)) report.status = StepStatus::not_finite;
     if (report.ok() && scene.settings.check_derivatives)
         check_derivatives({scene, start.cloth, end, work, report.smallest_dt}, report);
 }

@@ -4,12 +4,14 @@
 
 namespace percale {
 
-/// CPU seconds used by the calling thread.
-inline double thread_cpu_seconds() {
+inline double cpu_seconds_of(clockid_t clock) {
     timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    clock_gettime(clock, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+/// CPU seconds used by the calling thread.
+inline double thread_cpu_seconds() { return cpu_seconds_of(CLOCK_THREAD_CPUTIME_ID); }
 
 /// Adds the CPU time of its scope to a total.
 class StageTimer {

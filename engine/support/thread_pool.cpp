@@ -1,5 +1,7 @@
 #include "thread_pool.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -10,6 +12,10 @@
 #include "percale/error.h"
 #include "stage_timer.h"
 #include "tolerances.h"
+
+#if defined(__SANITIZE_THREAD__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wtsan"  // it does not model fences; what the one below orders are atomics all the same
+#endif
 
 namespace percale {
 namespace {
@@ -22,89 +28,112 @@ void relax() {
 
 }  // namespace
 
-/// A run is open while parts are left. A worker enters, looks whether a run is open and takes parts; the caller closes the run
-/// when no part is left and waits until nobody is inside. Both write first and read then, in one order for all (the default of
-/// atomics), so that one of them sees the other: no worker touches the data of a run that has returned.
+/// A run is open while parts are left. A worker says that it is inside, looks whether a run is open and takes parts; the caller
+/// closes the run when no part is left and waits until nobody is inside. Both write first and read then, in one order for all
+/// (the default of atomics), so that one of them sees the other: no worker touches the data of a run that has returned.
+///
+/// Only as many workers are called as there are parts, each by a line of memory that nobody else looks at: the others go on
+/// sleeping, and a call costs what those few lines cost.
 struct ThreadPool::Shared {
-    /// Parts of one thread that nobody has begun yet, on a cache line of its own.
-    struct alignas(64) Stretch {
+    /// One thread's line. A stretch of parts that nobody has begun yet is empty between runs.
+    struct alignas(64) Seat {
         std::atomic<int> next = 0;
         int end = 0;
+        std::atomic<bool> inside = false;
+    };
+    struct alignas(64) Bell {
+        std::atomic<int> round = 0;  // a new one calls the worker
+        std::atomic<bool> sleeps = false;
     };
 
     std::vector<std::thread> workers;
-    std::vector<Stretch> stretches;  // one a thread
-    std::vector<std::atomic<double>> cpu_seconds;
-    std::atomic<bool> in_use = false;  // by a caller
-    std::atomic<bool> open = false;
-    std::atomic<int> inside = 0;    // workers
-    std::atomic<int> round = 0;     // a new one wakes workers
-    std::atomic<int> sleeping = 0;  // of them, about to wait for it
+    std::vector<Seat> seats;  // one a thread
+    std::vector<Bell> bells;
+    std::vector<clockid_t> clocks;                 // of the workers' CPU time
+    alignas(64) std::atomic<bool> in_use = false;  // by a caller
     std::atomic<bool> stopping = false;
     bool spin = true;
+    int last_round = 0;
+    alignas(64) std::atomic<bool> open = false;
+    int called = 1;           // threads of this run, the caller's included
+    bool many_parts = false;  // more than one a thread
     void (*work)(void* data, int part, int slot) = nullptr;
     void* data = nullptr;
 
-    explicit Shared(int threads) : stretches(threads), cpu_seconds(threads) {}
+    explicit Shared(int threads) : seats(threads), bells(threads) {}
 
-    int threads() const { return static_cast<int>(stretches.size()); }
+    int threads() const { return static_cast<int>(seats.size()); }
 
     /// Also where not all threads could be started.
     ~Shared() {
         stopping = true;
-        ++round;
-        round.notify_all();
+        ring(threads());
         for (std::thread& worker : workers) worker.join();
     }
 
-    /// Its own stretch first, then what is left of the others.
+    void take_parts_of(int seat, int thread) {
+        Seat& from = seats[seat];
+        if (from.next.load(std::memory_order_relaxed) >= from.end) return;
+        for (int part = from.next++; part < from.end; part = from.next++) work(data, part, thread);
+    }
+
+    /// Its own stretch first, then what is left of the others; with one part a thread only the caller looks at the others.
     void take_parts(int thread) {
-        for (int k = 0; k < threads(); ++k) {
-            Stretch& stretch = stretches[(thread + k) % threads()];
-            if (stretch.next.load(std::memory_order_relaxed) >= stretch.end) continue;
-            for (int part = stretch.next++; part < stretch.end; part = stretch.next++) work(data, part, thread);
-        }
+        take_parts_of(thread, thread);
+        if (thread > 0 && !many_parts) return;
+        for (int k = 1; k < called; ++k) take_parts_of((thread + k) % called, thread);
     }
 
     /// Waits for a round other than `seen`; returns it.
-    int wait_for_round(int seen) {
+    int wait_for_round(int thread, int seen) {
+        Bell& bell = bells[thread];
         const auto start = std::chrono::steady_clock::now();
         while (spin && std::chrono::steady_clock::now() - start < longest_spin) {
             for (int k = 0; k < spins_between_looks; ++k) {
-                if (const int now = round.load(std::memory_order_acquire); now != seen) return now;
+                if (const int now = bell.round.load(std::memory_order_acquire); now != seen) return now;
                 relax();
             }
         }
-        ++sleeping;
-        round.wait(seen);
-        --sleeping;
-        return round;
+        bell.sleeps = true;
+        while (bell.round == seen) bell.round.wait(seen);
+        bell.sleeps.store(false, std::memory_order_relaxed);
+        return bell.round;
     }
 
     void serve(int thread) {
         for (int seen = 0;;) {
-            seen = wait_for_round(seen);
+            seen = wait_for_round(thread, seen);
             if (stopping) return;
-            ++inside;
-            if (open) {
-                take_parts(thread);
-                cpu_seconds[thread].store(thread_cpu_seconds(), std::memory_order_relaxed);
-            }
-            --inside;
+            seats[thread].inside = true;
+            if (open && thread < called) take_parts(thread);
+            seats[thread].inside.store(false, std::memory_order_release);
+        }
+    }
+
+    /// Calls the workers before `count`.
+    void ring(int count) {
+        ++last_round;
+        for (int t = 1; t < count; ++t) bells[t].round.store(last_round, std::memory_order_release);
+        std::atomic_thread_fence(std::memory_order_seq_cst);
+        for (int t = 1; t < count; ++t) {
+            if (bells[t].sleeps.load(std::memory_order_relaxed)) bells[t].round.notify_one();
         }
     }
 
     void share_out(int parts) {
-        for (int t = 0; t < threads(); ++t) {
-            stretches[t].next.store(static_cast<int>(static_cast<long>(parts) * t / threads()), std::memory_order_relaxed);
-            stretches[t].end = static_cast<int>(static_cast<long>(parts) * (t + 1) / threads());
+        called = std::min(parts, threads());
+        many_parts = parts > called;
+        for (int t = 0; t < called; ++t) {
+            seats[t].next.store(static_cast<int>(static_cast<long>(parts) * t / called), std::memory_order_relaxed);
+            seats[t].end = static_cast<int>(static_cast<long>(parts) * (t + 1) / called);
         }
         open = true;
-        ++round;
-        if (sleeping > 0) round.notify_all();
+        ring(called);
         take_parts(0);
         open = false;
-        while (inside > 0) relax();
+        for (int t = 1; t < threads(); ++t) {
+            while (seats[t].inside) relax();
+        }
     }
 };
 
@@ -112,7 +141,12 @@ ThreadPool::ThreadPool(int threads) : shared_(std::make_unique<Shared>(threads))
     // With fewer cores than threads a spinning thread would take the core from one that works.
     shared_->spin = threads <= static_cast<int>(std::thread::hardware_concurrency());
     shared_->workers.reserve(threads - 1);
-    for (int t = 1; t < threads; ++t) shared_->workers.emplace_back([shared = shared_.get(), t] { shared->serve(t); });
+    shared_->clocks.reserve(threads - 1);
+    for (int t = 1; t < threads; ++t) {
+        std::thread& worker = shared_->workers.emplace_back([shared = shared_.get(), t] { shared->serve(t); });
+        clockid_t clock{};
+        if (pthread_getcpuclockid(worker.native_handle(), &clock) == 0) shared_->clocks.push_back(clock);
+    }
 }
 
 ThreadPool::~ThreadPool() = default;
@@ -121,7 +155,7 @@ int ThreadPool::threads() const { return shared_->threads(); }
 
 double ThreadPool::other_cpu_seconds() const {
     double sum = 0.0;
-    for (const auto& seconds : shared_->cpu_seconds) sum += seconds.load(std::memory_order_relaxed);
+    for (const clockid_t clock : shared_->clocks) sum += cpu_seconds_of(clock);
     return sum;
 }
 

@@ -40,13 +40,13 @@ TEST_CASE("The total force is gravity and springs, the potential the sum of thei
     evaluate_forces(sheet.input, forces);
     Vectors expected;
     expected.resize(30);
-    set_gravity_forces(sheet.model.mass, sheet.input.gravity, expected);
+    set_gravity_forces(compute, sheet.model.mass, sheet.input.gravity, expected);
     SpringTerms terms;
     const double springs =
         evaluate_springs(compute, sheet.springs, {sheet.positions, sheet.velocities, 0.01}, true, expected, terms);
     CHECK(same_bits(forces.total, expected));
     CHECK(forces.potential ==
-          Approx(springs + gravity_energy(sheet.model.mass, sheet.input.gravity, sheet.positions)).epsilon(1e-14));
+          Approx(springs + gravity_energy(compute, sheet.model.mass, sheet.input.gravity, sheet.positions)).epsilon(1e-14));
     for (int k = 0; k < sheet.model.springs.size(); ++k) {
         const SpringBlock block = spring_block(sheet.model.adjacency, forces.spring_terms, k);
         const SpringBlock alone = spring_block(sheet.model.adjacency, terms, k);

@@ -54,6 +54,20 @@ TEST_CASE("every part is done once, by slots that no two threads have at a time"
     }
 }
 
+TEST_CASE("no more threads are called than there are parts") {
+    ThreadPool pool(5);
+    std::atomic<int> highest = 0, done = 0;
+    auto note = [&](int, int slot) {
+        ++done;
+        for (int seen = highest; slot > seen && !highest.compare_exchange_weak(seen, slot);) continue;
+    };
+    for (int repeat = 0; repeat < 2000; ++repeat) run_parts(&pool, 2, note);
+    CHECK(done == 4000);
+    CHECK(highest <= 1);
+    run_parts(&pool, 5, note);
+    CHECK(done == 4005);
+}
+
 TEST_CASE("the threads of a pool work at the same time, and what they wrote is there after the run") {
     ThreadPool pool(3);
     std::atomic<int> arrived = 0;

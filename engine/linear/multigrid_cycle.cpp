@@ -1,0 +1,212 @@
+#include <algorithm>
+
+#include "multigrid.h"
+#include "tolerances.h"
+
+namespace percale {
+namespace {
+
+using FloatBlock = std::array<float, 6>;
+using FloatVec = std::array<float, 3>;
+
+FloatVec times(const FloatBlock& m, const FloatVec& u) {
+    return {m[0] * u[0] + m[1] * u[1] + m[2] * u[2], m[1] * u[0] + m[3] * u[1] + m[4] * u[2],
+            m[2] * u[0] + m[4] * u[1] + m[5] * u[2]};
+}
+
+FloatVec at(const FloatVectors& v, int i) { return {v.data[i], v.data[v.padded + i], v.data[2 * v.padded + i]}; }
+
+void set(const FloatVectors& v, int i, const FloatVec& value) {
+    for (int axis = 0; axis < 3; ++axis) v.data[axis * v.padded + i] = value[axis];
+}
+
+FloatVec sum(const FloatVec& a, const FloatVec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+FloatVec difference(const FloatVec& a, const FloatVec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+FloatVec scaled(float factor, const FloatVec& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
+
+/// K sum w x of one row.
+FloatVec row_force(const CoupledBlock& row, const FloatVectors& x) {
+    FloatVec u{};
+    for (int k = 0; k < 4 && row.vertex[k] >= 0; ++k) u = sum(u, scaled(static_cast<float>(row.weight[k]), at(x, row.vertex[k])));
+    FloatBlock block;
+    for (int k = 0; k < 6; ++k) block[k] = static_cast<float>(row.k[k]);
+    return times(block, u);
+}
+
+}  // namespace
+
+FloatVectors Multigrid::view(const AlignedVector<float>& data, const Level& level) {
+    return {const_cast<float*>(data.data()), level.padded};
+}
+
+/// work(vertex, its number) for the filtered vertices of a range of the finest level.
+template <class Work>
+void Multigrid::for_filtered(Slices range, Work work) {
+    const auto vertex = [&](int number) { return filtered_[number].vertex; };
+    const auto first = std::ranges::lower_bound(by_vertex_, range.first * slice_lanes, {}, vertex);
+    for (auto it = first; it != by_vertex_.end() && vertex(*it) < range.last * slice_lanes; ++it) work(filtered_[*it], *it);
+}
+
+void Multigrid::place(int k, const AlignedVector<float>& x, Slices range) {
+    Level& level = levels_[k];
+    const BandPattern* bands = level.pattern.bands;
+    if (!bands) return compute_.kernels->pack_float_points(view(x, level), level.points.data(), range);
+    const std::size_t first = static_cast<std::size_t>(range.first) * slice_lanes;
+    const std::size_t count = static_cast<std::size_t>(range.last - range.first) * slice_lanes;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float* source = x.data() + axis * bands->padded + first;
+        std::copy_n(source, count, &guarded_[axis * (bands->padded + 2 * bands->guard) + bands->guard + first]);
+    }
+}
+
+/// y = A x, or right - A x, with x in its place; springs and ground only.
+void Multigrid::multiply_level(int k, const AlignedVector<float>& x, const float* right, AlignedVector<float>& y, Slices range) {
+    Level& level = levels_[k];
+    const FloatPass pass{.pattern = level.pattern,
+                         .values = level.values,
+                         .ground = level.ground.data(),
+                         .x = view(x, level),
+                         .y = view(y, level),
+                         .points = level.pattern.bands ? guarded_.data() : level.points.data(),
+                         .right = right};
+    (k == 0 ? compute_.kernels->multiply_fine : compute_.kernels->multiply_coarse)(pass, range);
+    if (!level.corners) return;
+    const CornerProduct corners{adjacency_.membrane.corners(), level.corners};
+    compute_.kernels->multiply_float_corners(corners, pass, range);
+}
+
+void Multigrid::set_row_forces(const AlignedVector<float>& x) {
+    const FloatVectors from = view(x, levels_[0]);
+    const int rows = static_cast<int>(contacts_.size());
+    for_stretches(compute_, rows, row_grain, rows >= least_shared_rows, [&](int first, int last, int) {
+        for (int row = first; row < last; ++row) row_force_[row] = row_force(contacts_[row], from);
+    });
+}
+
+void Multigrid::product(const AlignedVector<float>& x, AlignedVector<float>& y, Slices range) {
+    multiply_level(0, x, nullptr, y, range);
+    const FloatVectors result = view(y, levels_[0]);
+    for_filtered(range, [&](const Filtered& vertex, int number) {
+        FloatVec value = at(result, vertex.vertex);
+        for (int k = vertex.first_row; k < vertex.first_row + vertex.rows; ++k) {
+            value = sum(value, scaled(row_ends_[k].weight, row_force_[row_ends_[k].row]));
+        }
+        set(result, vertex.vertex, number < prescribed_ ? FloatVec{} : value);
+    });
+}
+
+void Multigrid::multiply(const AlignedVector<float>& x, AlignedVector<float>& y) {
+    for_chunks(compute_, slices(), [&](Slices range) { place(x, range); });
+    set_row_forces(x);
+    for_chunks(compute_, slices(), [&](Slices range) { product(x, y, range); });
+}
+
+/// x += omega D^-1 r, or x = omega D^-1 b.
+void Multigrid::smooth(int k, bool fresh, Slices range) {
+    Level& level = levels_[k];
+    const SmoothPass pass{.inverse = level.inverse.data(),
+                          .r = view(fresh ? level.b : level.r, level),
+                          .x = view(level.x, level),
+                          .factor = jacobi_damping,
+                          .fresh = fresh};
+    compute_.kernels->smooth(pass, range);
+}
+
+/// From x = 0; x in its place.
+void Multigrid::begin(int k, Slices range) {
+    smooth(k, true, range);
+    place(k, levels_[k].x, range);
+}
+
+/// r = b - A x.
+void Multigrid::set_residual(int k, Slices range) {
+    Level& level = levels_[k];
+    multiply_level(k, level.x, level.b.data(), level.r, range);
+    if (k > 0) return;
+    const FloatVectors x = view(level.x, level), r = view(level.r, level);
+    for_filtered(range, [&](const Filtered& vertex, int) {
+        set(r, vertex.vertex, difference(at(r, vertex.vertex), times(vertex.contact, at(x, vertex.vertex))));
+    });
+}
+
+/// The residual, filtered at the finest level, handed to the coarser one.
+void Multigrid::hand_down(int k, Slices range) {
+    Level& level = levels_[k];
+    set_residual(k, range);
+    const FloatVectors r = view(level.r, level);
+    if (k == 0) {
+        for_filtered(range,
+                     [&](const Filtered& vertex, int) { set(r, vertex.vertex, times(vertex.filter, at(r, vertex.vertex))); });
+    }
+    compute_.kernels->pack_float_points(r, level.handed.data(), range);
+}
+
+/// The last sweep; a coarser level hands its x up.
+void Multigrid::finish(int k, Slices range) {
+    Level& level = levels_[k];
+    set_residual(k, range);
+    smooth(k, false, range);
+    if (k > 0) compute_.kernels->pack_float_points(view(level.x, level), level.handed.data(), range);
+}
+
+/// x += P (coarser x), filtered at the finest level; x in its place.
+void Multigrid::prolong(int k, Slices range) {
+    Level& level = levels_[k];
+    const FloatVectors x = view(level.x, level);
+    if (k == 0) for_filtered(range, [&](const Filtered& vertex, int number) { before_[number] = at(x, vertex.vertex); });
+    transfer(patterns_[k].prolongation, levels_[k + 1].handed, x, true, range);
+    if (k == 0) {
+        for_filtered(range, [&](const Filtered& vertex, int number) {
+            const FloatVec change = difference(at(x, vertex.vertex), before_[number]);
+            set(x, vertex.vertex, sum(times(vertex.filter, change), before_[number]));
+        });
+    }
+    place(k, level.x, range);
+}
+
+void Multigrid::transfer(const TransferLists& lists, const AlignedVector<float>& points, FloatVectors to, bool add,
+                         Slices range) const {
+    compute_.kernels->transfer(
+        {.pattern = lists.pattern(), .weights = lists.weight.data(), .points = points.data(), .y = to, .add = add}, range);
+}
+
+/// All of a cycle at level k between its first sweep and its last.
+void Multigrid::correct(int k) {
+    if (k + 1 == levels()) return;
+    Level &level = levels_[k], &coarser = levels_[k + 1];
+    const int least = k == 0 ? least_shared_slices : least_shared_coarse_slices;
+    const bool solves = k + 2 == levels() && bottom_size_ > 0;
+    for_chunks(
+        compute_, level.slices, [&](Slices range) { hand_down(k, range); }, least);
+    for_chunks(
+        compute_, coarser.slices,
+        [&](Slices range) {
+            transfer(patterns_[k].restriction, level.handed, view(coarser.b, coarser), false, range);
+            if (!solves) begin(k + 1, range);
+        },
+        least_shared_coarse_slices);
+    if (solves) {
+        solve_bottom(coarser);
+    } else {
+        correct(k + 1);
+        for_chunks(
+            compute_, coarser.slices, [&](Slices range) { finish(k + 1, range); }, least_shared_coarse_slices);
+    }
+    for_chunks(
+        compute_, level.slices, [&](Slices range) { prolong(k, range); }, least);
+}
+
+void Multigrid::solve_bottom(Level& level) {
+    for (int i = 0; i < bottom_size_; ++i) bottom_x_[i] = level.b[(i % 3) * level.padded + i / 3];
+    compute_.kernels->dense_multiply(bottom_inverse_.data(), bottom_size_, bottom_stride_, bottom_x_.data(), bottom_y_.data());
+    for (int i = 0; i < bottom_size_; ++i) level.x[(i % 3) * level.padded + i / 3] = bottom_y_[i];
+    compute_.kernels->pack_float_points(view(level.x, level), level.handed.data(), {0, level.slices});
+}
+
+void Multigrid::cycle() {
+    for_chunks(compute_, slices(), [&](Slices range) { begin(range); });
+    correct();
+    for_chunks(compute_, slices(), [&](Slices range) { finish(range); });
+}
+
+}  // namespace percale
