@@ -25,9 +25,9 @@ std::string short_number(double value) {
 }
 
 std::string percent_text(double share) {
-    const double percent = 100.0 * share;
-    return (std::abs(percent) < 10.0 ? short_number(std::round(10.0 * percent) / 10.0) : std::to_string(std::lround(percent))) +
-           " %";
+    const double percent = 100.0 * share, size = std::abs(percent);
+    if (!(size < 1e9)) return short_number(percent) + " %";
+    return (size < 10.0 ? short_number(std::round(10.0 * percent) / 10.0) : std::to_string(std::lround(percent))) + " %";
 }
 
 std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }

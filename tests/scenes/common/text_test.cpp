@@ -34,6 +34,14 @@ TEST_CASE("number texts read back as the same number") {
     }
 }
 
+TEST_CASE("shares are told in per cent, however large") {
+    CHECK(percent_text(0.0123) == "1.2 %");
+    CHECK(percent_text(-0.5) == "-50 %");
+    CHECK(percent_text(123.4) == "12340 %");
+    CHECK(percent_text(1.28408e19) == "1.28e+21 %");
+    CHECK(percent_text(std::numeric_limits<double>::infinity()) == "inf %");
+}
+
 TEST_CASE("a distance is told in metres, an infinite one in words") {
     CHECK(nearness_text(0.00321) == "smallest distance 0.00321 m");
     CHECK(nearness_text(0.0) == "smallest distance 0 m");
