@@ -14,7 +14,7 @@ namespace {
 void check_is_file(const std::string& file) {
     std::error_code status;
     if (!std::filesystem::exists(file, status)) throw SceneError(file + ": no such file");
-    if (!std::filesystem::is_regular_file(file, status)) throw SceneError(file + ": not a file; name scene files and mesh files");
+    if (!std::filesystem::is_regular_file(file, status)) throw SceneError(file + ": not a file");
 }
 
 std::vector<Finding> examine_mesh(const std::string& file, MeshRole role, TriangleMesh mesh) {
@@ -56,6 +56,17 @@ long Diagnosis::count(Severity severity) const {
 
 bool Diagnosis::has(const std::string& kind) const {
     return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.kind == kind; });
+}
+
+std::vector<std::string> examinable_files(const std::string& folder) {
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string file = entry.path().string();
+        if (entry.is_regular_file() && (extension_of(file) == ".toml" || is_mesh_file(file))) files.push_back(file);
+    }
+    if (files.empty()) throw SceneError(folder + ": no scene file and no mesh file in this folder");
+    std::ranges::sort(files);
+    return files;
 }
 
 Diagnosis diagnose(const std::string& file, const DoctorSettings& settings) {

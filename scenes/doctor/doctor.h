@@ -23,6 +23,9 @@ struct DoctorSettings {
     std::vector<Override> overrides = {};  // of a scene file
 };
 
+/// The scene files and mesh files of a folder itself, by name. Throws SceneError where there is none.
+std::vector<std::string> examinable_files(const std::string& folder);
+
 /// Looks at a file: a scene if its name ends in .toml, else a mesh. What is wrong inside the file is a finding; throws SceneError
 /// only where there is no such file, or for an override that is wrong.
 Diagnosis diagnose(const std::string& file, const DoctorSettings& settings = {});

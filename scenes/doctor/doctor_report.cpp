@@ -21,10 +21,23 @@ ordered_json finding_object(const Finding& finding) {
     return json;
 }
 
+std::string counts_text(const Diagnosis& diagnosis) {
+    if (diagnosis.findings.empty()) return diagnosis.file + ": nothing found";
+    return diagnosis.file + ": " + counted(diagnosis.count(Severity::error), "error") + ", " +
+           counted(diagnosis.count(Severity::warning), "warning") + ", " + counted(diagnosis.count(Severity::note), "note");
+}
+
 }  // namespace
 
+std::string diagnosis_line(const Diagnosis& diagnosis) {
+    if (diagnosis.findings.empty()) return counts_text(diagnosis) + "\n";
+    const Finding& worst = diagnosis.findings.front();
+    const std::string use = worst.role ? std::string("as ") + role_word(*worst.role) + ": " : "";
+    return counts_text(diagnosis) + "; " + use + worst.what + "\n";
+}
+
 std::string diagnosis_text(const Diagnosis& diagnosis) {
-    if (diagnosis.findings.empty()) return diagnosis.file + ": nothing found\n";
+    if (diagnosis.findings.empty()) return counts_text(diagnosis) + "\n";
     std::string text;
     for (const Finding& finding : diagnosis.findings) {
         const bool bare = finding.role && finding.place == diagnosis.file;
@@ -32,9 +45,7 @@ std::string diagnosis_text(const Diagnosis& diagnosis) {
         text += finding.place + ": " + severity_word(finding.severity) + ": " + use + finding.what + "\n";
         text += "    fix: " + finding.fix + "\n";
     }
-    return text + diagnosis.file + ": " + counted(diagnosis.count(Severity::error), "error") + ", " +
-           counted(diagnosis.count(Severity::warning), "warning") + ", " + counted(diagnosis.count(Severity::note), "note") +
-           "\n";
+    return text + counts_text(diagnosis) + "\n";
 }
 
 std::string diagnoses_json(std::span<const Diagnosis> diagnoses) {

@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "doctor/doctor_report.h"
@@ -30,14 +32,22 @@ DoctorSettings settings_of(const DoctorOptions& options) {
 int examine(const DoctorOptions& options) {
     const DoctorSettings settings = settings_of(options);
     std::vector<Diagnosis> diagnoses;
-    for (const std::string& file : options.files) diagnoses.push_back(diagnose(file, settings));
-    long errors = 0;
-    for (const Diagnosis& diagnosis : diagnoses) {
-        errors += diagnosis.count(Severity::error);
-        if (!options.json) std::fputs(diagnosis_text(diagnosis).c_str(), stdout);
+    std::string text;
+    const auto look_at = [&](const std::string& file, std::string (*told)(const Diagnosis&)) {
+        diagnoses.push_back(diagnose(file, settings));
+        text += told(diagnoses.back());
+    };
+    for (const std::string& place : options.files) {
+        std::error_code status;
+        if (std::filesystem::is_directory(place, status)) {
+            for (const std::string& file : examinable_files(place)) look_at(file, diagnosis_line);
+        } else {
+            look_at(place, diagnosis_text);
+        }
     }
-    if (options.json) std::fputs(diagnoses_json(diagnoses).c_str(), stdout);
-    return errors == 0 ? all_well : not_as_expected;
+    std::fputs(options.json ? diagnoses_json(diagnoses).c_str() : text.c_str(), stdout);
+    const bool any = std::ranges::any_of(diagnoses, [](const Diagnosis& d) { return d.count(Severity::error) > 0; });
+    return any ? not_as_expected : all_well;
 }
 
 }  // namespace
@@ -48,8 +58,10 @@ void add_doctor_command(CLI::App& program, Action& action) {
     command->footer(
         "Examples: percale doctor data/scenes/hang.toml\n"
         "          percale doctor body.obj --as obstacle\n"
+        "          percale doctor meshes/\n"
         "Runs nothing. Exit code 1 if there is an error: something that will be refused or fail.");
-    command->add_option("FILE", options->files, "Scene files (TOML) and mesh files")->required();
+    command->add_option("FILE", options->files, "Scene files (TOML) and mesh files; of folders every such file in one line")
+        ->required();
     command->add_option("--as", options->role, "What a mesh file is to be: cloth or obstacle (default: looked at as both)")
         ->type_name("ROLE")
         ->check(CLI::IsMember({"cloth", "obstacle"}));

@@ -34,6 +34,11 @@ TEST_CASE("a diagnosis as text has place, severity, use, cause and fix of every 
     CHECK(diagnosis_text({.file = "well.obj", .findings = {}}) == "well.obj: nothing found\n");
 }
 
+TEST_CASE("a diagnosis in one line has the sums and the worst") {
+    CHECK(diagnosis_line(sick()) == "body.obj: 1 error, 0 warnings, 1 note; as cloth: 2 triangles without area: 3, 8\n");
+    CHECK(diagnosis_line({.file = "well.obj", .findings = {}}) == "well.obj: nothing found\n");
+}
+
 TEST_CASE("diagnoses as JSON say the same") {
     const std::vector<Diagnosis> all = {sick(), {.file = "well.obj", .findings = {}}};
     const auto json = nlohmann::json::parse(diagnoses_json(all)).at("files");

@@ -53,6 +53,15 @@ TEST_CASE("a mesh file that cannot be read is a finding, one that is not there i
     CHECK(message_of([&] { diagnose(folder.path()); }).find("not a file") != std::string::npos);
 }
 
+TEST_CASE("the files of a folder that can be looked at are its scenes and meshes, by name") {
+    const TestFolder folder;
+    CHECK(message_of([&] { examinable_files(folder.path()); }).find("no scene file and no mesh file") != std::string::npos);
+    for (const char* name : {"b.obj", "c.STL", "a.toml", "d.txt", "e"}) folder.write(name, "");
+    const std::vector<std::string> files = examinable_files(folder.path());
+    REQUIRE(files.size() == 3);
+    CHECK((files[0] == folder.path("a.toml") && files[1] == folder.path("b.obj") && files[2] == folder.path("c.STL")));
+}
+
 TEST_CASE("a file whose name ends in .toml is a scene, with its overrides") {
     const TestFolder folder;
     const std::string file = folder.write("Scene.TOML", falling_sheet());

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/scenes/program/run_program.h"
@@ -52,11 +53,28 @@ TEST_CASE("doctor takes --as, --set and --json") {
     CHECK(json.at(1).at("findings").at(0).at("as") == "obstacle");
 }
 
+TEST_CASE("doctor says of a folder's scenes and meshes in a line each what is worst") {
+    const TestFolder folder;
+    CHECK(refused(run_program({"doctor", "."}, folder.path()), "no mesh file in this folder"));
+    folder.write("a.obj", lone_triangle);
+    folder.write("b.obj", "v 0 0 nan\n");
+    folder.write("notes.txt", "no mesh");
+    folder.write("falling.toml", falling_sheet());
+    const ProgramRun run = run_program({"doctor", "."}, folder.path());
+    CHECK(run.exit_code == 1);
+    CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 3);
+    CHECK(run.out.find("./a.obj: 0 errors, ") == 0);
+    CHECK(run.out.find("./b.obj: 1 error, 0 warnings, 0 notes; ") != std::string::npos);
+    CHECK(run.out.find("./falling.toml: ") > run.out.find("./b.obj"));
+    const auto json = nlohmann::json::parse(run_program({"doctor", ".", "--json"}, folder.path()).out).at("files");
+    CHECK(json.size() == 3);
+}
+
 TEST_CASE("doctor refuses files that are not there and options that make no sense") {
     const TestFolder folder;
     folder.write("triangle.obj", lone_triangle);
     CHECK(refused(run_program({"doctor", "triangle.obj", "none.obj"}, folder.path()), "none.obj: no such file"));
-    CHECK(refused(run_program({"doctor", "."}, folder.path()), "not a file"));
+    CHECK(refused(run_program({"doctor", "/dev/null"}, folder.path()), "not a file"));
     folder.write("sheet.toml", sheet_on_box());
     CHECK(refused(run_program({"doctor", "sheet.toml", "--set", "step.scehme=rk4"}, folder.path()), "'scheme'"));
     CHECK(refused(run_program({"doctor", "sheet.toml", "--set", "duration=-1"}, folder.path()), "out of range"));
