@@ -7,6 +7,7 @@
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "doctor/doctor_mesh.h"
+#include "doctor/doctor_vertices.h"
 #include "format/scene_file.h"
 #include "frames/frame_formats.h"
 #include "garment/cloth_shape.h"
@@ -33,6 +34,12 @@ struct Meshes {
     std::vector<ExaminedMesh> cloths, obstacles;
     std::vector<const ClothSpec*> cloth_specs;
     std::vector<const ObstacleSpec*> obstacle_specs;
+
+    std::vector<ClothMesh> cloths_with_specs() const {
+        std::vector<ClothMesh> list;
+        for (std::size_t i = 0; i < cloths.size(); ++i) list.push_back({cloth_specs[i], &cloths[i].mesh});
+        return list;
+    }
 };
 
 std::string fix_of_mesh(const ClothSpec&) { return "name a mesh file that `percale doctor FILE` finds readable"; }
@@ -357,6 +364,7 @@ std::vector<Finding> examine_scene(const Scene& scene) {
     std::vector<Finding> found;
     const Meshes meshes = read_meshes(scene, found);
     examine_meshes(scene, meshes, found);
+    append(missing_vertices(scene, meshes.cloths_with_specs()), found);
     find_unused_fabrics(scene, found);
     find_free_fall(scene, found);
     find_flutter(scene, found);
@@ -366,7 +374,7 @@ std::vector<Finding> examine_scene(const Scene& scene) {
     if (!has_errors(found)) {
         try_to_build(scene, found);
     } else {
-        found.push_back(not_looked_at(scene.file, "pinned vertices, events, start, scheme and cost"));
+        found.push_back(not_looked_at(scene.file, "what events say together, start, scheme and cost"));
     }
     return found;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "common/text.h"
@@ -19,11 +21,15 @@ std::vector<int> sorted_once(std::vector<int> vertices) {
 
 std::vector<int> selected(const VertexIndices& indices, const TriangleMesh& mesh) {
     const int count = static_cast<int>(mesh.vertices.size());
-    for (const int vertex : indices.vertices)
-        if (vertex < 0 || vertex >= count)
-            throw SceneError("vertex " + std::to_string(vertex) + " is out of range; allowed: 0 ... " +
-                             std::to_string(count - 1));
-    return sorted_once(indices.vertices);
+    std::vector<std::string> missing;
+    for (const int vertex : indices.vertices) {
+        if (vertex < 0 || vertex >= count) missing.push_back(std::to_string(vertex));
+    }
+    if (missing.empty()) return sorted_once(indices.vertices);
+    const std::size_t told = std::min<std::size_t>(missing.size(), 8);
+    const std::string more = missing.size() > told ? " and " + std::to_string(missing.size() - told) + " more" : "";
+    throw SceneError((missing.size() == 1 ? "vertex " : "vertices ") + joined(std::span(missing).first(told)) + more +
+                     (missing.size() == 1 ? " is" : " are") + " out of range; allowed: 0 ... " + std::to_string(count - 1));
 }
 
 std::vector<int> selected(const VertexBox& box, const TriangleMesh& mesh) {

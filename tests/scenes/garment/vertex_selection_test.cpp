@@ -31,6 +31,9 @@ TEST_CASE("an index out of range is told with the cloth and the allowed range") 
           "vertices of cloth 'flag': vertex 20 is out of range; allowed: 0 ... 19");
     CHECK(fault(VertexIndices{{-1}}, make_grid(1, 1, 5, 4)).find("vertex -1 is out of range") != std::string::npos);
     CHECK(selected(VertexIndices{{19}}, make_grid(1, 1, 5, 4)) == std::vector<int>{19});
+    CHECK(fault(VertexIndices{{20, 3, -1}}, make_grid(1, 1, 5, 4)).find("vertices 20, -1 are out of range") != std::string::npos);
+    CHECK(fault(VertexIndices{{20, 21, 22, 23, 24, 25, 26, 27, 28, 29}}, make_grid(1, 1, 5, 4))
+              .find("27 and 2 more are out of range") != std::string::npos);
 }
 
 TEST_CASE("a box of half the width holds half the columns, the middle one included") {

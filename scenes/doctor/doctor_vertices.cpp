@@ -1,0 +1,47 @@
+#include "doctor/doctor_vertices.h"
+
+#include <algorithm>
+
+#include "common/scene_file_error.h"
+#include "garment/vertex_selection.h"
+#include "percale/error.h"
+
+namespace percale::scenes {
+namespace {
+
+/// Who names vertices of which cloth.
+struct Named {
+    const VertexSelection* vertices = nullptr;
+    std::string cloth;
+};
+
+Named named_by(const EventSpec& event) {
+    if (const auto* pin = std::get_if<PinEvent>(&event.what)) return {&pin->vertices, pin->cloth};
+    if (const auto* unpin = std::get_if<UnpinEvent>(&event.what)) return {&unpin->vertices, unpin->cloth};
+    if (const auto* move = std::get_if<MoveEvent>(&event.what)) return {&move->vertices, move->cloth};
+    return {};
+}
+
+}  // namespace
+
+std::vector<Finding> missing_vertices(const Scene& scene, std::span<const ClothMesh> cloths) {
+    std::vector<Finding> found;
+    const auto look_at = [&](const Named& named, const std::string& place, const std::string& what) {
+        const auto cloth = std::ranges::find_if(cloths, [&](const ClothMesh& c) { return c.spec->name == named.cloth; });
+        if (cloth == cloths.end() || !named.vertices || !std::holds_alternative<VertexIndices>(*named.vertices)) return;
+        try {
+            select_vertices(*named.vertices, *cloth->mesh, named.cloth);
+        } catch (const SceneError& error) {
+            found.push_back({.severity = Severity::error,
+                             .kind = "missing_vertices",
+                             .place = place,
+                             .what = what + error.what(),
+                             .fix = "name vertices that the cloth has, or say { box = ... }"});
+        }
+    };
+    for (const ClothSpec& cloth : scene.cloths) look_at({&cloth.pin, cloth.name}, place_text(cloth.pin_place), "pin: ");
+    for (const EventSpec& event : scene.events) look_at(named_by(event), place_text(event.place), "event: ");
+    return found;
+}
+
+}  // namespace percale::scenes

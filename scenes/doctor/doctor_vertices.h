@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "doctor/finding.h"
+#include "format/scene.h"
+
+namespace percale::scenes {
+
+struct ClothMesh {
+    const ClothSpec* spec;
+    const TriangleMesh* mesh;
+};
+
+/// Vertices that pins and events name by number and their cloth does not have, of every pin and every event. A cloth that is not
+/// among those given is not looked at.
+std::vector<Finding> missing_vertices(const Scene& scene, std::span<const ClothMesh> cloths);
+
+}  // namespace percale::scenes
