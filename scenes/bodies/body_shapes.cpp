@@ -73,7 +73,14 @@ std::vector<Vec3> BodyShapes::at(double time) {
 
 double BodyShapes::end() const { return loop_ ? std::numeric_limits<double>::infinity() : once(); }
 
-std::string BodyShapes::text() const { return source_->text() + (loop_ ? ", again and again" : ""); }
+std::string BodyShapes::text() const {
+    std::string text = source_->text();
+    if (offset_ > 0.0) text += ", without its first " + number_text(offset_) + " s";
+    if (loop_) text += ", again and again";
+    if (from_ > 0.0) text += ", from " + number_text(from_) + " s on";
+    if (lead_in_ > 0.0) text += ", after a lead-in of " + number_text(lead_in_) + " s";
+    return text;
+}
 
 void check_still(const Scene& scene, const ObstacleSpec& obstacle) {
     const auto refuse = [](bool given, const std::string& key) {
