@@ -16,7 +16,8 @@ struct Pair {
 
     Pair() { free[0] = free[1] = 1.0; }
     TimeError error(bool foresees) const {
-        return {.model = &model,
+        return {.compute = &compute,
+                .model = &model,
                 .free = &free,
                 .dt = 0.1,
                 .start = &start,
