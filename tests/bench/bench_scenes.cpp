@@ -8,11 +8,11 @@
 
 namespace percale::test {
 
-Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, const StepSettings& settings) {
+Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, const StepSettings& settings, bool deforming) {
     Simulation simulation(settings, body ? make_fcl_detector() : nullptr);
     const ClothId cloth = simulation.add_cloth(make_grid(1.0, 1.0, n, n), bench_fabric(), {.translation = {0.0, height, 0.0}});
     if (body) {
-        simulation.add_obstacle(*body);
+        simulation.add_obstacle(*body, {}, {.deforming = deforming});
     } else {
         simulation.pin(cloth, 0);
         simulation.pin(cloth, n - 1);

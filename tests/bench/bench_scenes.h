@@ -7,7 +7,9 @@
 namespace percale::test {
 
 /// A sheet of 1 m with n x n vertices, `height` m above the origin, to fall on `body`; without a body it hangs from two corners.
-Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, const StepSettings& settings = {});
+/// `deforming`: the body's vertices may move one by one.
+Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, const StepSettings& settings = {},
+                            bool deforming = false);
 
 /// Whether a sheet crosses a body or is inside of it.
 bool is_crossed(const TriangleMesh& sheet, const TriangleMesh& body);
