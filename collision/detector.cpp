@@ -265,7 +265,7 @@ private:
     }
 
     const ObstaclePacks& packs_for(const ContactPair& feature) const { return obstacles_[feature.obstacle]->packs(); }
-    const PackHull& hull_of(const SelectedPack& at) const { return packs_for(at.feature()).hulls[at.number()]; }
+    const PackHull& hull_of(const SelectedPack& at) const { return obstacles_[at.feature().obstacle]->hull(at.number()); }
 
     /// Lowers `safe` to what all clusters allow.
     double cut(const ClothMove& move, double safe) {

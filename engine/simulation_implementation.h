@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,13 @@ inline void check_range(const std::string& owner, const std::string& what, const
 
 inline void check_finite(const Vec3& value, const std::string& what) {
     if (!value.allFinite()) throw SceneError(what + " is not finite");
+}
+
+/// `what` is followed by the number of the value.
+inline void check_all_finite(std::span<const Vec3> values, const std::string& what) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!values[i].allFinite()) check_finite(values[i], what + std::to_string(i));
+    }
 }
 
 struct Simulation::Implementation {

@@ -57,7 +57,7 @@ void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end)
         throw SceneError(state.name, std::to_string(end.size()) + " positions for the " +
                                          std::to_string(state.start_shape->size()) + " vertices of its mesh");
     }
-    for (std::size_t i = 0; i < end.size(); ++i) check_finite(end[i], state.name + ": vertex " + std::to_string(i));
+    check_all_finite(end, state.name + ": vertex ");
     World& world = implementation_->world;
     try {  // now, lest a step throws
         world.scene.detector->deform_obstacle(obstacle.index, *state.start_shape, end);
@@ -178,7 +178,7 @@ void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
         throw SceneError(range.name, "set_positions got " + std::to_string(positions.size()) + " positions for " +
                                          std::to_string(range.count) + " vertices");
     }
-    for (int i = 0; i < range.count; ++i) check_finite(positions[i], range.name + ": position " + std::to_string(i));
+    check_all_finite(positions, range.name + ": position ");
     for (int i = 0; i < range.count; ++i) {
         world.state.cloth.positions.set(range.index_of(i), positions[i]);
         world.scene.script.pin_targets.set(range.index_of(i), positions[i]);
@@ -222,7 +222,7 @@ void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities)
         throw SceneError(range.name, "set_velocities got " + std::to_string(velocities.size()) + " velocities for " +
                                          std::to_string(range.count) + " vertices");
     }
-    for (int i = 0; i < range.count; ++i) check_finite(velocities[i], range.name + ": velocity " + std::to_string(i));
+    check_all_finite(velocities, range.name + ": velocity ");
     for (int i = 0; i < range.count; ++i) {
         const bool free = world.scene.script.free[range.index_of(i)] > 0.0;
         world.state.cloth.velocities.set(range.index_of(i), free ? velocities[i] : Vec3(Vec3::Zero()));

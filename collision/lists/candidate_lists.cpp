@@ -129,7 +129,7 @@ Box CandidateLists::set_boxes(std::size_t cluster, const ClothMove& move) {
 }
 
 /// Lists a cloth feature with those packs of its kind in near patches that can come within the thickness.
-void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list,
+void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, Obstacle& obstacle, ClusterList& list,
                                Build& build) {
     const std::span<const int> vertices = pair.vertices();
     Box room, now;
@@ -146,7 +146,7 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
         const std::size_t so_far = list.packs.size();
         const auto [first, last] = packs.packs_of(patch, pair.kind);
         for (int number = first; number < last; ++number) {
-            const PackHull& hull = packs.hulls[number];
+            const PackHull& hull = obstacle.hull(number);
             const Box box = hull.box();
             if (!box.overlaps(room) || stays_above(hull, vertices, build.vertex_boxes, list.thickness)) continue;
             const double apart = std::max(box.gap(now), height_above(hull, vertices, move.from));
@@ -159,7 +159,7 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, c
     build.listed += static_cast<long>(list.packs.size() - before);
 }
 
-void CandidateLists::add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle,
+void CandidateLists::add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, Obstacle& obstacle,
                                   Build& build) {
     ClusterList& list = memory_.lists[cluster];
     const ClothCluster& features = clusters_.clusters[cluster];

@@ -128,8 +128,8 @@ private:
 
     bool covers(std::size_t cluster, const ClothMove& move, int version);
     Box set_boxes(std::size_t cluster, const ClothMove& move);
-    void add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, const Obstacle& obstacle, Build& build);
-    void add_packs(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle, ClusterList& list, Build& build);
+    void add_features(std::size_t cluster, int obstacle_number, const ClothMove& move, Obstacle& obstacle, Build& build);
+    void add_packs(const ContactPair& pair, const ClothMove& move, Obstacle& obstacle, ClusterList& list, Build& build);
     void find_dirty(const ClothMove& move, int version, Workers* workers);
     bool rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes, Workers* workers);
     void build_list(std::size_t dirty, const ClothMove& move, const Obstacles& obstacles, Build& build);

@@ -9,7 +9,7 @@
 namespace percale {
 Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree, SurfaceShape shape)
     : mesh_(mesh), built_(pose), start_pose_(pose), end_pose_(pose), friction_(friction), shape_(shape) {
-    placing_ = std::make_unique<std::array<std::mutex, 16>>();
+    shares_ = std::make_unique<std::array<Share, 16>>();
     surface_ = make_surface(mesh.vertices, mesh.triangles, shape);
     if (deforms()) {
         start_shape_ = end_shape_ = mesh.vertices;
@@ -21,8 +21,9 @@ Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, 
     surface_.vertices = start_;
     packs_ = make_packs(surface_);  // with edges that are flat for now
     if (deforms()) mark_flat(start_, end_, surface_);
+    ready_.assign(packs_.patch_count(), 0);
+    patch_motions_.resize(packs_.patch_count());
     set_pack_boxes();
-    set_patch_motions();
     make_patch_tree(make_tree);
 }
 
@@ -42,22 +43,24 @@ void Obstacle::set_pack_boxes() {
     set_boxes(packs_, surface_, paths());
     whole_box_ = {};
     for (const Box& box : packs_.box) whole_box_.add(box);
+    // What was made for another step is made anew when it is asked for.
+    for (Share& share : *shares_) {
+        for (const int pack : share.placed) packs_.placed[pack].fraction = -1.0;
+        for (const int patch : share.ready) ready_[patch] = 0;
+        share.placed.clear();
+        share.ready.clear();
+    }
 }
 
-void Obstacle::set_patch_motions() {
-    patch_motions_.assign(packs_.patch_count(), {});
-    if (!moves_) return;
-    std::vector<double> corners(packs_.patch_count(), 0.0);
-    for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
-        for (const int vertex : surface_.triangles[i]) patch_motions_[packs_.patch_of[i]].mean += end_[vertex] - start_[vertex];
-        corners[packs_.patch_of[i]] += 3.0;
-    }
-    for (std::size_t patch = 0; patch < corners.size(); ++patch) patch_motions_[patch].mean /= std::max(1.0, corners[patch]);
-    for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
-        PatchMotion& motion = patch_motions_[packs_.patch_of[i]];
-        for (const int vertex : surface_.triangles[i])
-            motion.spread = std::max(motion.spread, (end_[vertex] - start_[vertex] - motion.mean).norm());
-    }
+void Obstacle::make_ready(int patch) {
+    Share& share = (*shares_)[static_cast<std::size_t>(patch) % shares_->size()];
+    const std::lock_guard lock(share.mutex);
+    if (ready_[patch] != 0) return;
+    set_hulls(packs_, patch, surface_, paths());
+    patch_motions_[patch] = moves_ ? percale::motion_of(packs_, patch, surface_, paths()) : PatchMotion{};
+    share.ready.push_back(patch);
+    // Last: threads that see it may read the rest.
+    std::atomic_ref(ready_[patch]).store(1, std::memory_order_release);
 }
 
 void Obstacle::move(const Pose& start, const Pose& end) {
@@ -71,7 +74,6 @@ void Obstacle::move(const Pose& start, const Pose& end) {
     reshaped_ = false;
     place_vertices();
     set_pack_boxes();
-    set_patch_motions();
     if (deforms()) refit();
 }
 
@@ -148,7 +150,9 @@ Box Obstacle::to_tree(const Box& box) const {
 const PlacedPack& Obstacle::placed(int pack, double fraction) {
     const PlacedPack& known = packs_.placed[pack];
     if (is_placed(known, paths(), fraction)) return known;
-    const std::lock_guard lock((*placing_)[static_cast<std::size_t>(pack) % placing_->size()]);
+    Share& share = (*shares_)[static_cast<std::size_t>(pack) % shares_->size()];
+    const std::lock_guard lock(share.mutex);
+    if (known.fraction < 0.0) share.placed.push_back(pack);
     return place(packs_, pack, surface_, paths(), fraction);
 }
 

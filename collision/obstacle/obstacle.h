@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,12 +12,6 @@
 #include "percale/contact.h"
 
 namespace percale {
-
-/// Displacements of a patch's vertices during a step: all within `spread` of `mean`, m.
-struct PatchMotion {
-    Vec3 mean = Vec3::Zero();
-    double spread = 0.0;
-};
 
 /// One obstacle in motion. Within a step each vertex runs straight from its place at the start to its place at the end.
 class Obstacle {
@@ -38,8 +33,6 @@ public:
     bool moves() const { return moves_; }
     /// m, largest displacement of a vertex in the coming step.
     double largest_displacement() const { return largest_displacement_; }
-    /// How a patch moves in the coming step.
-    const PatchMotion& motion_of(int patch) const { return patch_motions_[patch]; }
     /// At the two ends of the coming step.
     const Pose& start_pose() const { return start_pose_; }
     const Pose& end_pose() const { return end_pose_; }
@@ -64,6 +57,17 @@ public:
     const Box& whole_box() const { return whole_box_; }
     /// A pack at a fraction of the step; placed when first asked for. Threads may ask at the same time, for the same fraction.
     const PlacedPack& placed(int pack, double fraction);
+    /// The hull of a pack during the step, and how a patch moves in it; found when first asked for, as placed packs are: most of
+    /// a body is far from all cloth.
+    const PackHull& hull(int pack) {
+        const int patch = packs_.patch_of_pack[pack];
+        if (!is_ready(patch)) make_ready(patch);
+        return packs_.hulls[pack];
+    }
+    const PatchMotion& motion_of(int patch) {
+        if (!is_ready(patch)) make_ready(patch);
+        return patch_motions_[patch];
+    }
 
     /// Patches whose boxes come near each world box during the step, ascending and the same for every kind of tree.
     void find(std::span<const Box> boxes, IdLists& found);
@@ -78,7 +82,10 @@ private:
     void place_vertices();
     void refit();
     void set_pack_boxes();
-    void set_patch_motions();
+    bool is_ready(int patch) const {
+        return std::atomic_ref(const_cast<unsigned char&>(ready_[patch])).load(std::memory_order_acquire) != 0;
+    }
+    void make_ready(int patch);
     void make_patch_tree(TreeFactory make_tree);
     VertexPaths paths() const { return {start_, moves_ ? end_ : start_}; }
 
@@ -95,8 +102,14 @@ private:
     std::vector<Vec3> stand_in_corners_;
     std::vector<Triangle> stand_ins_;  // one triangle for each patch, with the patch's box: what the tree holds
     std::unique_ptr<ObstacleTree> tree_;
-    std::unique_ptr<std::array<std::mutex, 16>> placing_;  // each guards the packs that it is the remainder of
-    std::vector<Box> asked_;                               // work space of find
+    /// Guards the packs and patches that its number is the remainder of.
+    struct Share {
+        std::mutex mutex;
+        std::vector<int> placed, ready;  // in this step: packs, patches
+    };
+    std::unique_ptr<std::array<Share, 16>> shares_;
+    std::vector<unsigned char> ready_;  // patches whose hulls and motion are those of the step
+    std::vector<Box> asked_;            // work space of find
     IdLists raw_;
     Pose built_, start_pose_, end_pose_;
     double friction_ = 0.0;

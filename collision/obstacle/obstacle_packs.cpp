@@ -38,6 +38,7 @@ private:
         packs_.first.push_back(static_cast<int>(packs_.packs.size()));
         for (std::size_t from = 0; from < features.size(); from += pack_lanes) {
             FeaturePack& pack = packs_.packs.emplace_back();
+            packs_.patch_of_pack.push_back(static_cast<int>(packs_.first.size() - 1) / 3);
             pack.kind = kind;
             pack.count = static_cast<int>(std::min<std::size_t>(pack_lanes, features.size() - from));
             for (int lane = 0; lane < pack_lanes; ++lane) {
@@ -153,15 +154,24 @@ void place_directions(const FeaturePack& pack, const ObstacleSurface& surface, c
     }
 }
 
-/// A mean normal of the triangles of each patch, at the start of the step.
-std::vector<Vec3> patch_normals(const ObstaclePacks& packs, const ObstacleSurface& surface, const VertexPaths& paths) {
-    std::vector<Vec3> normals(packs.patch_count(), Vec3::Zero());
-    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-        const auto& [a, b, c] = surface.triangles[i];
-        normals[packs.patch_of[i]] += (paths.start[b] - paths.start[a]).cross(paths.start[c] - paths.start[a]);
+/// work(triangle) for all of a patch.
+template <class Work>
+void for_triangles(const ObstaclePacks& packs, int patch, Work work) {
+    const auto [first, last] = packs.packs_of(patch, PairKind::vertex_face);
+    for (int number = first; number < last; ++number) {
+        const FeaturePack& pack = packs.packs[number];
+        for (int lane = 0; lane < pack.count; ++lane) work(pack.feature[lane]);
     }
-    for (Vec3& normal : normals) normal = normal.norm() > 0.0 ? Vec3(normal.normalized()) : Vec3(Vec3::UnitY());
-    return normals;
+}
+
+/// A mean normal of the triangles of a patch, at the start of the step.
+Vec3 patch_normal(const ObstaclePacks& packs, int patch, const ObstacleSurface& surface, const VertexPaths& paths) {
+    Vec3 normal = Vec3::Zero();
+    for_triangles(packs, patch, [&](int triangle) {
+        const auto& [a, b, c] = surface.triangles[triangle];
+        normal += (paths.start[b] - paths.start[a]).cross(paths.start[c] - paths.start[a]);
+    });
+    return normal.norm() > 0.0 ? Vec3(normal.normalized()) : Vec3(Vec3::UnitY());
 }
 
 void add_paths(std::span<const int> vertices, const VertexPaths& paths, Box& box) {
@@ -221,16 +231,33 @@ ObstaclePacks make_packs(const ObstacleSurface& surface) {
 }
 
 void set_boxes(ObstaclePacks& packs, const ObstacleSurface& surface, const VertexPaths& paths) {
-    for (Box& box : packs.box) box = {};
-    for (std::size_t i = 0; i < surface.triangles.size(); ++i)
-        add_paths(surface.triangles[i], paths, packs.box[packs.patch_of[i]]);
-    const std::vector<Vec3> normals = patch_normals(packs, surface, paths);
     for (std::size_t patch = 0; patch < packs.patch_count(); ++patch) {
-        for (int number = packs.first[3 * patch]; number < packs.first[3 * patch + 3]; ++number) {
-            packs.hulls[number] = make_hull(packs.packs[number], surface, paths, normals[patch]);
-        }
+        Box box;
+        for_triangles(packs, static_cast<int>(patch), [&](int triangle) { add_paths(surface.triangles[triangle], paths, box); });
+        packs.box[patch] = box;
     }
-    for (PlacedPack& placed : packs.placed) placed.fraction = -1.0;
+}
+
+void set_hulls(ObstaclePacks& packs, int patch, const ObstacleSurface& surface, const VertexPaths& paths) {
+    const Vec3 normal = patch_normal(packs, patch, surface, paths);
+    for (int number = packs.first[3 * patch]; number < packs.first[3 * patch + 3]; ++number) {
+        packs.hulls[number] = make_hull(packs.packs[number], surface, paths, normal);
+    }
+}
+
+PatchMotion motion_of(const ObstaclePacks& packs, int patch, const ObstacleSurface& surface, const VertexPaths& paths) {
+    PatchMotion motion;
+    double corners = 0.0;
+    for_triangles(packs, patch, [&](int triangle) {
+        for (const int vertex : surface.triangles[triangle]) motion.mean += paths.end[vertex] - paths.start[vertex];
+        corners += 3.0;
+    });
+    motion.mean /= std::max(1.0, corners);
+    for_triangles(packs, patch, [&](int triangle) {
+        for (const int vertex : surface.triangles[triangle])
+            motion.spread = std::max(motion.spread, (paths.end[vertex] - paths.start[vertex] - motion.mean).norm());
+    });
+    return motion;
 }
 
 bool is_placed(const PlacedPack& placed, const VertexPaths& paths, double fraction) {

@@ -61,6 +61,7 @@ struct ObstaclePacks {
     std::vector<int> first;     // pack of each patch and kind, and one more: see packs_of
     std::vector<Box> box;       // of each patch, m, world, of the whole step
     std::vector<FeaturePack> packs;
+    std::vector<int> patch_of_pack;
     std::vector<PackHull> hulls;  // of each pack
     std::vector<PlacedPack> placed;
     std::array<std::vector<int>, 3> place_of;  // by kind and feature: eight times the pack and the lane; -1 = in no pack
@@ -89,8 +90,19 @@ struct VertexPaths {
     }
 };
 
-/// Sets all boxes and hulls for a step and makes every pack be placed anew.
+/// Displacements of a patch's vertices during a step: all within `spread` of `mean`, m.
+struct PatchMotion {
+    Vec3 mean = Vec3::Zero();
+    double spread = 0.0;
+};
+
+/// Sets the boxes of all patches for a step.
 void set_boxes(ObstaclePacks& packs, const ObstacleSurface& surface, const VertexPaths& paths);
+
+/// Sets the hulls of a patch's packs for a step.
+void set_hulls(ObstaclePacks& packs, int patch, const ObstacleSurface& surface, const VertexPaths& paths);
+
+PatchMotion motion_of(const ObstaclePacks& packs, int patch, const ObstacleSurface& surface, const VertexPaths& paths);
 
 /// Whether the pack is where it is at a fraction of the step. Threads that see so may read it while others place other packs.
 bool is_placed(const PlacedPack& placed, const VertexPaths& paths, double fraction);

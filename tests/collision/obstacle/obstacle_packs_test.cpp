@@ -40,10 +40,10 @@ void check_lane(Obstacle& obstacle, int number, int lane, double fraction, Fit& 
     const std::vector<int> vertices = vertices_of(obstacle.surface(), packs.packs[number], lane);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         const Vec3 x = obstacle.at(vertices[k], fraction);
-        Box slightly_larger = packs.hulls[number].box();
+        Box slightly_larger = obstacle.hull(static_cast<int>(number)).box();
         slightly_larger.grow(1e-15);
         fit.inside = fit.inside && slightly_larger.contains(x) && obstacle.whole_box().overlaps(slightly_larger);
-        fit.above = std::max(fit.above, packs.hulls[number].normal.dot(x) - packs.hulls[number].offset);
+        fit.above = std::max(fit.above, obstacle.hull(number).normal.dot(x) - obstacle.hull(number).offset);
         for (int axis = 0; axis < 3; ++axis) {
             const double value = static_cast<double>(placed.lanes.at[3 * k + axis][lane]);
             fit.off = std::max(fit.off, std::abs(value + placed.centre[axis] - x[axis]));
@@ -93,6 +93,31 @@ TEST_CASE("boxes and planes hold their packs during the whole step, and placed p
     }
 }
 
+TEST_CASE("hulls, motions and placed packs that were asked for in one step are made anew for the next") {
+    Random random(43);
+    Obstacle obstacle(some_mesh(1), {}, 0.0, make_brute_force_tree);
+    Pose start = random.pose(0.5);
+    for (int step = 0; step < 5; ++step) {
+        const Pose end = step == 3 ? start : random.pose(0.5);
+        obstacle.move(start, end);
+        Fit fit;
+        double beyond = -1.0;  // m, of the spread
+        for (std::size_t i = 0; i < obstacle.packs().packs.size(); i += step + 1) {
+            const int number = static_cast<int>(i);
+            for (int lane = 0; lane < pack_lanes; ++lane) check_lane(obstacle, number, lane, 0.5, fit);
+            const PatchMotion& motion = obstacle.motion_of(obstacle.packs().patch_of_pack[i]);
+            for (const int vertex : vertices_of(obstacle.surface(), obstacle.packs().packs[i], 0)) {
+                beyond = std::max(beyond, (obstacle.displacement(vertex) - motion.mean).norm() - motion.spread);
+            }
+        }
+        CHECK(fit.inside);
+        CHECK(fit.above < 1e-15);
+        CHECK(fit.off < 1e-7);
+        CHECK(beyond < 1e-15);
+        start = end;
+    }
+}
+
 TEST_CASE("the box of a hull is larger than its pack by no more than single precision makes it, far from the origin too") {
     Obstacle obstacle(some_mesh(0), {.translation = Vec3(1000.0, -3.0, 0.2)}, 0.0, make_brute_force_tree);
     const ObstaclePacks& packs = obstacle.packs();
@@ -101,7 +126,7 @@ TEST_CASE("the box of a hull is larger than its pack by no more than single prec
         for (int lane = 0; lane < packs.packs[number].count; ++lane) {
             for (const int v : vertices_of(obstacle.surface(), packs.packs[number], lane)) exact.add(obstacle.at(v, 0.0));
         }
-        const Box box = packs.hulls[number].box();
+        const Box box = obstacle.hull(static_cast<int>(number)).box();
         for (int axis = 0; axis < 3; ++axis) {
             const double most = 1.2e-7 * std::max(std::abs(exact.low[axis]), std::abs(exact.high[axis]));
             CHECK(box.low[axis] <= exact.low[axis]);
