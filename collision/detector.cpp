@@ -206,7 +206,7 @@ private:
             for (std::size_t i = 0; i < candidates_.size(); ++i) {
                 if (i + 16 < candidates_.size())
                     __builtin_prefetch(&candidates_[i + 16].list->packs.at[candidates_[i + 16].index]);
-                if (i + 8 < candidates_.size()) __builtin_prefetch(&detector.hull_of(candidates_[i + 8]));
+                if (i + 8 < candidates_.size()) detector.fetch_hull(candidates_[i + 8]);
                 const auto& [list, pack] = candidates_[i];
                 const ContactPair& feature = candidates_[i].feature();
                 const double thickness = detector.thickness_[feature.cloth[0]];
@@ -265,6 +265,7 @@ private:
     }
 
     const ObstaclePacks& packs_for(const ContactPair& feature) const { return obstacles_[feature.obstacle]->packs(); }
+    void fetch_hull(const SelectedPack& at) const { __builtin_prefetch(&packs_for(at.feature()).hulls[at.number()]); }
     const PackHull& hull_of(const SelectedPack& at) const { return obstacles_[at.feature().obstacle]->hull(at.number()); }
 
     /// Lowers `safe` to what all clusters allow.

@@ -19,7 +19,8 @@ struct Compute {
     int threads() const { return workers ? workers->threads() : 1; }
 };
 
-/// Below this many slices sharing them out costs more than it saves, and parts are no smaller than the second. Cost alone.
+/// Below this many slices (second: of the coarser levels of multigrid, whose passes do more) sharing them out costs more than it
+/// saves, and parts are no smaller than the third. Cost alone.
 constexpr int least_shared_slices = 96, least_shared_coarse_slices = 40, least_part_slices = 16;
 
 /// work(first, last, thread) for stretches of `grain` of 0 ... count - 1, on all threads where there is enough to do. The

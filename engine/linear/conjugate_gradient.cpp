@@ -20,8 +20,7 @@ public:
         const double tolerance = target.relative_residual * target.relative_residual * first_square;
         GainRecord gains(10);
         double rz = apply_preconditioner(), beta = 0.0;
-        space_.p = space_.z;
-        prepare_points(*matrix_.pattern, space_.points);
+        copy(compute_, space_.z, space_.p);  // set_residual has sized space_.points and set its guards
         SolveReport report;
         while (report.iterations < target.most_iterations) {
             ++report.iterations;

@@ -60,8 +60,7 @@ SolveReport StepSolver::solve_enclosed(const Vectors& b, const SolveTarget& targ
     }
     if (in_use_ == LinearSolver::multigrid) {
         return solve_cg(matrix, b, target, space_, x, [this](const Vectors& r, Vectors& z) {
-            z.resize(static_cast<int>(r.padded_size()));
-            estimate(r, z);
+            if (!estimate(r, z)) z.resize(static_cast<int>(r.padded_size()));
         });
     }
     if (!direct_) direct_ = std::make_unique<DirectSolver>();

@@ -42,7 +42,7 @@ struct ThreadPool::Shared {
         std::atomic<bool> inside = false;
     };
     struct alignas(64) Bell {
-        std::atomic<int> round = 0;  // a new one calls the worker
+        std::atomic<unsigned> round = 0;  // a new one calls the worker
         std::atomic<bool> sleeps = false;
     };
 
@@ -53,7 +53,7 @@ struct ThreadPool::Shared {
     alignas(64) std::atomic<bool> in_use = false;  // by a caller
     std::atomic<bool> stopping = false;
     bool spin = true;
-    int last_round = 0;
+    unsigned last_round = 0;
     alignas(64) std::atomic<bool> open = false;
     int called = 1;           // threads of this run, the caller's included
     bool many_parts = false;  // more than one a thread
@@ -85,12 +85,12 @@ struct ThreadPool::Shared {
     }
 
     /// Waits for a round other than `seen`; returns it.
-    int wait_for_round(int thread, int seen) {
+    unsigned wait_for_round(int thread, unsigned seen) {
         Bell& bell = bells[thread];
         const auto start = std::chrono::steady_clock::now();
         while (spin && std::chrono::steady_clock::now() - start < longest_spin) {
             for (int k = 0; k < spins_between_looks; ++k) {
-                if (const int now = bell.round.load(std::memory_order_acquire); now != seen) return now;
+                if (const unsigned now = bell.round.load(std::memory_order_acquire); now != seen) return now;
                 relax();
             }
         }
@@ -101,7 +101,7 @@ struct ThreadPool::Shared {
     }
 
     void serve(int thread) {
-        for (int seen = 0;;) {
+        for (unsigned seen = 0;;) {
             seen = wait_for_round(thread, seen);
             if (stopping) return;
             seats[thread].inside = true;

@@ -75,10 +75,10 @@ double BodyShapes::end() const { return loop_ ? std::numeric_limits<double>::inf
 
 std::string BodyShapes::text() const {
     std::string text = source_->text();
-    if (offset_ > 0.0) text += ", without its first " + number_text(offset_) + " s";
     if (loop_) text += ", again and again";
+    if (offset_ > 0.0) text += std::string(loop_ ? ", the first time" : "") + " without its first " + number_text(offset_) + " s";
     if (from_ > 0.0) text += ", from " + number_text(from_) + " s on";
-    if (lead_in_ > 0.0) text += ", after a lead-in of " + number_text(lead_in_) + " s";
+    if (lead_in_ > 0.0) text += ", first a lead-in of " + number_text(lead_in_) + " s";
     return text;
 }
 

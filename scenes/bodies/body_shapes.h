@@ -26,7 +26,7 @@ public:
     double once() const { return from_ + lead_in_ + source_->length() - offset_ + closing_; }
     /// s, between two shapes of its files.
     double frame_time() const { return source_->frame_time(); }
-    /// "121 frames in 4.84 s, again and again, from 1 s on, after a lead-in of 0.5 s"
+    /// "121 frames in 4.84 s, again and again, from 1 s on, first a lead-in of 0.5 s"
     std::string text() const;
 
 private:

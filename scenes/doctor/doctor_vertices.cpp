@@ -28,7 +28,7 @@ std::vector<Finding> missing_vertices(const Scene& scene, std::span<const ClothM
     std::vector<Finding> found;
     const auto look_at = [&](const Named& named, const std::string& place, const std::string& what) {
         const auto cloth = std::ranges::find_if(cloths, [&](const ClothMesh& c) { return c.spec->name == named.cloth; });
-        if (cloth == cloths.end() || !named.vertices || !std::holds_alternative<VertexIndices>(*named.vertices)) return;
+        if (cloth == cloths.end() || !named.vertices) return;
         try {
             select_vertices(*named.vertices, *cloth->mesh, named.cloth);
         } catch (const SceneError& error) {
@@ -36,7 +36,8 @@ std::vector<Finding> missing_vertices(const Scene& scene, std::span<const ClothM
                              .kind = "missing_vertices",
                              .place = place,
                              .what = what + error.what(),
-                             .fix = "name vertices that the cloth has, or say { box = ... }"});
+                             .fix = "name vertices that the cloth has: by number, in a box that holds some, or the boundary of "
+                                    "one that has an edge"});
         }
     };
     for (const ClothSpec& cloth : scene.cloths) look_at({&cloth.pin, cloth.name}, place_text(cloth.pin_place), "pin: ");

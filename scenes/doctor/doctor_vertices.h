@@ -13,7 +13,7 @@ struct ClothMesh {
     const TriangleMesh* mesh;
 };
 
-/// Vertices that pins and events name by number and their cloth does not have, of every pin and every event. A cloth that is not
+/// Vertices that pins and events name and their cloth does not have, of every pin and every event. A cloth that is not
 /// among those given is not looked at.
 std::vector<Finding> missing_vertices(const Scene& scene, std::span<const ClothMesh> cloths);
 

@@ -20,6 +20,10 @@ Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, cons
     return simulation;
 }
 
+double total(const StageTimes& stages) {
+    return stages.refresh + stages.evaluate + stages.force + stages.setup + stages.solve + stages.cut + stages.measure;
+}
+
 bool is_crossed(const TriangleMesh& sheet, const TriangleMesh& body) {
     const Certificate certificate = certify(sheet, body, 0.0);
     return !certificate.pairs.empty() || certificate.vertices_inside > 0;

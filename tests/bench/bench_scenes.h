@@ -11,6 +11,9 @@ namespace percale::test {
 Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, const StepSettings& settings = {},
                             bool deforming = false);
 
+/// Of all kinds of work together, s.
+double total(const StageTimes& stages);
+
 /// Whether a sheet crosses a body or is inside of it.
 bool is_crossed(const TriangleMesh& sheet, const TriangleMesh& body);
 

@@ -59,19 +59,19 @@ void print_row(const Figures& row) {
     std::fflush(stdout);
 }
 
-double sum_of(const StageTimes& stages) {
-    return stages.refresh + stages.evaluate + stages.force + stages.setup + stages.solve + stages.cut + stages.measure;
-}
-
 /// One row a number of threads. Stages are of the calling thread, which waits for the others without sleeping.
 void add_rows(const Wanted& wanted, const std::string& scene, int n, const TriangleMesh* body, Figures& rows) {
     const int steps = std::max(1, static_cast<int>(std::lround(60.0 * wanted.seconds)));
     std::vector<std::optional<Run>> best(wanted.threads.size());
+    std::vector<bool> same(best.size(), true);
+    std::optional<std::uint64_t> end;  // of the first run, which all others have to have
     for (int turn = 0; turn < wanted.turns; ++turn) {
         for (std::size_t k = 0; k < best.size(); ++k) {
             const StepSettings settings{.threads = wanted.threads[k]};
             Run made = run(test::make_sheet_scene(n, body, body ? 0.6 : 0.0, settings), steps);
-            if (!best[k] || made.wall_s < best[k]->wall_s) best[k] = std::move(made);
+            if (!end) end = made.end;
+            same[k] = same[k] && made.end == *end;
+            if (!best[k] || made.wall_s < best[k]->wall_s) best[k] = made;
         }
     }
     const double per = 1e3 / steps;
@@ -89,9 +89,9 @@ void add_rows(const Wanted& wanted, const std::string& scene, int n, const Trian
                         {"setup_ms", per * stages.setup},
                         {"solve_ms", per * stages.solve},
                         {"cut_ms", per * stages.cut},
-                        {"other_ms", per * (best[k]->wall_s - sum_of(stages) + stages.measure)},
+                        {"other_ms", per * (best[k]->wall_s - test::total(stages) + stages.measure)},
                         {"newton", static_cast<double>(best[k]->newton) / steps},
-                        {"same_state", best[k]->end == best[0]->end}});
+                        {"same_state", static_cast<bool>(same[k])}});
         print_row(rows.back());
     }
 }

@@ -152,7 +152,7 @@ State start_state() {
     return s;
 }
 
-/// The engine's six particles, the particle i of the drawing being its `place[i]`.
+/// The engine's six particles, the particle i of the drawing being its `place[i]`; in another order the springs are, too.
 World particles(Scheme scheme, double h, double damping, const std::vector<int>& place = {0, 1, 2, 3, 4, 5}) {
     const TriangleMesh grid = make_grid(2.0 * apart, apart, 3, 2);
     const Fabric fabric{.area_density = 0.2,
@@ -166,7 +166,7 @@ World particles(Scheme scheme, double h, double damping, const std::vector<int>&
         links.push_back({place[sheet.springs.first[k]], place[sheet.springs.second[k]], sheet.springs.rest_length[k],
                          sheet.springs.stiffness[k], sheet.springs.damping[k]});
     }
-    std::ranges::reverse(links);
+    if (place[0] != 0) std::ranges::reverse(links);
     const State start = start_state();
     std::vector<Vec3> positions(6);
     for (int i = 0; i < 6; ++i) positions[place[i]] = start.q.segment<3>(3 * i);
@@ -185,6 +185,7 @@ Lecture lecture_of(const World& world, double damping) {
 double difference(const State& expected, const World& world, const std::vector<int>& place = {0, 1, 2, 3, 4, 5}) {
     double worst = 0.0;
     for (int i = 0; i < 6; ++i) {
+        if (!world.state.cloth.positions.at(place[i]).allFinite() || !expected.q.allFinite()) return 1e300;
         worst = std::max(worst, (world.state.cloth.positions.at(place[i]) - expected.q.segment<3>(3 * i)).norm());
         worst = std::max(worst, 0.1 * (world.state.cloth.velocities.at(place[i]) - expected.v.segment<3>(3 * i)).norm());
     }
@@ -225,7 +226,7 @@ TEST_CASE("Six particles: a step of every scheme is the one made by hand", "[law
 }
 
 TEST_CASE("Six particles: neither the order of the particles nor that of the springs matters", "[law]") {
-    const std::vector<int> place = {4, 0, 5, 2, 1, 3}, same = {0, 1, 2, 3, 4, 5};
+    const std::vector<int> place = {4, 0, 5, 2, 1, 3};
     for (const SchemeFacts& facts : scheme_table()) {
         World one = particles(facts.scheme, 5e-4, 0.05), other = particles(facts.scheme, 5e-4, 0.05, place);
         for (int n = 0; n < 40; ++n) REQUIRE((step(one).ok() && step(other).ok()));
@@ -234,7 +235,6 @@ TEST_CASE("Six particles: neither the order of the particles nor that of the spr
             end.q.segment<3>(3 * i) = one.state.cloth.positions.at(i);
             end.v.segment<3>(3 * i) = one.state.cloth.velocities.at(i);
         }
-        CHECK(difference(end, one, same) == 0.0);
         check_law("six particles, " + std::string(facts.word) + ": another order after 40 steps, m",
                   difference(end, other, place), 1e-10);
     }

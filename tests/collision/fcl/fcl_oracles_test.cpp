@@ -69,7 +69,7 @@ const Kind kinds[] = {
 struct Compared {
     int apart = 0;                               // pairs that do not overlap
     double ours_longer = 0.0, fcl_longer = 0.0;  // m, worst
-    int fcl_far_off = 0;                         // by more than a micrometre
+    int not_numbers = 0;
 };
 
 Compared compare(const Kind& kind) {
@@ -83,7 +83,7 @@ Compared compare(const Kind& kind) {
         const double fcl = FclDistance::triDistance(a.data(), b.data(), p, q), ours = certificate::triangle_distance(a, b);
         result.ours_longer = std::max(result.ours_longer, ours - fcl);
         result.fcl_longer = std::max(result.fcl_longer, fcl - ours);
-        result.fcl_far_off += std::abs(fcl - ours) > 1e-6;
+        result.not_numbers += !std::isfinite(ours) || !std::isfinite(fcl);
     }
     return result;
 }
@@ -154,7 +154,7 @@ Moves compare_moves(PairShape shape, bool flat) {
         const bool right = fcl <= 1.0 && distance_at(four, shape, fcl) < 1e-6;
         moves.right += right;
         moves.late += right && ours > fcl;
-        if (right || (n % 10 > 0 && ours == 1.0)) continue;
+        if (right || (n % 10 > 0 && ours == 1.0)) continue;  // looking at all that are not cut would take a minute
         const bool meet = meets(four, shape);
         moves.missed_by_fcl += meet && fcl > 1.0;
         moves.missed += meet && ours == 1.0;
@@ -167,11 +167,11 @@ Moves compare_moves(PairShape shape, bool flat) {
 TEST_CASE("Distances of triangles are FCL's, and never longer", "[law]") {
     for (const Kind& kind : kinds) {
         const Compared result = compare(kind);
-        std::printf(
-            "FCL's distance of two triangles, %s: %d of %d apart, ours longer by at most %.1e m, FCL's by %.1e m; %d differ "
-            "by more than 1e-6 m\n",
-            kind.name, result.apart, count, result.ours_longer, result.fcl_longer, result.fcl_far_off);
-        check_law(std::string("distance of two triangles, ") + kind.name + ": longer than FCL's, m", result.ours_longer, 1e-12);
+        CHECK(result.apart > count / 2);
+        CHECK(result.not_numbers == 0);
+        const std::string name = std::string("distance of two triangles, ") + kind.name;
+        check_law(name + ": longer than FCL's, m", result.ours_longer, 2e-14);
+        check_law(name + ": shorter than FCL's, m", result.fcl_longer, 2e-14);
     }
 }
 
@@ -186,6 +186,8 @@ TEST_CASE("Moves are cut before FCL's first contact, and before those that FCL d
                 "FCL lets pass, %d that we do\n",
                 name.c_str(), moves.told, count, moves.right, moves.late, moves.missed_by_fcl, moves.missed);
             CHECK(moves.right + moves.missed_by_fcl > 1000);
+            CHECK((moves.right == 0) == flat);  // why it is not used
+            CHECK(moves.told - moves.right <= moves.told / 1000);
             check_law("moves of " + name + " cut later than FCL's first contact", moves.late, 0);
             check_law("moves of " + name + " that meet and are not cut", moves.missed, 0);
         }

@@ -54,7 +54,7 @@ TEST_CASE("every part is done once, by slots that no two threads have at a time"
     }
 }
 
-TEST_CASE("no more threads are called than there are parts") {
+TEST_CASE("no more threads work than there are parts") {
     ThreadPool pool(5);
     std::atomic<int> highest = 0, done = 0;
     auto note = [&](int, int slot) {

@@ -107,7 +107,7 @@ TEST_CASE("A loop closes at once where its ends are the same, and within a frame
     closed.obstacle.play_from = 1.0;
     closed.obstacle.play_offset = 0.1;
     CHECK(BodyShapes(closed.scene, closed.obstacle).text() ==
-          "5 frames in 0.4 s, without its first 0.1 s, again and again, from 1 s on");
+          "5 frames in 0.4 s, again and again, the first time without its first 0.1 s, from 1 s on");
 }
 
 TEST_CASE("Keys of what is played are refused without it, and so are two sources at once") {

@@ -65,6 +65,7 @@ TEST_CASE("doctor says of a folder's scenes and meshes in a line each what is wo
     CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 3);
     CHECK(run.out.find("./a.obj: 0 errors, ") == 0);
     CHECK(run.out.find("./b.obj: 1 error, 0 warnings, 0 notes; ") != std::string::npos);
+    REQUIRE(run.out.find("./falling.toml: ") != std::string::npos);
     CHECK(run.out.find("./falling.toml: ") > run.out.find("./b.obj"));
     const auto json = nlohmann::json::parse(run_program({"doctor", ".", "--json"}, folder.path()).out).at("files");
     CHECK(json.size() == 3);
