@@ -143,10 +143,11 @@ void CandidateLists::add_packs(const ContactPair& pair, const ClothMove& move, O
     const std::size_t before = list.packs.size();
     for (const int patch : build.patches) {
         if (!packs.box[patch].overlaps(room)) continue;
+        obstacle.ready(patch);
         const std::size_t so_far = list.packs.size();
         const auto [first, last] = packs.packs_of(patch, pair.kind);
         for (int number = first; number < last; ++number) {
-            const PackHull& hull = obstacle.hull(number);
+            const PackHull& hull = packs.hulls[number];
             const Box box = hull.box();
             if (!box.overlaps(room) || stays_above(hull, vertices, build.vertex_boxes, list.thickness)) continue;
             const double apart = std::max(box.gap(now), height_above(hull, vertices, move.from));

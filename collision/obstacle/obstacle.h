@@ -59,13 +59,15 @@ public:
     const PlacedPack& placed(int pack, double fraction);
     /// The hull of a pack during the step, and how a patch moves in it; found when first asked for, as placed packs are: most of
     /// a body is far from all cloth.
-    const PackHull& hull(int pack) {
-        const int patch = packs_.patch_of_pack[pack];
+    void ready(int patch) {
         if (!is_ready(patch)) make_ready(patch);
+    }
+    const PackHull& hull(int pack) {
+        ready(packs_.patch_of_pack[pack]);
         return packs_.hulls[pack];
     }
     const PatchMotion& motion_of(int patch) {
-        if (!is_ready(patch)) make_ready(patch);
+        ready(patch);
         return patch_motions_[patch];
     }
 

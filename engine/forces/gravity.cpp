@@ -22,9 +22,9 @@ public:
 }  // namespace
 
 void set_gravity_forces(const Compute& compute, std::span<const double> mass, const Vec3& gravity, Vectors& forces) {
-    const double gx = gravity.x(), gy = gravity.y(), gz = gravity.z();
-    double *fx = forces.x.data(), *fy = forces.y.data(), *fz = forces.z.data();
     for_chunks(compute, forces.slices(), [&](Slices range) {
+        const double gx = gravity.x(), gy = gravity.y(), gz = gravity.z();
+        double *fx = forces.x.data(), *fy = forces.y.data(), *fz = forces.z.data();
         const std::size_t last = std::min(static_cast<std::size_t>(range.last) * slice_lanes, mass.size());
         for (std::size_t i = static_cast<std::size_t>(range.first) * slice_lanes; i < last; ++i) {
             fx[i] = mass[i] * gx;
