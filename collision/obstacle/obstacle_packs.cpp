@@ -274,11 +274,12 @@ const PlacedPack& place(ObstaclePacks& packs, int number, const ObstacleSurface&
     for (const int feature : pack.feature) {
         for (const int vertex : vertices_of(surface, pack.kind, feature)) box.add(paths.at(vertex, fraction));
     }
-    placed = {.fraction = -1.0,
-              .centre = 0.5 * (box.low + box.high),
-              .shortest_edge = std::numeric_limits<float>::infinity(),
-              .all = static_cast<unsigned char>((1U << pack.count) - 1U),
-              .lanes = {}};
+    std::atomic_ref(placed.fraction).store(-1.0, std::memory_order_relaxed);  // others may look meanwhile
+    placed.centre = 0.5 * (box.low + box.high);
+    placed.radius = placed.sharpness = 0.0F;
+    placed.shortest_edge = std::numeric_limits<float>::infinity();
+    placed.all = static_cast<unsigned char>((1U << pack.count) - 1U);
+    placed.lanes = {};
     for (int lane = 0; lane < pack_lanes; ++lane) {
         place_points(pack, {surface, paths, fraction}, lane, placed);
         if (pack.kind == PairKind::face_vertex) placed.lanes.at[6][lane] = -1.0F;
