@@ -8,6 +8,7 @@
 
 namespace percale::scenes {
 
+/// A cloth with the mesh that it starts as.
 struct ClothMesh {
     const ClothSpec* spec;
     const TriangleMesh* mesh;

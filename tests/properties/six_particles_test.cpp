@@ -218,8 +218,13 @@ TEST_CASE("Six particles: a step of every scheme is the one made by hand", "[law
     for (const SchemeFacts& facts : scheme_table()) {
         const double damping = facts.implicit ? 0.0 : 0.05;
         World world = particles(facts.scheme, h, damping);
-        const State by_hand = step_by_hand(facts.scheme, lecture_of(world, damping), start_state(), h);
+        State by_hand = step_by_hand(facts.scheme, lecture_of(world, damping), start_state(), h);
         REQUIRE(step(world).ok());
+        if (facts.scheme == Scheme::bdf2) {  // its second step is the first of its own
+            const State start = start_state(), a{(4.0 * by_hand.q - start.q) / 3.0, (4.0 * by_hand.v - start.v) / 3.0};
+            by_hand = solve_implicitly(lecture_of(world, damping), a, 2.0 / 3.0 * h);
+            REQUIRE(step(world).ok());
+        }
         check_law("six particles, " + std::string(facts.word) + ": distance from the step by hand, m", difference(by_hand, world),
                   1e-12);
     }

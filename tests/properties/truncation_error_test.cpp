@@ -81,19 +81,6 @@ ClothState exact_state(const System& system, double time) {
     return world.state.cloth;
 }
 
-/// M^-1 f, by a step of forward Euler: v + h M^-1 f.
-Vectors acceleration_of(const System& system, const ClothState& state) {
-    World world = start_of(system, {.time_step = 1e-9, .scheme = Scheme::forward_euler});
-    world.state.cloth = state;
-    REQUIRE(step(world).ok());
-    Vectors acceleration = world.state.cloth.velocities;
-    add_scaled(acceleration, -1.0, state.velocities);
-    for (auto* axis : {&acceleration.x, &acceleration.y, &acceleration.z}) {
-        for (double& a : *axis) a *= 1e9;
-    }
-    return acceleration;
-}
-
 /// Positions and velocities, the latter times 0.1 s, that one step from the exact state is off by, m.
 double step_error(const System& system, Scheme scheme, double h) {
     World world = start_of(system, {.time_step = h, .scheme = scheme});
@@ -103,7 +90,7 @@ double step_error(const System& system, Scheme scheme, double h) {
         world.state.past.earlier.positions = earlier.positions;
         world.state.past.earlier.velocities = earlier.velocities;
         world.state.past.earlier_length = h;
-        world.state.past.acceleration = acceleration_of(system, world.state.cloth);
+        world.state.past.acceleration.resize(world.scene.model.vertex_count());  // for the stopping rule alone, which is off
     }
     REQUIRE(step(world).ok());
     const ClothState exact = exact_state(system, system.steady + h);
@@ -129,7 +116,7 @@ TEST_CASE("One step from an exact state is off by a power of the step one higher
             CHECK(coarser > 1e-13);  // more than rounding
             check_law_between(
                 "local error of a step, " + std::string(system.name) + ", " + std::string(facts.word) + ": power of h", slope,
-                facts.order + 0.8, facts.order + 1.3);
+                facts.order + 0.9, facts.order + 1.1);
         }
     }
 }
