@@ -18,7 +18,6 @@ public:
     PackMaker(const ObstacleSurface& surface, ObstaclePacks& packs) : surface_(surface), packs_(packs) {}
 
     void add_patch(std::span<const int> triangles) {
-        for (const int triangle : triangles) packs_.patch_of[triangle] = static_cast<int>(packs_.first.size()) / 3;
         add_kind(PairKind::vertex_face, {triangles.begin(), triangles.end()});
         std::vector<int> edges, vertices;
         for (const int triangle : triangles) {
@@ -215,7 +214,6 @@ double longest_over_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 ObstaclePacks make_packs(const ObstacleSurface& surface) {
     ObstaclePacks packs;
     const std::vector<int> order = morton_order(surface.triangles, surface.vertices);
-    packs.patch_of.resize(order.size());
     packs.place_of[0].assign(surface.triangles.size(), -1);
     packs.place_of[1].assign(surface.edges.size(), -1);
     packs.place_of[2].assign(surface.vertices.size(), -1);

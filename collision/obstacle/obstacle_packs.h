@@ -57,9 +57,8 @@ inline double height_above(const PackHull& hull, std::span<const int> points, st
 
 /// Patches of sixteen neighbouring triangles with the edges and vertices they own that cloth can touch.
 struct ObstaclePacks {
-    std::vector<int> patch_of;  // triangle
-    std::vector<int> first;     // pack of each patch and kind, and one more: see packs_of
-    std::vector<Box> box;       // of each patch, m, world, of the whole step
+    std::vector<int> first;  // pack of each patch and kind, and one more: see packs_of
+    std::vector<Box> box;    // of each patch, m, world, of the whole step
     std::vector<FeaturePack> packs;
     std::vector<int> patch_of_pack;
     std::vector<PackHull> hulls;  // of each pack

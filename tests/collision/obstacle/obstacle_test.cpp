@@ -13,6 +13,11 @@ using namespace percale::test;
 
 namespace {
 
+/// The patch whose packs a triangle is in.
+int patch_of(const Obstacle& obstacle, std::size_t triangle) {
+    return obstacle.packs().patch_of_pack[obstacle.packs().place_of[0][triangle] / pack_lanes];
+}
+
 std::vector<std::vector<int>> lists(Obstacle& obstacle, std::span<const Box> asked) {
     IdLists found;
     obstacle.find(asked, found);
@@ -34,7 +39,7 @@ long missing(const Obstacle& obstacle, std::span<const Box> asked, const std::ve
             const double fraction = 0.25 * (sample % 5), u = random.number(0.0, 1.0), v = random.number(0.0, 1.0 - u);
             const Vec3 x = (1 - u - v) * obstacle.at(a, fraction) + u * obstacle.at(b, fraction) + v * obstacle.at(c, fraction);
             for (std::size_t i = 0; i < asked.size(); ++i) {
-                const int patch = obstacle.packs().patch_of[t];
+                const int patch = patch_of(obstacle, t);
                 count += asked[i].contains(x) && !std::binary_search(found[i].begin(), found[i].end(), patch) ? 1 : 0;
             }
         }
@@ -171,7 +176,7 @@ TEST_CASE("within a step every vertex runs straight from its place at the start 
     }
     CHECK(obstacle.largest_displacement() == longest);
     for (int t = 0; t < 12; ++t) {
-        Box inside = obstacle.packs().box[obstacle.packs().patch_of[t]];
+        Box inside = obstacle.packs().box[patch_of(obstacle, t)];
         inside.grow(1e-12);
         for (const double fraction : {0.0, 0.25, 0.5, 1.0}) {
             for (const int v : obstacle.surface().triangles[t]) CHECK(inside.contains(obstacle.at(v, fraction)));
