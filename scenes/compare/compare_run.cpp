@@ -135,7 +135,7 @@ VariantRun run_built(BuiltScene& built, const std::function<bool()>& stop_asked)
 }  // namespace
 
 void leave_only_steps(Scene& scene) {
-    scene.output.frames = no_frames;
+    scene.output.frames = {no_frames};
     scene.output.fps = 1e-9;
     scene.expectations.clear();
 }

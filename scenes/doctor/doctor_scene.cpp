@@ -389,7 +389,7 @@ std::vector<Finding> examine_scene_meshes(const Scene& scene) {
 
 std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan) {
     std::vector<Finding> found;
-    constexpr double seconds_a_spring = 5e-9, bytes_a_vertex = 60.0, bytes_a_triangle = 20.0;
+    constexpr double seconds_a_spring = 5e-9;
     const Scene& scene = built.scene;
     const auto warn = [&](const std::string& kind, const std::string& what, const std::string& fix) {
         found.push_back({.severity = Severity::warning, .kind = kind, .place = scene.file, .what = what, .fix = fix});
@@ -404,11 +404,7 @@ std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan
     if (plan.memory_bytes > much_memory)
         warn("much_memory", "it will take about " + short_number(1e-9 * plan.memory_bytes) + " GB of memory",
              "take fewer vertices (grid.vertices) or simpler obstacle meshes");
-    double frame = 0.0;
-    for (const TriangleMesh& mesh : built.cloth_meshes)
-        frame += bytes_a_vertex * static_cast<double>(mesh.vertices.size()) +
-                 bytes_a_triangle * static_cast<double>(mesh.triangles.size());
-    const double disk = scene.output.frames == no_frames ? 0.0 : frame * scene.latest_end() * scene.output.fps;
+    const double disk = output_size_of(built).bytes;
     if (disk > much_disk)
         warn("much_output", "its frames will take about " + short_number(1e-9 * disk) + " GB on disk",
              "lower output.fps, or set output.frames = \"none\"");

@@ -10,7 +10,7 @@
 
 namespace percale::scenes {
 
-constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 5, .words = "checkpoint"};
+constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 6, .words = "checkpoint"};
 
 template <class Archive, OfType<Pinch> Value>
 void exchange(Archive& archive, Value& pinch) {
@@ -62,7 +62,7 @@ void exchange(Archive& archive, Value& run) {
 
 template <class Archive, OfType<FrameRecord> Value>
 void exchange(Archive& archive, Value& frame) {
-    archive(frame.index, frame.time, frame.cloths, frame.obstacles, frame.check, frame.meeting);
+    archive(frame.index, frame.time, frame.cloths, frame.obstacles, frame.others, frame.check, frame.meeting);
 }
 
 template <class Archive, OfType<GrownFile> Value>

@@ -6,6 +6,8 @@
 
 #include "common/text.h"
 #include "common/whole_file.h"
+#include "garment/cloth_shape.h"
+#include "meshes/mesh_import.h"
 #include "percale/error.h"
 #include "run/obstacle_motion.h"
 
@@ -41,55 +43,87 @@ std::vector<std::string> file_names(const std::string& what, const std::vector<S
     return names;
 }
 
+/// An OBJ file whose vertices a cloth or an obstacle has, as they lie there; "" where there is none.
+template <class Spec>
+std::string obj_file_of(const Scene& scene, const Spec& spec) {
+    bool is_list = false;
+    if constexpr (requires { spec.frames; }) is_list = spec.frames.has_value();
+    const bool has = !is_list && spec.part.empty() && extension_of(spec.mesh) == ".obj";
+    return has ? path_beside(scene, spec.mesh) : "";
+}
+
 FrameCast cast_of(const Scene& scene) {
     FrameCast cast{.cloths = file_names("cloth", scene.cloths),
                    .obstacles = file_names("obstacle", scene.obstacles),
                    .obstacle_moves = {},
                    .fps = scene.output.fps};
-    for (const ObstacleSpec& obstacle : scene.obstacles)
-        cast.obstacle_moves.push_back(obstacle_moves(obstacle) || obstacle.yields);
+    for (const ClothSpec& cloth : scene.cloths) cast.cloth_files.push_back(obj_file_of(scene, cloth));
+    for (const ObstacleSpec& obstacle : scene.obstacles) {
+        cast.obstacle_files.push_back(obj_file_of(scene, obstacle));
+        cast.obstacle_moves.push_back(obstacle_changes(obstacle));
+    }
     return cast;
 }
 
-std::unique_ptr<FrameEncoder> encoder_of(const std::string& word, const FrameCast& cast, std::span<const FrameFormat> formats) {
-    if (word == no_frames) return nullptr;
-    std::vector<std::string> words = {no_frames};
-    for (const FrameFormat& format : formats) {
-        if (format.word == word) return format.make(cast);
-        words.push_back(format.word);
+/// Throws SceneError for a word that no format has. Exact formats come first.
+std::vector<const FrameFormat*> formats_of(const std::vector<std::string>& words, std::span<const FrameFormat> formats) {
+    std::vector<const FrameFormat*> chosen;
+    for (const std::string& word : words) {
+        const auto found = std::ranges::find(formats, word, &FrameFormat::word);
+        if (found != formats.end()) chosen.push_back(&*found);
+        if (found != formats.end() || word == no_frames) continue;
+        std::vector<std::string> valid = {no_frames};
+        for (const FrameFormat& format : formats) valid.push_back(format.word);
+        throw SceneError("output.frames: no such frame format: '" + word + "'; valid: " + joined(valid));
     }
-    throw SceneError("output.frames: no such frame format: '" + word + "'; valid: " + joined(words));
+    std::ranges::stable_partition(chosen, [](const FrameFormat* format) { return format->exact; });
+    return chosen;
+}
+
+void append_new(std::vector<std::string>& names, const std::vector<std::string>& more) {
+    for (const std::string& name : more) {
+        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
 }
 
 }  // namespace
 
 FrameWriter::FrameWriter(const std::string& folder, const Scene& scene, std::span<const FrameFormat> formats)
-    : folder_(folder),
-      formats_(formats),
-      cast_(cast_of(scene)),
-      files_(folder),
-      encoder_(encoder_of(scene.output.frames, cast_, formats)) {
-    const std::string& word = scene.output.frames;
-    const bool holds = std::ranges::any_of(formats_, [&](const FrameFormat& f) { return f.word == word && f.holds_fields; });
-    if (scene.output.fields.empty() || word == no_frames || holds) return;
-    throw SceneError("output.fields: output.frames = \"" + word + "\" holds no fields; with them it must be one of " +
-                     words_with_fields(formats_));
+    : folder_(folder), formats_(formats), cast_(cast_of(scene)), files_(folder) {
+    bool holds_fields = false;
+    for (const FrameFormat* format : formats_of(scene.output.frames, formats)) {
+        encoders_.push_back(format->make(cast_));
+        holds_fields = holds_fields || format->holds_fields;
+    }
+    if (scene.output.fields.empty() || encoders_.empty() || holds_fields) return;
+    throw SceneError("output.fields: output.frames = \"" + joined(scene.output.frames) +
+                     "\" holds no fields; with them it must be one of " + words_with_fields(formats_));
 }
 
 FrameRecord FrameWriter::write(const Frame& frame) {
-    FrameRecord record{frame.index, frame.time, {}, {}, frame.check, {}};
-    if (!encoder_) return record;
-    const FrameFiles files = encoder_->write({frame.index, frame.time, frame.cloths, frame.obstacles, frame.fields}, files_);
+    FrameRecord record{frame.index, frame.time, {}, {}, {}, frame.check, {}};
+    for (const auto& encoder : encoders_) {
+        FrameFiles files = encoder->write({frame.index, frame.time, frame.cloths, frame.obstacles, frame.fields}, files_);
+        append_new(record.others, files.others);
+        if (encoder == encoders_.front()) {
+            record.cloths = std::move(files.cloths);
+            record.obstacles = std::move(files.obstacles);
+            continue;
+        }
+        for (const auto& more : {files.cloths, files.obstacles}) append_new(record.others, more);
+    }
     files_.check();
-    record.cloths = files.cloths;
-    record.obstacles = files.obstacles;
     if (!record.cloths.empty()) record.meeting = frame.meeting;
     return record;
 }
 
 void FrameWriter::finish(std::span<const double> times) {
-    if (encoder_) encoder_->finish(times, files_);
+    for (const auto& encoder : encoders_) encoder->finish(times, files_);
     files_.finish();
+}
+
+bool FrameWriter::is_made_at_end(const std::string& name) const {
+    return std::ranges::any_of(encoders_, [&](const auto& encoder) { return encoder->is_made_at_end(name); });
 }
 
 bool FrameWriter::writes(const std::string& name) const {

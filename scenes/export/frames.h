@@ -18,12 +18,13 @@ struct FrameRecord {
     double time = 0.0;                   // s
     std::vector<std::string> cloths;     // in the order of the scene; empty if nothing was written
     std::vector<std::string> obstacles;  // in the order of the scene; a resting one has the same file in every frame
+    std::vector<std::string> others;     // files of other formats, and what goes with them
     FrameCheck check;
     PairsOfCloths meeting;  // of `cloths`, by number, that meet each other (self_contact)
 };
 
-/// Writes the frames of a scene in the format that it names (output.frames) into FOLDER/frames and FOLDER/obstacles, whole or not
-/// at all.
+/// Writes the frames of a scene in the formats that it names (output.frames) into FOLDER/frames and FOLDER/obstacles, whole or
+/// not at all. Cloths and obstacles of a record are the files of the first exact format, or of the first if none is.
 class FrameWriter {
 public:
     /// Creates nothing yet. Throws SceneError for a name that cannot be part of a file name or that two cloths or two obstacles
@@ -37,6 +38,8 @@ public:
     /// The files that are written, for a checkpoint and for what cannot be finished.
     FrameFolder& files() { return files_; }
 
+    /// Whether a listed file is not there before `finish`.
+    bool is_made_at_end(const std::string& name) const;
     /// Whether a listed file is one that a run writes, in whatever format: never anything above or beside its folder.
     bool writes(const std::string& name) const;
     /// Removes what runs of this scene have left, whole or not and in whatever format, of frames from this number on.
@@ -49,7 +52,7 @@ private:
     std::span<const FrameFormat> formats_;
     FrameCast cast_;
     FrameFolder files_;
-    std::unique_ptr<FrameEncoder> encoder_;  // null: no frames are written
+    std::vector<std::unique_ptr<FrameEncoder>> encoders_;  // the one whose files are those of a record first; empty: no frames
 };
 
 }  // namespace percale::scenes

@@ -21,7 +21,8 @@ void remove_file(const fs::path& path) {
 std::vector<std::string> listed_files(const std::vector<FrameRecord>& frames) {
     std::vector<std::string> all;
     for (const FrameRecord& frame : frames)
-        for (const auto* files : {&frame.cloths, &frame.obstacles}) all.insert(all.end(), files->begin(), files->end());
+        for (const auto* files : {&frame.cloths, &frame.obstacles, &frame.others})
+            all.insert(all.end(), files->begin(), files->end());
     return all;
 }
 
@@ -51,9 +52,10 @@ void remove_leftover(const std::string& folder, const char* name) {
     if (is_leftover(file)) remove_file(file);
 }
 
-/// Steps and frames of a run that was killed: its table never got its name.
+/// Steps and frames of a run that was killed: its table never got its name. What a checkpoint needed, too.
 void remove_killed_run(const std::string& folder, const FrameWriter& writer) {
-    if (is_leftover(fs::path(folder) / (std::string("steps.csv") + part_suffix))) writer.remove_from(0);
+    const bool killed = is_leftover(fs::path(folder) / (std::string("steps.csv") + part_suffix));
+    if (killed || is_leftover(fs::path(folder) / checkpoint_name)) writer.remove_from(0);
     for (const char* name : {"steps.csv", "report.json", checkpoint_name}) remove_leftover(folder, name);
 }
 
@@ -64,6 +66,7 @@ std::vector<std::string> files_of(const FolderState& state, const std::string& f
     for (const std::string& file : files)
         if (!writer.writes(file)) throw SceneError(file + ": is no frame of a run");
     for (const GrownFile& file : state.grown) std::erase(files, file.name);
+    std::erase_if(files, [&](const std::string& file) { return writer.is_made_at_end(file); });
     for (const std::string& file : files)
         if (!fs::exists(fs::path(folder) / file))
             throw SceneError(folder + "/" + file + ": is missing, and the run cannot be resumed without it");

@@ -136,6 +136,7 @@ ordered_json frame_list(std::span<const FrameRecord> frames) {
                         {"time", frame.time},
                         {"cloths", frame.cloths},
                         {"obstacles", frame.obstacles},
+                        {"others", frame.others},
                         {"intersections", frame.check.intersections},
                         {"crossings_at_seams", frame.check.at_seams},
                         {"deepest_penetration", frame.check.deepest_penetration},
@@ -273,7 +274,8 @@ FrameRecord frame_record(const ordered_json& json) {
     record.check.intersections = json.at("intersections").get<int>();
     record.check.deepest_penetration = json.at("deepest_penetration").get<double>();
     record.check.smallest_distance = number_or_infinity(json.at("smallest_distance"));
-    // Reports of builds without contact between cloths lack it.
+    // Reports of builds with one format of frames, or without contact between cloths, lack them.
+    if (json.contains("others")) record.others = json.at("others").get<std::vector<std::string>>();
     if (json.contains("self_contact")) record.meeting = json.at("self_contact").get<PairsOfCloths>();
     return record;
 }

@@ -35,7 +35,7 @@ std::string kind_text(const SceneKey& key) {
         case KeyKind::names:
             return "a list of " + std::to_string(key.count) + " names";
         case KeyKind::words:
-            return "a list of some of " + joined(key.choices);
+            return "one of " + joined(key.choices) + ", or a list of some of them";
         case KeyKind::pairs:
             return "a list of pairs [i, j] of vertex indices";
         case KeyKind::stitches:

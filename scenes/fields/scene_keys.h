@@ -21,7 +21,7 @@ enum class KeyKind {
     box,             // [[x, y, z], [x, y, z]], each in [lowest, highest], the first nowhere above the second
     vertices,        // a list of indices, { box = ... } or "boundary"
     names,           // a list of `count` texts
-    words,           // a list of some of `choices`, none twice
+    words,           // one of `choices`, or a list of some of them, none twice
     pairs,           // a list of lists of two integers, each in [lowest, highest]
     stitches,        // a list of lists [i, j, k, t] of three integers, each in [lowest, highest], and a number 0 ... 1
     direction,       // "u", "v" or a list of two or three numbers

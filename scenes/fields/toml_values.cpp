@@ -46,6 +46,7 @@ void read_value(const TomlNode& node, std::array<std::string, 2>& value) { value
 
 void read_value(const TomlNode& node, std::vector<std::string>& value) {
     value.clear();
+    if (node.kind == TomlKind::text) value.push_back(node.text);
     for (const TomlNode& item : node.items) value.push_back(item.text);
 }
 

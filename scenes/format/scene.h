@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/source_place.h"
+#include "frames/frame_formats.h"
 #include "percale/fabric.h"
 #include "percale/mesh.h"
 #include "percale/settings.h"
@@ -159,9 +160,11 @@ struct Expectation {
 };
 
 struct OutputSpec {
-    std::string frames = "obj";  // a word of frame_words()
+    std::vector<std::string> frames = {"obj"};  // words of frame_words(); no_frames alone
     double fps = 30.0;
     std::vector<std::string> fields = {};  // some of fit_words: what frames tell of cloth besides its shape
+
+    bool writes_frames() const { return frames != std::vector<std::string>{no_frames}; }
 };
 
 enum class Detector { fcl, bullet, brute_force, none };

@@ -92,6 +92,7 @@ void check_names(const TomlNode& node, const SceneKey& key, const std::string& s
 }
 
 void check_words(const TomlNode& node, const SceneKey& key, const std::string& shown) {
+    if (node.kind == TomlKind::text) return check_word(node, key, shown);
     if (node.kind != TomlKind::list) fail_kind(node, key, shown);
     for (auto item = node.items.begin(); item != node.items.end(); ++item) {
         check_word(*item, key, shown);

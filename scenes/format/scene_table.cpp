@@ -130,12 +130,29 @@ Field<Scene> longest_field() {
             }};
 }
 
+/// One word, or a list of them; written as what it is.
+Field<OutputSpec> output_frames_field() {
+    return with_default<OutputSpec>(
+        {.key = {.path = "frames",
+                 .kind = KeyKind::words,
+                 .sentence = "Formats of the frames, one or several; " + frame_words_meaning() + ".",
+                 .choices = frame_words()},
+         .read =
+             [](const TomlNode& node, OutputSpec& spec, FaultList&) {
+                 read_value(node, spec.frames);
+                 if (spec.frames.empty()) fail_at(node.place, "output.frames is an empty list; for no frames write \"none\"");
+                 if (spec.frames.size() > 1 && std::ranges::find(spec.frames, no_frames) != spec.frames.end())
+                     fail_at(node.place, "output.frames has 'none' beside formats");
+             },
+         .write = [](const OutputSpec& spec) -> std::optional<TomlNode> {
+             return spec.frames.size() == 1 ? value_node(spec.frames.front()) : value_node(spec.frames);
+         }});
+}
+
 const FieldTable<OutputSpec>& output_table() {
     static const FieldTable<OutputSpec> table = {
         .fields = {
-            value_field<OutputSpec>(
-                {.path = "frames", .sentence = "Format of the frames; " + frame_words_meaning() + ".", .choices = frame_words()},
-                &OutputSpec::frames),
+            output_frames_field(),
             value_field<OutputSpec>({.path = "fps",
                                      .sentence = "Frames per second of simulated time.",
                                      .unit = "1/s",

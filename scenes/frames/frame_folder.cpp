@@ -33,6 +33,14 @@ void FrameFolder::check() {
     for (auto& [name, growing] : growing_) growing.file.check();
 }
 
+std::string FrameFolder::scratch(const std::string& name) {
+    Growing& growing = growing_.at(name);
+    growing.file.out().flush();
+    growing.file.check();
+    growing.scratch = true;
+    return path(name) + part_suffix;
+}
+
 void FrameFolder::copy(const std::string& other, const std::string& name) {
     const std::string from = other + "/" + name, to = path(name), part = to + part_suffix;
     need_folder_of(name);
@@ -77,9 +85,12 @@ void FrameFolder::discard() {
 void FrameFolder::finish() {
     check();
     for (auto& [name, growing] : growing_) {
+        if (growing.scratch && growing.kept) growing.file.leave();
+        if (growing.scratch) continue;
         growing.file.commit();
         growing.whole = true;
     }
+    std::erase_if(growing_, [](const auto& entry) { return entry.second.scratch; });
 }
 
 }  // namespace percale::scenes

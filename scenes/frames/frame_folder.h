@@ -31,6 +31,9 @@ public:
     std::ostream& grown(const std::string& name);
     /// Throws if something that was put into grown files could not be written.
     void check();
+    /// The path of all that was put into a grown file. It never becomes whole: others are made from it at the end of the run,
+    /// then it goes, or stays under its temporary name where a checkpoint needs it.
+    std::string scratch(const std::string& name);
 
     /// Copies a file from another run's folder.
     void copy(const std::string& other, const std::string& name);
@@ -52,7 +55,7 @@ private:
         explicit Growing(const std::string& path) : file(path) {}
         Growing(const std::string& path, const std::string& source, std::uint64_t bytes) : file(path, source, bytes) {}
         WholeFile file;
-        bool kept = false, whole = false;
+        bool kept = false, whole = false, scratch = false;
     };
     void need_folder_of(const std::string& name);
     std::string path(const std::string& name) const { return folder_ + "/" + name; }

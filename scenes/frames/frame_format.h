@@ -18,7 +18,9 @@ class FrameFolder;
 struct FrameCast {
     std::vector<std::string> cloths, obstacles;  // in the order of the scene
     std::vector<bool> obstacle_moves;            // false: one pose in all frames
-    double fps = 30.0;                           // frames per second of simulated time
+    /// OBJ files whose vertices these are, as they lie in the file, "" where there is none; empty: of none.
+    std::vector<std::string> cloth_files = {}, obstacle_files = {};
+    double fps = 30.0;  // frames per second of simulated time
 };
 
 /// One frame in world coordinates, m, in the order of the cast.
@@ -32,6 +34,17 @@ struct FrameShapes {
 /// The files that show one frame, relative to the run's folder, in the order of the cast. Frames may share files.
 struct FrameFiles {
     std::vector<std::string> cloths, obstacles;
+    std::vector<std::string> others = {};  // what goes with them
+};
+
+/// How large a mesh is in files: numbers of vertices and triangles, of fields of vertices and of triangles.
+struct MeshCounts {
+    double vertices = 0.0, triangles = 0.0, vertex_fields = 0.0, triangle_fields = 0.0;
+};
+
+/// Bytes that a mesh takes.
+struct FrameBytes {
+    double once = 0.0, each_frame = 0.0;
 };
 
 /// Writes the frames of one run. It keeps nothing of a frame, so that a run can be gone on with by a new one.
@@ -45,13 +58,17 @@ public:
     virtual void finish(std::span<const double> times, FrameFolder& folder) = 0;
     /// The first frame of this cast that a file of this name, relative to the run's folder, would show; -1: it is none of them.
     virtual int first_frame_of(const std::string& name) const = 0;
+    /// Whether a file of `FrameFiles` is not there before `finish`.
+    virtual bool is_made_at_end(const std::string&) const { return false; }
 };
 
 struct FrameFormat {
-    std::string word;                  // in scene files and of --frames
-    std::string sentence;              // what is written, for people
-    std::vector<std::string> endings;  // of all its files, with the point; no other format has them
-    bool holds_fields = false;         // FrameShapes::cloth_fields
+    std::string word;                                    // in scene files and of --frames
+    std::string sentence;                                // what is written, for people
+    std::vector<std::string> endings;                    // of all its files, with the point; no other format has them
+    bool holds_fields = false;                           // FrameShapes::cloth_fields
+    bool exact = false;                                  // import_mesh reads the same bits back from a file of one mesh and frame
+    std::function<FrameBytes(const MeshCounts&)> bytes;  // about
     std::function<std::unique_ptr<FrameEncoder>(const FrameCast&)> make;
 };
 

@@ -1,14 +1,16 @@
 #include "frames/frame_formats.h"
 
+#include "frames/glb_frames.h"
 #include "frames/obj_frames.h"
 #include "frames/ply_frames.h"
+#include "frames/point_cache_frames.h"
+#include "frames/vtp_frames.h"
 
 namespace percale::scenes {
 
 std::span<const FrameFormat> frame_formats() {
     static const FrameFormat formats[] = {
-        obj_frames(),
-        ply_frames(),
+        obj_frames(), ply_frames(), glb_frames(), pc2_frames(), mdd_frames(), vtp_frames(),
     };
     return formats;
 }

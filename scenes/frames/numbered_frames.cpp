@@ -10,7 +10,13 @@ namespace percale::scenes {
 
 namespace {
 
-using MeshWriter = std::function<void(const std::string&, const TriangleMesh&, const MeshFields&)>;
+const MeshFields no_fields;
+
+/// The file of a shape, "" where the cast tells of none.
+const std::string& obj_file_at(const std::vector<std::string>& files, std::size_t index) {
+    static const std::string none;
+    return files.empty() ? none : files[index];
+}
 
 class NumberedFrames final : public FrameEncoder {
 public:
@@ -21,14 +27,16 @@ public:
         FrameFiles files;
         for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
             files.cloths.push_back(numbered("frames/" + cast_.cloths[i], frame.index));
-            const MeshFields fields = frame.cloth_fields.empty() ? MeshFields() : frame.cloth_fields[i];
-            folder.write(files.cloths.back(), [&](const std::string& path) { write_(path, frame.cloths[i], fields); });
+            const NumberedMesh mesh{frame.cloths[i], frame.cloth_fields.empty() ? no_fields : frame.cloth_fields[i],
+                                    obj_file_at(cast_.cloth_files, i)};
+            folder.write(files.cloths.back(), [&](const std::string& path) { write_(path, mesh); });
         }
         for (std::size_t i = 0; i < frame.obstacles.size(); ++i) {
             const bool moves = cast_.obstacle_moves[i];
             files.obstacles.push_back(numbered("obstacles/" + cast_.obstacles[i], moves ? frame.index : 0));
             if (!moves && frame.index > 0) continue;
-            folder.write(files.obstacles.back(), [&](const std::string& path) { write_(path, frame.obstacles[i], {}); });
+            const NumberedMesh mesh{frame.obstacles[i], no_fields, obj_file_at(cast_.obstacle_files, i)};
+            folder.write(files.obstacles.back(), [&](const std::string& path) { write_(path, mesh); });
         }
         return files;
     }
@@ -43,11 +51,7 @@ public:
     }
 
 private:
-    std::string numbered(const std::string& name, int index) const {
-        char number[16];
-        std::snprintf(number, sizeof number, "_%05d", index);
-        return name + number + ending_;
-    }
+    std::string numbered(const std::string& name, int index) const { return numbered_name(name, index, ending_); }
 
     /// The number in START_NUMBER.obj; -1 for other names.
     int number_of(const std::string& name, const std::string& start) const {
@@ -65,6 +69,12 @@ private:
 };
 
 }  // namespace
+
+std::string numbered_name(const std::string& name, int index, const std::string& ending) {
+    char number[16];
+    std::snprintf(number, sizeof number, "_%05d", index);
+    return name + number + ending;
+}
 
 std::unique_ptr<FrameEncoder> numbered_frames(const FrameCast& cast, const std::string& ending, MeshWriter write) {
     return std::make_unique<NumberedFrames>(cast, ending, std::move(write));

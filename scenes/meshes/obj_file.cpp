@@ -5,6 +5,7 @@
 #include <istream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "common/whole_file.h"
@@ -22,6 +23,8 @@ struct FaceList {
     std::vector<long long> textures;  // of the corners; -1: none
     std::vector<std::size_t> ends;    // one past a face's last corner
     std::vector<std::size_t> lines;   // where the face stands
+    /// How faces are cut into triangles, by the numbers of their corners, where the file tells (ObjLayout).
+    std::map<std::size_t, std::vector<Triangle>> cuts;
 };
 
 /// How many vertices and texture coordinates stand above a line.
@@ -69,21 +72,6 @@ private:
 struct Corner {
     long long vertex = 0, texture = 0;
 };
-
-/// Takes the next logical line off the text: a backslash before the line end joins lines, and comments end it.
-std::string next_line(std::string_view& text, std::size_t& line_number) {
-    std::string joined;
-    bool goes_on = true;
-    while (goes_on && !text.empty()) {
-        std::string_view line = take_line(text);
-        ++line_number;
-        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-        goes_on = !line.empty() && line.back() == '\\';
-        if (goes_on) line.remove_suffix(1);
-        joined.append(line).append(goes_on ? " " : "");
-    }
-    return joined.substr(0, joined.find('#'));
-}
 
 Vec3 read_vertex(std::string_view line, const TextPlace& place) {
     constexpr const char* names[] = {"coordinate x", "coordinate y", "coordinate z", "weight or colour"};
@@ -136,6 +124,28 @@ void read_face(std::string_view line, const TextPlace& place, const ReadSoFar& s
     faces.lines.push_back(place.line);
 }
 
+/// A comment of ObjLayout behind a face: how it is cut.
+void read_cut(std::string_view line, const TextPlace& place, FaceList& faces) {
+    if (next_word(line) != "corners") return;
+    if (faces.ends.empty()) fail_at_line(place, "no face stands above it");
+    const std::size_t face = faces.ends.size() - 1;
+    const std::size_t count = faces.ends[face] - (face == 0 ? 0 : faces.ends[face - 1]);
+    std::vector<Triangle> cut;
+    for (std::string_view word = next_word(line); !word.empty() && cut.size() <= count; word = next_word(line)) {
+        Triangle& triangle = cut.emplace_back();
+        for (int k = 0; k < 3; ++k) {
+            const long long corner = to_integer(k == 0 ? word : next_word(line), place, "corner");
+            if (corner < 0 || corner >= static_cast<long long>(count))
+                fail_at_line(place, "corner " + std::to_string(corner) + " of a face with " + std::to_string(count));
+            triangle[k] = static_cast<int>(corner);
+        }
+    }
+    if (cut.size() + 2 != count)
+        fail_at_line(place, "a face of " + std::to_string(count) + " corners is cut into " + std::to_string(count - 2) +
+                                " triangles, not " + std::to_string(cut.size()));
+    faces.cuts[face] = std::move(cut);
+}
+
 /// A triangle by the numbers of its corners in the list, and its face.
 struct CornerTriangle {
     std::array<std::size_t, 3> corners;
@@ -155,7 +165,8 @@ std::vector<CornerTriangle> corner_triangles(const FaceList& faces, std::span<co
                                                             " is out of range 1 ... " + std::to_string(vertices.size()));
             places.push_back(vertices[static_cast<std::size_t>(faces.corners[k])]);
         }
-        for (const Triangle& t : polygon_triangles(places))
+        const auto cut = faces.cuts.find(face);
+        for (const Triangle& t : cut != faces.cuts.end() ? cut->second : polygon_triangles(places))
             triangles.push_back({{start + t[0], start + t[1], start + t[2]}, face});
         start = faces.ends[face];
     }
@@ -202,15 +213,18 @@ TexturedMesh read_content(std::istream& in, const std::string& name, bool textur
     FaceList faces;
     PartChoice choice(part);
     std::size_t line_number = 0;
+    bool taken = true;  // the face above
     for (std::string_view text = content; !text.empty();) {
         const TextPlace place{name, line_number + 1};
-        const std::string line = next_line(text, line_number);
+        const std::string line = take_obj_line(text, line_number);
         std::string_view rest = line;
         const std::string_view keyword = next_word(rest);
         if (keyword == "v") mesh.vertices.push_back(read_vertex(rest, place));
         if (keyword == "vt" && textured) textures.push_back(read_texture(rest, place));
         if (keyword == "o" || keyword == "g") choice.enter(keyword, rest);
-        if (keyword == "f" && choice.takes_next_face()) read_face(rest, place, {mesh.vertices.size(), textures.size()}, faces);
+        if (keyword == "f") taken = choice.takes_next_face();
+        if (keyword == "f" && taken) read_face(rest, place, {mesh.vertices.size(), textures.size()}, faces);
+        if (keyword == obj_note && taken) read_cut(rest, place, faces);
     }
     if (mesh.vertices.empty()) throw SceneError(name, "no vertices");
     if (faces.ends.empty() && !part.empty()) choice.fail_without_faces(name);
@@ -225,20 +239,10 @@ TexturedMesh read_content(std::istream& in, const std::string& name, bool textur
     return result;
 }
 
-template <typename Number>
-void append_number(std::string& text, Number number) {
-    char digits[32];
-    text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-}
-
 std::string obj_text(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
     std::string text;
     text.reserve(vertices.size() * 64 + triangles.size() * 24);
-    for (const Vec3& x : vertices) {
-        text += 'v';
-        for (int k = 0; k < 3; ++k) append_number(text += ' ', x[k]);
-        text += '\n';
-    }
+    for (const Vec3& x : vertices) append_obj_vertex(text, x) += '\n';
     for (const Triangle& triangle : triangles) {
         text += 'f';
         for (const int vertex : triangle) append_number(text += ' ', static_cast<long long>(vertex) + 1);
@@ -248,6 +252,12 @@ std::string obj_text(std::span<const Vec3> vertices, std::span<const Triangle> t
 }
 
 }  // namespace
+
+std::string& append_obj_vertex(std::string& text, const Vec3& x) {
+    text += 'v';
+    for (int k = 0; k < 3; ++k) append_number(text += ' ', x[k]);
+    return text;
+}
 
 TriangleMesh read_obj(std::istream& in, const std::string& name, const std::string& part) {
     return read_content(in, name, false, part).mesh;

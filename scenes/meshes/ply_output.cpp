@@ -1,24 +1,16 @@
 #include "meshes/ply_output.h"
 
-#include <array>
-#include <bit>
 #include <cstdint>
 
+#include "common/bytes.h"
 #include "common/whole_file.h"
 #include "percale/error.h"
 
 namespace percale::scenes {
 namespace {
 
-/// The bytes of a number, the lowest first.
-template <class Whole>
-void append_bytes(std::string& bytes, Whole number) {
-    for (std::size_t k = 0; k < sizeof(Whole); ++k) bytes += static_cast<char>(static_cast<std::uint8_t>(number >> (8 * k)));
-}
-
 void append_values(std::string& bytes, const std::vector<MeshField>& fields, std::size_t item) {
-    for (const MeshField& field : fields)
-        append_bytes(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(field.values[item])));
+    for (const MeshField& field : fields) append_float(bytes, field.values[item]);
 }
 
 /// The header's lines of fields; checks their number of values.
@@ -44,12 +36,12 @@ void write_ply(const std::string& file, const TriangleMesh& mesh, const MeshFiel
                         "end_header\n";
     bytes.reserve(bytes.size() + vertices * (24 + 4 * fields.vertex.size()) + triangles * (13 + 4 * fields.triangle.size()));
     for (std::size_t v = 0; v < vertices; ++v) {
-        for (int k = 0; k < 3; ++k) append_bytes(bytes, std::bit_cast<std::uint64_t>(mesh.vertices[v][k]));
+        for (int k = 0; k < 3; ++k) append_double(bytes, mesh.vertices[v][k]);
         append_values(bytes, fields.vertex, v);
     }
     for (std::size_t t = 0; t < triangles; ++t) {
         bytes += static_cast<char>(3);
-        for (const int corner : mesh.triangles[t]) append_bytes(bytes, static_cast<std::uint32_t>(corner));
+        for (const int corner : mesh.triangles[t]) append_little(bytes, static_cast<std::uint32_t>(corner));
         append_values(bytes, fields.triangle, t);
     }
     write_whole_file(file, bytes);

@@ -37,6 +37,31 @@ inline std::string_view take_line(std::string_view& text) {
     return line;
 }
 
+/// What a comment of an OBJ file begins with that ObjLayout writes and read_obj reads.
+inline constexpr std::string_view obj_note = "#percale";
+
+/// Takes the next line of an OBJ file off the text: a backslash before the line end joins lines, and comments end it.
+inline std::string take_obj_line(std::string_view& text, std::size_t& line_number) {
+    std::string joined;
+    bool goes_on = true;
+    while (goes_on && !text.empty()) {
+        std::string_view line = take_line(text);
+        ++line_number;
+        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        goes_on = !line.empty() && line.back() == '\\';
+        if (goes_on) line.remove_suffix(1);
+        joined.append(line).append(goes_on ? " " : "");
+    }
+    return joined.starts_with(obj_note) ? joined : joined.substr(0, joined.find('#'));
+}
+
+/// The shortest text that reads back as the same number.
+template <typename Number>
+void append_number(std::string& text, Number number) {
+    char digits[32];
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
 /// Takes the next word off the front of a line; empty at its end.
 inline std::string_view next_word(std::string_view& line) {
     constexpr std::string_view blank = " \t\r\f\v";

@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "common/text.h"
 #include "export/run_report.h"
+#include "frames/frame_formats.h"
 #include "garment/seam_stitches.h"
 #include "meshes/mesh_import.h"
 #include "percale/error.h"
@@ -46,12 +48,25 @@ struct Verdict {
     bool clean = true;
 };
 
+/// Throws SceneError for a file of single precision or of many frames, which cannot be certified.
+void check_exact(const std::string& folder, const std::string& file) {
+    const std::string ending = extension_of(file);
+    std::vector<std::string> exact;
+    for (const FrameFormat& format : frame_formats()) {
+        if (format.exact && ending == format.endings.front()) return;
+        if (format.exact) exact.push_back(format.word);
+    }
+    throw SceneError(folder + "/" + file + ": holds no frames that can be certified, bit for bit; write one of " + joined(exact) +
+                     " too, as by --frames " + exact.front() + "," + ending.substr(1));
+}
+
 /// What a run wrote, from its report; no other word of the report is believed.
 std::vector<CertifiedFrame> frames_of_run(const std::string& folder) {
     std::vector<CertifiedFrame> frames;
     for (const FrameRecord& record : read_frame_records(folder)) {
         if (record.cloths.empty()) throw SceneError(folder + ": the run wrote no frames (--frames none), so none can be checked");
         CertifiedFrame frame{"frame " + std::to_string(record.index), {}, {}, {}, {}};
+        for (const std::string& file : record.cloths) check_exact(folder, file);
         for (const std::string& file : record.cloths) frame.cloths.push_back(folder + "/" + file);
         for (const std::string& file : record.obstacles) frame.obstacles.push_back(folder + "/" + file);
         frame.meeting = record.meeting;

@@ -22,6 +22,13 @@ std::string alternatives(std::vector<std::string> words) {
     return words.empty() ? last : scenes::joined(words) + " or " + last;
 }
 
+/// a,b as TOML writes a list of texts.
+std::string list_of_words(const std::string& text) {
+    std::string list = "[\"";
+    for (const char letter : text) list += letter == ',' ? std::string("\", \"") : std::string(1, letter);
+    return list + "\"]";
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& command, CommonOptions& options) {
@@ -35,7 +42,9 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
     add_scene_options(command, options);
     command.add_option("--threads", options.threads, "Threads of the simulation (step.threads)")->type_name("N");
     command.add_flag("--quiet", options.quiet, "Print nothing but errors");
-    command.add_option("--frames", options.frames, "Format of the frames: " + alternatives(scenes::frame_words()))
+    command
+        .add_option("--frames", options.frames,
+                    "Format of the frames: " + alternatives(scenes::frame_words()) + "; or several, with commas between")
         ->type_name("FORMAT");
     command.add_option("--fps", options.fps, "Output frames per simulated second (default 30)")->type_name("F");
     command.add_flag("--certify-steps", options.certify_steps,
@@ -58,7 +67,7 @@ std::vector<scenes::Override> scene_overrides(const CommonOptions& options) {
     }
     if (!options.threads.empty()) overrides.push_back({"step.threads", options.threads, "--threads"});
     if (options.no_skip) overrides.push_back({"step.skip", "false", "--no-skip"});
-    if (!options.frames.empty()) overrides.push_back({"output.frames", "\"" + options.frames + "\"", "--frames"});
+    if (!options.frames.empty()) overrides.push_back({"output.frames", list_of_words(options.frames), "--frames"});
     if (!options.fps.empty()) overrides.push_back({"output.fps", options.fps, "--fps"});
     return overrides;
 }

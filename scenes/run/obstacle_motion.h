@@ -10,5 +10,7 @@ Pose obstacle_pose_at(const ObstacleSpec& obstacle, double time);
 
 /// Whether an obstacle has more than one pose during a run.
 bool obstacle_moves(const ObstacleSpec& obstacle);
+/// Whether its frames differ: it moves, bends or gives way.
+inline bool obstacle_changes(const ObstacleSpec& obstacle) { return obstacle_moves(obstacle) || obstacle.yields; }
 
 }  // namespace percale::scenes

@@ -1,10 +1,13 @@
 #include "run/scene_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "common/text.h"
+#include "frames/frame_formats.h"
+#include "run/obstacle_motion.h"
 #include "run/start_fault.h"
 #include "run/step_count.h"
 
@@ -62,6 +65,36 @@ ScenePlan plan_of(const BuiltScene& built) {
     return plan;
 }
 
+OutputSize output_size_of(const BuiltScene& built) {
+    const Scene& scene = built.scene;
+    OutputSize size{.frames = std::floor(scene.latest_end() * scene.output.fps + 1e-9) + 1.0};
+    if (!scene.output.writes_frames()) return {};
+    const auto has = [&](std::string_view word) {
+        return std::ranges::find(scene.output.fields, word) != scene.output.fields.end();
+    };
+    const double of_strain = has("strain") ? 3.0 : 0.0, others = (has("pressure") ? 1.0 : 0.0) + (has("distance") ? 1.0 : 0.0);
+    const auto counts = [](const TriangleMesh& mesh) {
+        return MeshCounts{.vertices = static_cast<double>(mesh.vertices.size()),
+                          .triangles = static_cast<double>(mesh.triangles.size())};
+    };
+    for (const FrameFormat& format : frame_formats()) {
+        if (std::ranges::find(scene.output.frames, format.word) == scene.output.frames.end()) continue;
+        for (const TriangleMesh& mesh : built.cloth_meshes) {
+            MeshCounts cloth = counts(mesh);
+            cloth.vertex_fields = of_strain + others;
+            cloth.triangle_fields = of_strain;
+            const FrameBytes bytes = format.bytes(cloth);
+            size.bytes += bytes.once + size.frames * bytes.each_frame;
+        }
+        for (std::size_t i = 0; i < built.obstacle_meshes.size(); ++i) {
+            const ObstacleSpec& obstacle = scene.obstacles[i];
+            const FrameBytes bytes = format.bytes(counts(built.obstacle_meshes[i]));
+            size.bytes += bytes.once + (obstacle_changes(obstacle) ? size.frames : 1.0) * bytes.each_frame;
+        }
+    }
+    return size;
+}
+
 std::string plan_text(const BuiltScene& built) {
     const ScenePlan plan = plan_of(built);
     std::string text = line("title", built.scene.title) + line("steps", steps_text(built.scene) + ", " + plan.scheme_word);
@@ -81,6 +114,10 @@ std::string plan_text(const BuiltScene& built) {
                  short_number(1e-6 * plan.memory_bytes) + " MB predicted" + (detects ? ", lists of near pairs on top" : ""));
     text += line("cost", short_number(plan.evaluations_a_step) + " evaluations of all springs a step predicted" +
                              (detects ? ", detection on top" : ""));
+    if (const OutputSize output = output_size_of(built); output.frames > 0.0)
+        text +=
+            line("output", short_number(output.frames) + (built.scene.until_rest ? " frames at most" : " frames") + " as " +
+                               joined(built.scene.output.frames) + ", " + short_number(1e-6 * output.bytes) + " MB predicted");
     text += plan.skipped.empty() ? line("skipped", "nothing") : "skipped\n";
     for (const Skip& skip : plan.skipped) text += "  " + skip.what + ": " + skip.why + "\n";
     return text;
@@ -112,6 +149,9 @@ std::string plan_json(const BuiltScene& built) {
             {{"name", built.scene.obstacles[i].name}, {"triangles", built.obstacle_meshes[i].triangles.size()}});
     json["memory_bytes"] = plan.memory_bytes;
     json["evaluations_a_step"] = plan.evaluations_a_step;
+    const OutputSize output = output_size_of(built);
+    json["frames"] = output.frames;
+    json["frame_bytes"] = output.bytes;
     json["skipped"] = ordered_json::array();
     for (const Skip& skip : plan.skipped) json["skipped"].push_back({{"what", skip.what}, {"why", skip.why}});
     return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -13,6 +13,12 @@ std::string steps_text(const Scene& scene);
 /// The plan of a built scene before its first step, with the motion and events that its file holds.
 ScenePlan plan_of(const BuiltScene& built);
 
+/// How many frames a run writes at most, and about how many bytes in all formats of the scene together.
+struct OutputSize {
+    double frames = 0.0, bytes = 0.0;
+};
+OutputSize output_size_of(const BuiltScene& built);
+
 /// The plan for people: title, scheme, counts, obstacles with their triangles, what is left out and why, predicted memory and
 /// cost.
 std::string plan_text(const BuiltScene& built);

@@ -1,10 +1,11 @@
 #include "shapes/rigged_glb.h"
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "common/bytes.h"
+#include "common/glb.h"
 #include "percale/error.h"
 #include "shapes/mannequin_motion.h"
 
@@ -15,10 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Vec4 = std::array<double, 4>;
 
-// Numbers that glTF 2.0 gives to types and targets.
-enum ComponentType { unsigned_byte = 5121, unsigned_short = 5123, float_number = 5126 };
-enum Target { no_target = 0, vertex_buffer = 34962, index_buffer = 34963 };
-
 constexpr std::size_t most_vertices = 65535;  // index 65535 is not allowed among 16 bits
 
 /// The root of the JSON chunk and the binary chunk, both as far as they are written.
@@ -28,38 +25,30 @@ public:
 
     /// An accessor of numbers written by `put`, in a view of its own; returns its index.
     template <class Put>
-    int add(const char* type, ComponentType component, std::size_t count, Target target, Put put) {
+    int add(const char* type, GlbComponent component, std::size_t count, GlbTarget target, Put put) {
         const std::size_t start = binary_.size();
         put();
         const std::size_t length = binary_.size() - start;
         binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
         Json view = {{"buffer", 0}, {"byteOffset", start}, {"byteLength", length}};
-        if (target != no_target) view["target"] = target;
+        if (target != GlbTarget::none) view["target"] = static_cast<int>(target);
         root["bufferViews"].push_back(view);
         const int index = static_cast<int>(root["accessors"].size());
-        root["accessors"].push_back({{"bufferView", index}, {"componentType", component}, {"count", count}, {"type", type}});
+        root["accessors"].push_back(
+            {{"bufferView", index}, {"componentType", static_cast<int>(component)}, {"count", count}, {"type", type}});
         return index;
     }
 
     /// Little-endian, as glTF wants it on every machine.
     template <class Unsigned>
     void put(Unsigned value) {
-        for (std::size_t byte = 0; byte < sizeof value; ++byte) binary_ += static_cast<char>(value >> (8 * byte) & 0xff);
+        append_little(binary_, value);
     }
-    void put_float(double value) { put(std::bit_cast<std::uint32_t>(static_cast<float>(value))); }
+    void put_float(double value) { append_float(binary_, value); }
 
-    /// Header, JSON padded with spaces, bytes padded with zeros.
     std::string file() {
         root["buffers"].push_back({{"byteLength", binary_.size()}});
-        std::string json = root.dump();
-        json.resize((json.size() + 3) / 4 * 4, ' ');
-        GlbContent out;
-        for (const std::uint32_t word : {0x46546C67u, 2u, static_cast<std::uint32_t>(28 + json.size() + binary_.size())})
-            out.put(word);
-        for (const std::uint32_t word : {static_cast<std::uint32_t>(json.size()), 0x4E4F534Au}) out.put(word);
-        out.binary_ += json;
-        for (const std::uint32_t word : {static_cast<std::uint32_t>(binary_.size()), 0x004E4942u}) out.put(word);
-        return out.binary_ + binary_;
+        return glb_start(root.dump(), binary_.size()) + binary_;
     }
 
 private:
@@ -70,8 +59,8 @@ double as_float(double value) { return static_cast<float>(value); }
 
 Json numbers(const Vec3& x) { return {as_float(x[0]), as_float(x[1]), as_float(x[2])}; }
 
-int add_vectors(GlbContent& content, std::span<const Vec3> vectors, Target target) {
-    return content.add("VEC3", float_number, vectors.size(), target, [&] {
+int add_vectors(GlbContent& content, std::span<const Vec3> vectors, GlbTarget target) {
+    return content.add("VEC3", GlbComponent::float_number, vectors.size(), target, [&] {
         for (const Vec3& x : vectors)
             for (const double coordinate : x) content.put_float(coordinate + 0.0);
     });
@@ -86,20 +75,21 @@ void add_bounds(GlbContent& content, int accessor, std::span<const Vec3> vectors
 }
 
 void add_mesh(GlbContent& content, const std::string& name, const Rig& rig) {
-    const int positions = add_vectors(content, rig.mesh.vertices, vertex_buffer);
+    const int positions = add_vectors(content, rig.mesh.vertices, GlbTarget::vertices);
     add_bounds(content, positions, rig.mesh.vertices);
-    const int joints = content.add("VEC4", unsigned_byte, rig.weights.size(), vertex_buffer, [&] {
+    const int joints = content.add("VEC4", GlbComponent::unsigned_byte, rig.weights.size(), GlbTarget::vertices, [&] {
         for (const VertexWeights& vertex : rig.weights)
             for (const int index : vertex.joints) content.put(static_cast<std::uint8_t>(index));
     });
-    const int weights = content.add("VEC4", float_number, rig.weights.size(), vertex_buffer, [&] {
+    const int weights = content.add("VEC4", GlbComponent::float_number, rig.weights.size(), GlbTarget::vertices, [&] {
         for (const VertexWeights& vertex : rig.weights)
             for (const double weight : vertex.weights) content.put_float(weight);
     });
-    const int indices = content.add("SCALAR", unsigned_short, 3 * rig.mesh.triangles.size(), index_buffer, [&] {
-        for (const Triangle& triangle : rig.mesh.triangles)
-            for (const int vertex : triangle) content.put(static_cast<std::uint16_t>(vertex));
-    });
+    const int indices =
+        content.add("SCALAR", GlbComponent::unsigned_short, 3 * rig.mesh.triangles.size(), GlbTarget::indices, [&] {
+            for (const Triangle& triangle : rig.mesh.triangles)
+                for (const int vertex : triangle) content.put(static_cast<std::uint16_t>(vertex));
+        });
     const Json attributes = {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}};
     Json primitives;
     primitives.push_back({{"attributes", attributes}, {"indices", indices}});
@@ -121,7 +111,7 @@ void add_skeleton(GlbContent& content, const std::string& name, const std::vecto
         if (joints[j].parent >= 0) nodes[joints[j].parent + 1]["children"].push_back(j + 1);
         skin_joints.push_back(j + 1);
     }
-    const int matrices = content.add("MAT4", float_number, joints.size(), no_target, [&] {
+    const int matrices = content.add("MAT4", GlbComponent::float_number, joints.size(), GlbTarget::none, [&] {
         for (const Joint& joint : joints)
             for (int column = 0; column < 4; ++column)
                 for (int row = 0; row < 4; ++row)
@@ -157,7 +147,7 @@ std::vector<Vec4> rotation_keys(const Clip& clip, std::size_t index) {
 }
 
 void add_animation(GlbContent& content, const Rig& rig, const Clip& clip) {
-    const int times = content.add("SCALAR", float_number, clip.times.size(), no_target, [&] {
+    const int times = content.add("SCALAR", GlbComponent::float_number, clip.times.size(), GlbTarget::none, [&] {
         for (const double time : clip.times) content.put_float(time);
     });
     content.root["accessors"][times]["min"].push_back(as_float(clip.times.front()));
@@ -172,9 +162,9 @@ void add_animation(GlbContent& content, const Rig& rig, const Clip& clip) {
         const Vec3 place = rig.joints[0].position + pose.root_translation;
         places.push_back((place * 1e6).array().round() / 1e6);
     }
-    add_channel(0, "translation", add_vectors(content, places, no_target));
+    add_channel(0, "translation", add_vectors(content, places, GlbTarget::none));
     for (std::size_t j = 0; j < rig.joints.size(); ++j)
-        add_channel(j, "rotation", content.add("VEC4", float_number, clip.poses.size(), no_target, [&] {
+        add_channel(j, "rotation", content.add("VEC4", GlbComponent::float_number, clip.poses.size(), GlbTarget::none, [&] {
             for (const Vec4& key : rotation_keys(clip, j))
                 for (const double number : key) content.put_float(number);
         }));

@@ -28,7 +28,8 @@ Checkpoint example() {
     checkpoint.settings = settings_text(built.scene);
     checkpoint.certify_steps = true;
     checkpoint.folder.step_bytes = 1234;
-    checkpoint.folder.frames = {{0, 0.0, {"frames/sheet_00000.obj"}, {}, {}, {}}, {1, 0.5, {"a", "b"}, {"c"}, {}, {{0, 1}}}};
+    checkpoint.folder.frames = {{0, 0.0, {"frames/sheet_00000.obj"}, {}, {}, {}, {}},
+                                {1, 0.5, {"a", "b"}, {"c"}, {"d"}, {}, {{0, 1}}}};
     return checkpoint;
 }
 

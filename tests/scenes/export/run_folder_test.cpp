@@ -5,6 +5,7 @@
 #include "format/scene_file.h"
 #include "frames/obj_frames.h"
 #include "percale/error.h"
+#include "run/scene_plan.h"
 #include "tests/scenes/frames/tally_frames.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/scenes/test_folder.h"
@@ -192,10 +193,12 @@ struct Left {
 
 /// A run with a format for the whole run, from its start or from where another one was left in the folder `other`. Until 0.04 s
 /// and then killed where `left` is given.
-void run_tally(const std::string& path, Left* left = nullptr, const Left* from = nullptr, const std::string& other = "") {
+void run_tally(const std::string& path, Left* left = nullptr, const Left* from = nullptr, const std::string& other = "",
+               const std::vector<std::string>& words = {"tally"}) {
     BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml"));
-    built.scene.output.frames = "tally";
-    RunFolder folder(path, built.scene, false, two_formats());
+    built.scene.output.frames = words;
+    const std::span<const FrameFormat> formats = words.size() > 1 ? frame_formats() : two_formats();
+    RunFolder folder(path, built.scene, false, formats);
     RunHooks hooks;
     hooks.begin = [&] { from ? folder.begin_from(from->folder, other) : folder.begin(); };
     hooks.frame = [&](const Frame& frame) { folder.add(frame); };
@@ -252,6 +255,55 @@ TEST_CASE("a run with one file for all frames that is gone on with ends with the
     }
 }
 
+TEST_CASE("a run in all formats that is gone on with ends with the same bytes, here or elsewhere, also after it was finished") {
+    const TestFolder folder;
+    const std::vector<std::string> all = {"obj", "ply", "glb", "pc2", "mdd", "vtp"};
+    run_tally(folder.path("plain"), nullptr, nullptr, "", all);
+    const std::vector<std::string> kept = {"frames/scene.glb",      "frames/sheet.pc2",      "frames/sheet.mdd",
+                                           "frames/scene.pvd",      "frames/sheet.mesh.obj", "frames/sheet_00004.vtp",
+                                           "frames/sheet_00001.ply"};
+    for (const std::string name : {"new", "left"}) {
+        Left left;
+        run_tally(folder.path("left"), &left, nullptr, "", all);
+        CHECK(left.folder.grown.size() == 3);
+        const auto go_on = [&](const std::string& to) {
+            run_tally(folder.path(to), nullptr, &left, folder.path("left"), all);
+            for (const std::string& file : kept) {
+                CAPTURE(to, file);
+                CHECK(folder.read(to + "/" + file) == folder.read("plain/" + file));
+            }
+        };
+        go_on(name);
+        go_on("again");
+        if (name == "left") CHECK_FALSE(folder.holds("left/frames/scene.glb.samples"));
+    }
+    run_tally(folder.path("left"), nullptr, nullptr, "", {"obj", "ply"});
+    CHECK_FALSE(folder.holds("left/frames/scene.glb"));
+    CHECK_FALSE(folder.holds("left/frames/sheet.mesh.obj"));
+}
+
+TEST_CASE("the plan predicts to a third how much the frames of a run take, format by format") {
+    const std::vector<Override> fine = {{"cloth.0.grid.vertices", "[40, 40]"}};
+    for (const FrameFormat& format : frame_formats()) {
+        CAPTURE(format.word);
+        const TestFolder folder;
+        BuiltScene built = build_scene(parse_scene(falling_sheet(), "test.toml", fine));
+        built.scene.output.frames = {format.word};
+        const OutputSize predicted = output_size_of(built);
+        RunFolder run(folder.path(), built.scene, false);
+        RunHooks hooks;
+        hooks.begin = [&] { run.begin(); };
+        hooks.frame = [&](const Frame& frame) { run.add(frame); };
+        hooks.step = [&](const StepReport& report, const Simulation& simulation) { run.add(report, simulation); };
+        run.finish(built, run_scene(built, hooks), {});
+        CHECK(predicted.frames == static_cast<double>(read_frame_records(folder.path()).size()));
+        double bytes = 0.0;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path("frames")))
+            bytes += static_cast<double>(entry.file_size());
+        CHECK(predicted.bytes == Approx(bytes).epsilon(0.34));
+    }
+}
+
 TEST_CASE("a state that lists a grown file elsewhere is refused") {
     const TestFolder folder;
     Left left;
@@ -283,9 +335,9 @@ TEST_CASE("fields are refused where the frames hold none, and taken where they d
     Scene scene = parse_scene(falling_sheet(), "test.toml");
     scene.output.fields = {"strain"};
     CHECK_THROWS_WITH(RunFolder(folder.path(), scene, false),
-                      Catch::Contains("output.frames = \"obj\" holds no fields; with them it must be one of none, ply"));
+                      Catch::Contains("output.frames = \"obj\" holds no fields; with them it must be one of none, ply, vtp"));
     for (const char* word : {"ply", no_frames}) {
-        scene.output.frames = word;
+        scene.output.frames = {word};
         CHECK_NOTHROW(RunFolder(folder.path(), scene, false));
     }
 }
@@ -293,8 +345,9 @@ TEST_CASE("fields are refused where the frames hold none, and taken where they d
 TEST_CASE("a word that no format has is refused with those that there are") {
     const TestFolder folder;
     Scene scene = parse_scene(falling_sheet(), "test.toml");
-    scene.output.frames = "tally";
-    CHECK_THROWS_WITH(RunFolder(folder.path(), scene, false), Catch::Contains("'tally'; valid: none, obj, ply"));
+    scene.output.frames = {"tally"};
+    CHECK_THROWS_WITH(RunFolder(folder.path(), scene, false),
+                      Catch::Contains("'tally'; valid: none, obj, ply, glb, pc2, mdd, vtp"));
     CHECK_NOTHROW(RunFolder(folder.path(), scene, false, two_formats()));
     CHECK(folder.file_count() == 0);
 }

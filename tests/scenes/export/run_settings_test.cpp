@@ -83,7 +83,7 @@ TEST_CASE("detectors and frame formats have the words of scene files") {
     CHECK(word(Detector::bullet) == "bullet");
     CHECK(word(Detector::brute_force) == "brute_force");
     CHECK(word(Detector::none) == "none");
-    scene.output.frames = "none";
+    scene.output.frames = {"none"};
     CHECK(settings(scene).at("output").at("frames") == "none");
 }
 

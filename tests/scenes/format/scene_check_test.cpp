@@ -134,7 +134,8 @@ TEST_CASE("the ends of every option's range are allowed and what lies beyond is 
 TEST_CASE("an unknown word is refused with the nearest choice") {
     CHECK(fault("[step]\ndetector = \"bullit\"\n") ==
           "t:2:12: step.detector has no choice 'bullit'; did you mean 'bullet'? valid: fcl, bullet, brute_force, none");
-    CHECK(fault("[output]\nframes = \"gif\"\n") == "t:2:10: output.frames has no choice 'gif'; valid: none, obj, ply");
+    CHECK(fault("[output]\nframes = \"alembic\"\n") ==
+          "t:2:10: output.frames has no choice 'alembic'; valid: none, obj, ply, glb, pc2, mdd, vtp");
 }
 
 TEST_CASE("pins on an obstacle need a box, and only the pins of a cloth may be on one") {
@@ -148,11 +149,17 @@ TEST_CASE("pins on an obstacle need a box, and only the pins of a cloth may be o
 TEST_CASE("a list of words takes each choice once") {
     CHECK(fault_after("[output]\nfields = []\n") == no_fault);
     CHECK(fault_after("[output]\nfields = [\"pressure\", \"strain\"]\n") == no_fault);
-    CHECK(fault("[output]\nfields = \"strain\"\n").find("must be a list of some of strain, pressure, distance") !=
+    CHECK(fault_after("[output]\nfields = \"strain\"\n") == no_fault);
+    CHECK(fault("[output]\nfields = 3\n").find("must be one of strain, pressure, distance, or a list of some of them") !=
           std::string::npos);
     CHECK(fault("[output]\nfields = [\"strian\"]\n").find("no choice 'strian'; did you mean 'strain'?") != std::string::npos);
     CHECK(fault("[output]\nfields = [\"strain\", \"strain\"]\n") == "t:2:21: output.fields has 'strain' twice");
-    CHECK(fault("[output]\nfields = [3]\n").find("must be a list of some of") != std::string::npos);
+    CHECK(fault("[output]\nfields = [3]\n").find("or a list of some of them") != std::string::npos);
+}
+
+TEST_CASE("formats of frames are one or several") {
+    CHECK(fault_after("[output]\nframes = [\"obj\", \"pc2\"]\n") == no_fault);
+    CHECK(fault_after("[output]\nframes = [\"none\"]\n") == no_fault);
 }
 
 TEST_CASE("an unknown key is refused with those that its table has") {

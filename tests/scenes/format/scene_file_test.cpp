@@ -35,7 +35,7 @@ TEST_CASE("a scene that says nothing more has the defaults of the structs") {
     CHECK(scene.step.scheme == StepSettings{}.scheme);
     CHECK(scene.step.gravity == StepSettings{}.gravity);
     CHECK(scene.detector == Detector::fcl);
-    CHECK(scene.output.frames == "obj");
+    CHECK(scene.output.frames == std::vector<std::string>{"obj"});
     CHECK(scene.output.fps == 30.0);
     CHECK(scene.fabrics.at("sheet").area_density == Fabric{}.area_density);
     CHECK(scene.fabrics.at("sheet").springs.shear == 500.0);
@@ -65,7 +65,7 @@ TEST_CASE("top-level keys, steps and output are read") {
     CHECK(scene.step.measure == StepMeasures::none);
     CHECK_FALSE(scene.step.skip);
     CHECK(scene.detector == Detector::none);
-    CHECK(scene.output.frames == "none");
+    CHECK(scene.output.frames == std::vector<std::string>{"none"});
     CHECK(scene.output.fps == 60.0);
 }
 
@@ -89,7 +89,11 @@ TEST_CASE("every word of a choice means its value") {
     CHECK(scene_set("step.detector", "bullet").detector == Detector::bullet);
     CHECK(scene_set("step.detector", "brute_force").detector == Detector::brute_force);
     CHECK(scene_set("step.detector", "none").detector == Detector::none);
-    CHECK(scene_set("output.frames", "obj").output.frames == "obj");
+    CHECK(scene_set("output.frames", "ply").output.frames == std::vector<std::string>{"ply"});
+    CHECK_THROWS_WITH(scene_set("output.frames", "[]"),
+                      Catch::Contains("output.frames is an empty list; for no frames write \"none\""));
+    CHECK_THROWS_WITH(scene_set("output.frames", "[\"obj\", \"none\"]"), Catch::Contains("'none' beside formats"));
+    CHECK(scene_set("output.frames", "[\"obj\", \"pc2\"]").output.frames == std::vector<std::string>{"obj", "pc2"});
     CHECK_FALSE(scene_set("step.newton_tolerance", "auto").step.newton_tolerance.has_value());
 }
 

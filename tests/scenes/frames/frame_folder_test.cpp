@@ -84,6 +84,27 @@ TEST_CASE("a file that grows is gone where the run fails, also if it had become 
     }
 }
 
+TEST_CASE("scratch is read at the end and goes, but stays under its temporary name for a checkpoint") {
+    const TestFolder folder;
+    for (const bool checkpoint : {false, true}) {
+        {
+            FrameFolder files(folder.path());
+            files.grown("frames/all.samples") << "one two";
+            if (checkpoint) {
+                files.sync();
+                files.keep();
+            }
+            const std::string scratch = files.scratch("frames/all.samples");
+            CHECK(std::ifstream(scratch).peek() == 'o');
+            put(files, "frames/all.txt", "made of it");
+            files.finish();
+        }
+        CHECK(folder.read("frames/all.txt") == "made of it");
+        CHECK_FALSE(folder.holds("frames/all.samples"));
+        CHECK(folder.holds("frames/all.samples.part") == checkpoint);
+    }
+}
+
 TEST_CASE("what a checkpoint knows of a file that grows is gone on with, in its folder or another") {
     for (const std::string name : {"left", "new"}) {
         const TestFolder folder;

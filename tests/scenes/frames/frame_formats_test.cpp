@@ -6,7 +6,7 @@
 
 using namespace percale::scenes;
 
-TEST_CASE("every format has a word, a sentence and endings of its own, and makes an encoder that knows its files") {
+TEST_CASE("every format has a word, a sentence, an ending of its own and a size, and makes an encoder that knows its files") {
     std::set<std::string> words = {no_frames}, endings;
     for (const FrameFormat& format : frame_formats()) {
         CAPTURE(format.word);
@@ -16,8 +16,12 @@ TEST_CASE("every format has a word, a sentence and endings of its own, and makes
         for (const std::string& ending : format.endings) {
             CHECK(ending.starts_with("."));
             CHECK(ending.size() > 1);
-            CHECK(endings.insert(ending).second);
         }
+        CHECK(endings.insert(format.endings.front()).second);
+        const FrameBytes few = format.bytes({.vertices = 10, .triangles = 10}),
+                         more = format.bytes({.vertices = 20, .triangles = 10});
+        CHECK(few.each_frame > 0.0);
+        CHECK(more.each_frame > few.each_frame);
         const auto encoder = format.make({.cloths = {"sheet"}, .obstacles = {}, .obstacle_moves = {}});
         REQUIRE(encoder != nullptr);
         CHECK(encoder->first_frame_of("frames/notes.txt") == -1);

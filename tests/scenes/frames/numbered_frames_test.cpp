@@ -11,8 +11,8 @@ using percale::scenes::test::TestFolder;
 namespace {
 
 std::unique_ptr<FrameEncoder> counted_vertices(const FrameCast& cast) {
-    return numbered_frames(cast, ".count", [](const std::string& path, const TriangleMesh& mesh, const MeshFields&) {
-        write_whole_file(path, std::to_string(mesh.vertices.size()));
+    return numbered_frames(cast, ".count", [](const std::string& path, const NumberedMesh& shape) {
+        write_whole_file(path, std::to_string(shape.mesh.vertices.size()));
     });
 }
 

@@ -40,9 +40,14 @@ private:
 };
 
 inline FrameFormat tally_frames() {
-    return {.word = "tally", .sentence = "one file", .endings = {".tally"}, .make = [](const FrameCast& cast) {
-                return std::make_unique<TallyFrames>(cast);
-            }};
+    return {.word = "tally",
+            .sentence = "one file",
+            .endings = {".tally"},
+            .bytes =
+                [](const MeshCounts&) {
+                    return FrameBytes{0.0, 10.0};
+                },
+            .make = [](const FrameCast& cast) { return std::make_unique<TallyFrames>(cast); }};
 }
 
 }  // namespace percale::scenes::test

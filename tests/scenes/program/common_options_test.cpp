@@ -52,8 +52,8 @@ TEST_CASE("wrong common options are refused, and nothing is written") {
     CHECK(refused(run_with(folder, {"--threads", "two"}), "threads"));
     CHECK(refused(run_with(folder, {"--fps", "0"}), "percale: --fps: output.fps = 0 1/s is out of range"));
     CHECK(refused(run_with(folder, {"--fps", "fast"}), "fps"));
-    CHECK(refused(run_with(folder, {"--frames", "gif"}),
-                  "percale: --frames: output.frames has no choice 'gif'; valid: none, obj, ply"));
+    CHECK(refused(run_with(folder, {"--frames", "alembic"}),
+                  "percale: --frames: output.frames has no choice 'alembic'; valid: none, obj, ply, glb, pc2, mdd, vtp"));
     CHECK(refused(run_with(folder, {"--frames", "objj"}), "did you mean 'obj'?"));
     CHECK_FALSE(folder.holds("out"));
     CHECK(run_with(folder, {"--threads", "2"}).exit_code == 0);
