@@ -24,6 +24,9 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/percale_config.cmake.in 
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/percaleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/percaleConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/percaleConfigVersion.cmake
   DESTINATION ${percale_package_dir})
+if(TARGET percale)
+  install(FILES ${CMAKE_CURRENT_LIST_DIR}/percale_scene_tests.cmake DESTINATION ${percale_package_dir})
+endif()
 
 # percale.pc: the engine and, where built, contact on FCL's trees. FCL's own .pc file would force C++11 on its users, and Percale's
 # public headers do not need it, so its libraries are named instead.

@@ -11,6 +11,7 @@
 #include "format/scene_file.h"
 #include "frames/frame_formats.h"
 #include "garment/cloth_shape.h"
+#include "measures/references.h"
 #include "percale/error.h"
 #include "run/motion_parts.h"
 #include "run/obstacle_motion.h"
@@ -332,7 +333,9 @@ std::string duration_text(double seconds) {
 
 void examine_built(const Scene& scene, std::vector<Finding>& found) {
     const BuiltScene built = build_scene(scene);
-    read_reference(built);
+    std::size_t vertices = 0;
+    for (const TriangleMesh& mesh : built.cloth_meshes) vertices += mesh.vertices.size();
+    read_references(built.scene, vertices);
     const ScenePlan plan = plan_of(built);
     for (const std::string& warning : plan.warnings) found.push_back(plan_warning(scene, plan, warning));
     find_start_moves(built, found);

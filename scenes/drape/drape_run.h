@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "drape/drape_scene.h"
+#include "measures/measures.h"
 #include "percale/report.h"
-#include "run/measures.h"
 #include "run/scene_build.h"
 
 namespace percale::scenes {

@@ -57,7 +57,7 @@ void exchange(Archive& archive, Value& rest) {
 template <class Archive, OfType<RunState> Value>
 void exchange(Archive& archive, Value& run) {
     archive(run.totals, run.measures, run.resumed_at, run.steps_made, run.step_length, run.next_frame, run.framed, run.rest,
-            run.timeline.next_event, run.timeline.moving_pins, run.simulation);
+            run.timed, run.timeline.next_event, run.timeline.moving_pins, run.simulation);
 }
 
 template <class Archive, OfType<FrameRecord> Value>

@@ -61,7 +61,8 @@ std::string suite_element(const CheckedScene& scene) {
     const std::string outcome = errors > 0 ? "error" : scene.reason.empty() ? "" : "failure";
     text += case_element(scene.file, "run", outcome, errors > 0 ? scene.error : scene.reason);
     for (const ExpectationResult& result : scene.expectations)
-        text += case_element(scene.file, result.expectation.measure, result.passed ? "" : "failure", result.text);
+        text += case_element(scene.file, result.expectation.measure + when_text(result.expectation),
+                             result.passed ? "" : "failure", result.text);
     return text + "  </testsuite>\n";
 }
 

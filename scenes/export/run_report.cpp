@@ -121,11 +121,15 @@ ordered_json step_certificate(const Measures& measures) {
 
 ordered_json expectation_list(std::span<const ExpectationResult> results) {
     ordered_json list = ordered_json::array();
-    for (const ExpectationResult& result : results)
-        list.push_back({{"measure", result.expectation.measure},
-                        {"value", result.value ? ordered_json(*result.value) : ordered_json(nullptr)},
-                        {"limit", limit_text(result.expectation)},
-                        {"passed", result.passed}});
+    for (const ExpectationResult& result : results) {
+        ordered_json entry = {{"measure", result.expectation.measure},
+                              {"value", result.value ? ordered_json(*result.value) : ordered_json(nullptr)},
+                              {"limit", limit_text(result.expectation)},
+                              {"passed", result.passed}};
+        if (result.expectation.at) entry["at"] = *result.expectation.at;
+        if (result.expectation.during) entry["during"] = *result.expectation.during;
+        list.push_back(entry);
+    }
     return list;
 }
 

@@ -46,6 +46,8 @@ std::string kind_text(const SceneKey& key) {
             return "a number, { below = a }, { above = a } or { between = [a, b] }";
         case KeyKind::table:
             return "a table";
+        case KeyKind::table_or_list:
+            return "a table or a list of tables";
         case KeyKind::table_list:
             return "a list of tables";
         case KeyKind::named_tables:

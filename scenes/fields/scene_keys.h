@@ -27,8 +27,9 @@ enum class KeyKind {
     direction,       // "u", "v" or a list of two or three numbers
     limit,           // a number, { below = }, { above = } or { between = [a, b] }
     table,
-    table_list,   // [[...]]
-    named_tables  // [... .NAME]
+    table_or_list,  // [...] or [[...]]
+    table_list,     // [[...]]
+    named_tables    // [... .NAME]
 };
 
 /// One key of a scene file. Rows of field tables hold it (field_table.h); the list of all keys, made of these, is in

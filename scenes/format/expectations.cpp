@@ -34,16 +34,23 @@ std::string value_text(const Expectation& expectation, double value) {
     return same_verdict ? text : number_text(value);
 }
 
-ExpectationResult judged(const Expectation& expectation, const std::map<std::string, double>& measures) {
-    ExpectationResult result{.expectation = expectation, .value = {}, .passed = false, .text = {}};
-    const auto found = measures.find(expectation.measure);
-    if (found != measures.end()) result.value = found->second;
+ExpectationResult judged(const Expectation& expectation, std::optional<double> measured) {
+    ExpectationResult result{.expectation = expectation, .value = measured, .passed = false, .text = {}};
     result.passed = result.value && within(expectation, *result.value);
     const std::string file = expectation.file.empty() ? "" : " " + expectation.file;
     const std::string value = result.value ? value_text(expectation, *result.value) : "not measured";
-    result.text = expectation.measure + file + " " + value + ", expected " + limit_text(expectation) +
+    result.text = expectation.measure + file + when_text(expectation) + " " + value + ", expected " + limit_text(expectation) +
                   (result.passed ? ": passed" : ": failed");
     return result;
+}
+
+/// What a run has measured of an expectation.
+std::optional<double> measured_of(const Expectation& expectation, std::size_t index,
+                                  const std::map<std::string, double>& measures, std::span<const double> timed) {
+    if (expectation.at || expectation.during)
+        return index < timed.size() && !std::isnan(timed[index]) ? std::optional(timed[index]) : std::nullopt;
+    const auto found = measures.find(expectation.measure);
+    return found != measures.end() ? std::optional(found->second) : std::nullopt;
 }
 
 }  // namespace
@@ -78,9 +85,17 @@ bool read_step_measures(std::span<const Expectation> expectations) {
     });
 }
 
-std::vector<ExpectationResult> judge(std::span<const Expectation> expectations, const std::map<std::string, double>& measures) {
+std::string when_text(const Expectation& expectation) {
+    if (expectation.at) return " at " + number_text(*expectation.at) + " s";
+    if (!expectation.during) return "";
+    return " during " + number_text(expectation.during->front()) + " ... " + number_text(expectation.during->back()) + " s";
+}
+
+std::vector<ExpectationResult> judge(std::span<const Expectation> expectations, const std::map<std::string, double>& measures,
+                                     std::span<const double> timed) {
     std::vector<ExpectationResult> results;
-    for (const Expectation& expectation : expectations) results.push_back(judged(expectation, measures));
+    for (std::size_t i = 0; i < expectations.size(); ++i)
+        results.push_back(judged(expectations[i], measured_of(expectations[i], i, measures, timed)));
     return results;
 }
 

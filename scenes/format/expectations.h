@@ -41,7 +41,12 @@ bool within(const Expectation& expectation, double value);
 /// Whether one of them reads what steps report besides contacts (StepSettings::measure).
 bool read_step_measures(std::span<const Expectation> expectations);
 
-/// Judges every expectation by the measures of a run, by name.
-std::vector<ExpectationResult> judge(std::span<const Expectation> expectations, const std::map<std::string, double>& measures);
+/// " at 1.5 s", " during 1 ... 2 s", "" for the whole run.
+std::string when_text(const Expectation& expectation);
+
+/// Judges every expectation by the measures of a run, by name; those with a time by `timed`, which has the expectations' order,
+/// NaN and what is not there: not measured.
+std::vector<ExpectationResult> judge(std::span<const Expectation> expectations, const std::map<std::string, double>& measures,
+                                     std::span<const double> timed = {});
 
 }  // namespace percale::scenes

@@ -14,7 +14,8 @@ namespace percale::scenes {
 namespace {
 
 bool is_table(const SceneKey& key) {
-    return key.kind == KeyKind::table || key.kind == KeyKind::table_list || key.kind == KeyKind::named_tables;
+    return key.kind == KeyKind::table || key.kind == KeyKind::table_or_list || key.kind == KeyKind::table_list ||
+           key.kind == KeyKind::named_tables;
 }
 
 bool at_top(const std::string& path) { return path.find('.') == std::string::npos; }
@@ -23,6 +24,7 @@ bool at_top(const std::string& path) { return path.find('.') == std::string::npo
 std::string heading(const std::string& path) {
     const SceneKey& top = *find_scene_key(path.substr(0, path.find('.')));
     if (top.kind == KeyKind::table) return "[" + top.path + "]";
+    if (top.kind == KeyKind::table_or_list) return "[" + top.path + "] or [[" + top.path + "]]";
     if (top.kind == KeyKind::table_list) return "[[" + top.path + "]]";
     return top.kind == KeyKind::named_tables ? "[" + top.path + ".NAME]" : "";
 }

@@ -157,6 +157,8 @@ struct Expectation {
     bool lowest_included = true, highest_included = true;
     std::string file;  // matches: path relative to the scene file
     SourcePlace place;
+    std::optional<double> at = {};                     // s, looked at then alone
+    std::optional<std::array<double, 2>> during = {};  // s, looked at from then to then
 };
 
 struct OutputSpec {

@@ -233,6 +233,9 @@ void check_value(const TomlNode& node, const SceneKey& key, const Spot& spot, Fa
         case KeyKind::table:
             if (node.kind != TomlKind::table) fail_kind(node, key, spot.shown);
             return check_table(node, spot, faults);
+        case KeyKind::table_or_list:
+            if (node.kind == TomlKind::table) return check_table(node, spot, faults);
+            return check_table_list(node, key, spot, faults);
         case KeyKind::table_list:
             return check_table_list(node, key, spot, faults);
         case KeyKind::named_tables:

@@ -82,6 +82,32 @@ TomlNode limit_node(const Expectation& limit) {
     return table;
 }
 
+/// When all of a table of expectations is looked at.
+const FieldTable<Expectation>& when_table() {
+    static const FieldTable<Expectation> table = {
+        .fields =
+            {
+                value_field<Expectation>(
+                    {.path = "at",
+                     .sentence = "When this table is looked at, in the first state at that time or after it, and in "
+                                 "that alone; in [[expect]], of which there may be several.",
+                     .unit = "s",
+                     .lowest = 0.0,
+                     .highest = longest},
+                    &Expectation::at),
+                value_field<Expectation>(
+                    {.path = "during",
+                     .sentence = "From when to when it is looked at: sums and extremes are those of these states, and "
+                                 "what a run has at its end (speeds, heights, `matches`) must hold in each of them.",
+                     .unit = "s",
+                     .lowest = 0.0,
+                     .highest = longest},
+                    &Expectation::during),
+            },
+        .rules = {.shown = [](const TomlNode&) -> std::string { return "expect"; }, .exclude = {{"at", "during"}}}};
+    return table;
+}
+
 Expectation expectation_of(const TomlNode& node) {
     Expectation expectation{.measure = node.key, .lowest = -infinity, .highest = infinity, .file = {}, .place = node.key_place};
     FaultList first(false);
@@ -93,14 +119,44 @@ Expectation expectation_of(const TomlNode& node) {
     return expectation;
 }
 
+/// The expectations of one table.
+void read_expectations(const TomlNode& table, std::vector<Expectation>& list) {
+    Expectation when;
+    FaultList first(false);
+    read_fields(table, when_table(), when, first);
+    if (when.during && when.during->front() > when.during->back())
+        fail_at(table.find("during")->place, "expect.during ends before it begins");
+    for (const TomlNode& entry : table.entries) {
+        if (entry.key == "at" || entry.key == "during") continue;
+        Expectation& expectation = list.emplace_back(expectation_of(entry));
+        expectation.at = when.at;
+        expectation.during = when.during;
+    }
+}
+
 TomlNode expectation_node(const Expectation& expectation) {
     TomlNode node = expectation.file.empty() ? limit_node(expectation) : spec_node(matches_table(), expectation);
     node.key = expectation.measure;
     return node;
 }
 
+/// A table for each time that follows another one.
+std::optional<TomlNode> expectations_node(const Scene& scene) {
+    TomlNode list;
+    list.kind = TomlKind::list;
+    const Expectation* last = nullptr;
+    for (const Expectation& expectation : scene.expectations) {
+        if (last == nullptr || last->at != expectation.at || last->during != expectation.during)
+            list.items.push_back(spec_node(when_table(), expectation));
+        list.items.back().entries.push_back(expectation_node(expectation));
+        last = &expectation;
+    }
+    if (list.items.empty()) return TomlNode{};
+    return list.items.size() == 1 ? std::move(list.items.front()) : std::move(list);
+}
+
 std::vector<SceneKey> expect_keys() {
-    std::vector<SceneKey> keys;
+    std::vector<SceneKey> keys = keys_of(when_table());
     for (const MeasureDescription& measure : measure_descriptions())
         keys.push_back({.path = measure.name, .kind = KeyKind::limit, .sentence = measure.sentence, .unit = measure.unit});
     keys.push_back({.path = "matches",
@@ -233,19 +289,17 @@ const FieldTable<EventSpec>& event_table() {
 
 Field<Scene> expect_field() {
     return {.key = {.path = "expect",
-                    .kind = KeyKind::table,
-                    .sentence = "What makes the scene a test.",
+                    .kind = KeyKind::table_or_list,
+                    .sentence = "What makes the scene a test: [expect] of the whole run, or [[expect]], each with its time.",
                     .setting = false,
                     .inside = expect_keys()},
             .read =
-                [](const TomlNode& node, Scene& scene, FaultList&) {
-                    for (const TomlNode& entry : node.entries) scene.expectations.push_back(expectation_of(entry));
+                [](const TomlNode& node, Scene& scene, FaultList& faults) {
+                    if (node.kind == TomlKind::table) return read_expectations(node, scene.expectations);
+                    for (const TomlNode& table : node.items)
+                        faults.attempt([&] { read_expectations(table, scene.expectations); });
                 },
-            .write = [](const Scene& scene) -> std::optional<TomlNode> {
-                TomlNode node;
-                for (const Expectation& expectation : scene.expectations) node.entries.push_back(expectation_node(expectation));
-                return node;
-            }};
+            .write = expectations_node};
 }
 
 }  // namespace percale::scenes

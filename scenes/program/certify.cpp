@@ -14,11 +14,11 @@
 #include "export/run_report.h"
 #include "frames/frame_formats.h"
 #include "garment/seam_stitches.h"
+#include "measures/measures.h"
 #include "meshes/mesh_import.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
-#include "run/measures.h"
 
 namespace percale::program {
 

@@ -7,10 +7,12 @@
 
 #include "common/whole_file.h"
 #include "export/junit.h"
+#include "export/reference_files.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/common_options.h"
 #include "program/exit_codes.h"
+#include "program/progress_bar.h"
 #include "program/stop_signals.h"
 #include "run/run_scene.h"
 #include "run/start_fault.h"
@@ -26,6 +28,7 @@ struct CheckOptions {
     std::vector<std::string> scenes;
     std::string junit;
     int jobs = 1;
+    bool update = false;
 };
 
 struct Outcome {
@@ -33,6 +36,7 @@ struct Outcome {
     int exit_code = all_well;
     std::string ending;                    // "finished: 60 steps, 1 s"
     std::vector<std::string> start_moves;  // what was moved out of obstacles
+    std::vector<std::string> updates;      // files of `matches` that were written
     std::uint64_t state_hash = 0;          // of the last state
 };
 
@@ -50,12 +54,16 @@ void run_into(Outcome& outcome, const CheckOptions& check, const StopSignals& si
     for (const StartMove& move : built.simulation.start_repair()) outcome.start_moves.push_back(start_move_text(move));
     RunHooks hooks;
     hooks.stop_asked = [&] { return signals.asked(); };
-    const RunResult result = run_scene(built, hooks, {.certify_steps = options.certify_steps});
+    const RunResult result = run_scene(built, hooks, {.certify_steps = options.certify_steps, .compare = !check.update});
     outcome.scene.reason = result.reason;
     outcome.ending = std::string(status_word(result.status)) + ": " + std::to_string(result.totals.steps) + " steps, " +
                      rounded_text(result.totals.simulated_s) + " s";
     outcome.scene.wall_s = result.totals.wall_s;
-    outcome.scene.expectations = judge(expected_of(built.scene, options), measure_values(result.measures));
+    outcome.scene.expectations = judge(expected_of(built.scene, options), measure_values(result.measures), result.timed);
+    if (check.update) {
+        std::erase_if(outcome.scene.expectations, [](const ExpectationResult& r) { return r.expectation.measure == "matches"; });
+        if (result.status == RunStatus::finished) outcome.updates = update_references(built, result);
+    }
     outcome.state_hash = built.simulation.state_hash();
     outcome.exit_code = outcome.scene.failed() > 0 ? not_as_expected : all_well;
     if (result.status == RunStatus::stopped) outcome.exit_code = stopped_by_signal;
@@ -87,6 +95,7 @@ void print_outcome(const CheckOptions& options, const Outcome& outcome) {
     if (scene.error.empty() && scene.expectations.empty())
         std::printf("  no expectations: the scene passes if its run finishes\n");
     for (const ExpectationResult& expectation : scene.expectations) std::printf("  %s\n", expectation.text.c_str());
+    for (const std::string& update : outcome.updates) std::printf("  %s\n", update.c_str());
     if (options.common.replay_hash) std::printf("  state_hash %016llx\n", static_cast<unsigned long long>(outcome.state_hash));
     std::fflush(stdout);
 }
@@ -95,7 +104,11 @@ void print_outcome(const CheckOptions& options, const Outcome& outcome) {
 class Checker {
 public:
     Checker(const CheckOptions& options, const StopSignals& signals)
-        : options_(options), signals_(signals), outcomes_(options.scenes.size()), done_(options.scenes.size(), false) {}
+        : options_(options),
+          signals_(signals),
+          outcomes_(options.scenes.size()),
+          done_(options.scenes.size(), false),
+          bar_(!options.common.quiet && options.scenes.size() > 1, static_cast<double>(options.scenes.size()), {"scenes", 0}) {}
 
     std::vector<Outcome> check_all() {
         const std::size_t jobs = std::min(static_cast<std::size_t>(options_.jobs), options_.scenes.size());
@@ -113,7 +126,10 @@ private:
             const std::lock_guard lock(mutex_);
             outcomes_[i] = std::move(outcome);
             done_[i] = true;
+            bar_.clear();
             for (; printed_ < done_.size() && done_[printed_]; ++printed_) print_outcome(options_, outcomes_[printed_]);
+            const auto checked = std::count(done_.begin(), done_.end(), true);
+            if (printed_ < done_.size()) bar_.show(static_cast<double>(checked));
         }
     }
 
@@ -127,6 +143,7 @@ private:
     std::vector<Outcome> outcomes_;
     std::vector<bool> done_;
     std::size_t next_ = 0, printed_ = 0;
+    ProgressBar bar_;
     std::mutex mutex_;
 };
 
@@ -168,6 +185,8 @@ void add_check_command(CLI::App& program, Action& action) {
     command->footer("Example: percale check data/scenes/*.toml --jobs 2");
     command->add_option("SCENE", options->scenes, "Scene files (TOML)")->required();
     command->add_option("--junit", options->junit, "Also write the outcome as JUnit XML")->type_name("FILE");
+    command->add_flag("--update", options->update,
+                      "Write the files that `matches` names from this run, instead of comparing with them");
     command->add_option("--jobs", options->jobs, "Scenes run at a time (default 1)")->type_name("N");
     add_common_options(*command, options->common);
     command->callback([options, &action] { action = [options] { return check(*options); }; });

@@ -175,7 +175,7 @@ int run(RunOptions options) {
     bar.clear();
     if (!options.common.quiet) print_moves_after(start_moves, built.simulation);
     const std::vector<ExpectationResult> expectations =
-        judge(expected_of(built.scene, options.common), measure_values(result.measures));
+        judge(expected_of(built.scene, options.common), measure_values(result.measures), result.timed);
     folder.finish(built, result, expectations);
     if (!options.common.quiet) print_summary(options, built, result, expectations);
     return verdict(options, result, expectations);

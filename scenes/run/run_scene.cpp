@@ -10,13 +10,13 @@
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
-#include "garment/cloth_shape.h"
-#include "meshes/mesh_import.h"
+#include "measures/references.h"
+#include "measures/timed_measures.h"
 #include "percale/error.h"
 #include "run/frame_fields.h"
 #include "run/motion_parts.h"
 #include "run/scene_plan.h"
-#include "run/step_count.h"
+#include "run/step_lengths.h"
 #include "run/timeline.h"
 
 namespace percale::scenes {
@@ -31,29 +31,6 @@ const char* status_word(RunStatus status) {
             return "stopped";
     }
     return "unknown";
-}
-
-namespace {
-
-TriangleMesh reference_mesh(const std::string& file, const Expectation& expectation) {
-    return at_place(expectation.place, "matches: ", [&] { return import_mesh(file); });
-}
-
-}  // namespace
-
-std::optional<std::vector<Vec3>> read_reference(const BuiltScene& built) {
-    for (const Expectation& expectation : built.scene.expectations) {
-        if (expectation.measure != "matches") continue;
-        const std::string file = path_beside(built.scene, expectation.file);
-        std::vector<Vec3> vertices = reference_mesh(file, expectation).vertices;
-        std::size_t expected = 0;
-        for (const TriangleMesh& mesh : built.cloth_meshes) expected += mesh.vertices.size();
-        if (vertices.size() != expected)
-            fail_at(expectation.place, "matches: " + file + " has " + std::to_string(vertices.size()) +
-                                           " vertices, the cloth has " + std::to_string(expected));
-        return vertices;
-    }
-    return std::nullopt;
 }
 
 namespace {
@@ -99,6 +76,11 @@ public:
 
     int next_frame() const { return frame_.index; }
     bool framed() const { return framed_; }
+    /// Of the present state, made unless it is there.
+    const FrameCheck& check() {
+        see();
+        return frame_.check;
+    }
 
     /// Whether the present time has a frame that was not made yet.
     bool frame_is_due() const {
@@ -196,6 +178,19 @@ struct RunScript {
     Timeline timeline;
     Observer observer;
     std::optional<RestWatch> rest;  // where the scene ends at rest
+    TimedMeasures timed;
+    StepReport step = {};  // the last one
+    double energy_gain = 0.0;
+
+    /// For the expectations that have times.
+    void look_at_state(const BuiltScene& built, const StepReport* ended) {
+        timed.look({.simulation = built.simulation,
+                    .cloths = built.cloths,
+                    .step = ended,
+                    .energy_gain = ended != nullptr ? energy_gain : std::numeric_limits<double>::quiet_NaN(),
+                    .check = [this]() -> const FrameCheck& { return observer.check(); },
+                    .framed = observer.framed()});
+    }
 };
 
 /// One step of the simulation: script, simulation, figures. False if it failed.
@@ -234,6 +229,8 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, doub
                           !script.timeline.more_to_come(built, report.time));
     add_step(result.measures, report, before);
     add_accepted(totals, report);
+    script.energy_gain = energy_gain(report, before);
+    script.step = std::move(report);
     return true;
 }
 
@@ -244,60 +241,10 @@ bool make_parts(BuiltScene& built, const RunHooks& hooks, RunScript& script, dou
     for (int part = 0; part < parts; ++part) {
         if (!make_step(built, hooks, script, dt / parts, result)) return false;
         script.observer.look(result.totals.steps);
+        script.look_at_state(built, &script.step);
     }
     return true;
 }
-
-/// The next time at which adaptive steps have to end: that of a frame or an event, or the scene's end.
-double next_stop(const Scene& scene, double now) {
-    const double after = now + 1e-9 * scene.step.time_step;
-    double stop = scene.latest_end();
-    const double frame = (std::floor(after * scene.output.fps) + 1.0) / scene.output.fps;
-    if (frame > after) stop = std::min(stop, frame);
-    for (const EventSpec& event : scene.events)
-        if (event.time > after) stop = std::min(stop, event.time);
-    return stop;
-}
-
-/// Tells how long steps are: `time_step`, the last one shorter; with "auto" equal ones from stop to stop.
-class StepLengths {
-public:
-    StepLengths(const Scene& scene, const RunState* from)
-        : scene_(scene),
-          count_(count_steps(scene.latest_end(), scene.step.time_step)),
-          length_(from ? from->step_length : scene.step.time_step),
-          made_(from ? from->steps_made : 0) {}
-
-    long made() const { return made_; }
-    double length() const { return length_; }
-
-    bool over(double now) const { return scene_.step.adaptive ? left(now) <= rounding : made_ >= count_.steps; }
-
-    double next(double now) {
-        ++made_;
-        if (!scene_.step.adaptive) return made_ >= count_.steps ? count_.last_dt : scene_.step.time_step;
-        const double left = next_stop(scene_, now) - now;
-        const double length = left / std::max(1.0, std::ceil(left / scene_.step.time_step - 1e-9));
-        // The same length in every bit as before: another one would be a change of the scene.
-        if (std::abs(length - length_) > 1e-9 * length) length_ = length;
-        return length_;
-    }
-
-    std::string made_text(double now) const {
-        if (scene_.step.adaptive)
-            return "stopped at " + std::to_string(now) + " of " + std::to_string(scene_.latest_end()) + " s";
-        return "stopped after " + std::to_string(made_) + " of " + std::to_string(count_.steps) + " steps";
-    }
-
-private:
-    static constexpr double rounding = 1e-7;  // of a step
-    double left(double now) const { return (scene_.latest_end() - now) / scene_.step.time_step; }
-
-    const Scene& scene_;
-    StepCount count_;
-    double length_;
-    long made_;
-};
 
 /// Tells when checkpoints are due: whenever another so many seconds of the scene are over.
 class CheckpointTimes {
@@ -316,15 +263,26 @@ private:
     double every_, made_;
 };
 
+/// Throws SceneError for a reference that cannot be read.
+TimedMeasures timed_of(const BuiltScene& built, std::vector<std::vector<Vec3>> references) {
+    // Times are sums of steps.
+    return {built.scene.expectations, std::move(references), 1e-6 * built.scene.step.time_step};
+}
+
 /// A scene on its way from its start, or from where it was left, to its end.
 class Run {
 public:
-    Run(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings, RunResult& result)
+    Run(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings, std::vector<std::vector<Vec3>> references,
+        RunResult& result)
         : built_(built),
           hooks_(hooks),
           result_(result),
-          lengths_(built.scene, settings.from),
-          script_{Timeline(built), Observer(built, hooks, result.measures, settings.from), {}},
+          lengths_(built.scene, settings.from ? settings.from->steps_made : 0,
+                   settings.from ? settings.from->step_length : built.scene.step.time_step),
+          script_{Timeline(built),
+                  Observer(built, hooks, result.measures, settings.from),
+                  {},
+                  timed_of(built, std::move(references))},
           checkpoints_(settings.checkpoint_every, settings.from ? settings.from->totals.simulated_s : 0.0) {
         if (built.scene.until_rest) script_.rest.emplace(settings.from ? settings.from->rest : RestFigures{});
         if (settings.from) {
@@ -336,7 +294,10 @@ public:
     }
 
     void make_steps() {
-        if (lengths_.made() == 0) script_.observer.look(0);
+        if (lengths_.made() == 0) {
+            script_.observer.look(0);
+            script_.look_at_state(built_, nullptr);
+        }
         while (!over()) {
             if (!make_parts(built_, hooks_, script_, lengths_.next(built_.simulation.time()), result_)) return;
             const bool stop = !over() && hooks_.stop_asked && hooks_.stop_asked();
@@ -353,6 +314,8 @@ public:
     /// Brings the totals up to date that are no sums over steps.
     void measure() {
         if (script_.rest) result_.rest = script_.rest->figures();
+        result_.timed = script_.timed.values();
+        result_.shapes = script_.timed.shapes();
         result_.totals.simulated_s = built_.simulation.time();
         result_.totals.wall_s =
             earlier_wall_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -383,8 +346,11 @@ private:
             };
             for (const Pinch& pinch : from.totals.pinches)
                 if (!std::ranges::all_of(pinch.obstacles, known)) throw SceneError("its pinches are of another scene");
+            if (from.timed.size() != built_.scene.expectations.size())
+                throw SceneError("what was expected of it is not what the scene expects");
             built_.simulation.restore(from.simulation);
         });
+        script_.timed.go_on_from(from.timed, built_.simulation.time());
         result_.totals = from.totals;
         result_.measures = from.measures;
         result_.resumed_at = from.resumed_at;
@@ -402,6 +368,7 @@ private:
                 .next_frame = script_.observer.next_frame(),
                 .framed = script_.observer.framed(),
                 .rest = script_.rest ? script_.rest->figures() : RestFigures{},
+                .timed = script_.timed.values(),
                 .timeline = script_.timeline.state(),
                 .simulation = built_.simulation.save()};
     }
@@ -419,10 +386,13 @@ private:
 }  // namespace
 
 RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings) {
-    const std::optional<std::vector<Vec3>> reference = read_reference(built);
+    std::size_t vertices = 0;
+    for (const TriangleMesh& mesh : built.cloth_meshes) vertices += mesh.vertices.size();
+    const std::vector<std::vector<Vec3>> references =
+        settings.compare ? read_references(built.scene, vertices) : std::vector<std::vector<Vec3>>();
     RunResult result;
     result.plan = plan_of(built);
-    Run run(built, hooks, settings, result);
+    Run run(built, hooks, settings, references, result);
     if (hooks.begin) hooks.begin();
     run.make_steps();
     if (is_measured_by_frames(built)) {
@@ -432,7 +402,11 @@ RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings&
         result.measures.largest_strain = result.measures.energy_gain = result.totals.energy.elastic;
     }
     add_end(result.measures, built.simulation, built.cloths);
-    if (reference) result.measures.matches = largest_vertex_distance(built.simulation, built.cloths, *reference);
+    for (std::size_t i = 0; i < references.size(); ++i) {
+        const Expectation& expectation = built.scene.expectations[i];
+        if (!references[i].empty() && !expectation.at && !expectation.during)
+            result.measures.matches = largest_vertex_distance(built.simulation, built.cloths, references[i]);
+    }
     run.measure();
     return result;
 }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "measures/measures.h"
 #include "meshes/mesh_fields.h"
-#include "run/measures.h"
 #include "run/scene_build.h"
 #include "run/timeline.h"
 
@@ -56,8 +56,10 @@ struct RunResult {
     RunTotals totals;
     ScenePlan plan;  // before the first step
     Measures measures;
-    std::optional<RestFigures> rest;  // of a scene that ends at rest
-    std::vector<double> resumed_at;   // s, where the run was resumed; empty for one that was not
+    std::optional<RestFigures> rest;        // of a scene that ends at rest
+    std::vector<double> timed;              // what TimedMeasures measured, in the order of the scene's expectations
+    std::vector<std::vector<Vec3>> shapes;  // TimedMeasures::shapes
+    std::vector<double> resumed_at;         // s, where the run was resumed; empty for one that was not
 };
 
 /// Where a run stands between two steps of the scene: together with the scene, all that it takes to go on.
@@ -68,8 +70,9 @@ struct RunState {
     long steps_made = 0;             // of the scene, undivided
     double step_length = 0.0;        // s, of the last one
     int next_frame = 0;
-    bool framed = false;  // the state has a frame
-    RestFigures rest;     // of a scene that ends at rest
+    bool framed = false;             // the state has a frame
+    RestFigures rest;                // of a scene that ends at rest
+    std::vector<double> timed = {};  // of RunResult
     Timeline::State timeline;
     std::vector<std::byte> simulation;  // Simulation::save
 };
@@ -85,6 +88,7 @@ struct RunHooks {
 
 struct RunSettings {
     bool certify_steps = false;      // certify every state, not only those of output frames: Measures::steps
+    bool compare = true;             // false: the files of `matches` are not read, and nothing is compared with them
     double checkpoint_every = 0.0;   // s of simulated time, counted from 0; 0: none are due
     const RunState* from = nullptr;  // where to go on; null: from the start
     std::string from_file = {};      // where that was read, for messages
@@ -101,9 +105,5 @@ struct RunSettings {
 /// through. A run that goes on from a state ends with the same bits and figures as one that was never interrupted; the scene must
 /// have been built anew.
 RunResult run_scene(BuiltScene& built, const RunHooks& hooks = {}, const RunSettings& settings = {});
-
-/// The vertices of the file that `matches` names, if the scene expects that. Throws SceneError where it cannot be read or has
-/// another number of vertices than the cloth.
-std::optional<std::vector<Vec3>> read_reference(const BuiltScene& built);
 
 }  // namespace percale::scenes

@@ -58,6 +58,7 @@ public:
             case KeyKind::names:
                 return list(key.count, [&] { return one_of({"\"c0\"", "\"c1\""}); });
             case KeyKind::words:
+                if (path == "output.frames") return "\"" + one_of(key.choices) + "\"";  // one is written as that
                 return below(2) == 0 ? "[]" : "[\"" + one_of(key.choices) + "\"]";
             case KeyKind::pairs:
                 return list(1 + below(3), [&] { return list(2, [&] { return integer_of(key); }); });
@@ -69,6 +70,7 @@ public:
             case KeyKind::limit:
                 return limit_of(key, path);
             case KeyKind::table:
+            case KeyKind::table_or_list:  // a list of one table is written as that
                 return table_of(key, path);
             case KeyKind::table_list:
                 return tables_of(key, path);
@@ -101,7 +103,8 @@ private:
         if (presets || moduli) banned_ = {"fabric.springs", "fabric.membrane", presets ? "" : "fabric.preset"};
         const std::pair<std::string, std::string> either[] = {{"fabric.springs.bend", "fabric.bend_stiffness"},
                                                               {"fabric.spring_damping", "fabric.damping_time"},
-                                                              {"fabric.pressure", "fabric.gas_volume"}};
+                                                              {"fabric.pressure", "fabric.gas_volume"},
+                                                              {"expect.at", "expect.during"}};
         for (const auto& [one, other] : either) banned_.insert(wanted == one || (wanted != other && below(2) == 0) ? other : one);
     }
 
@@ -186,6 +189,7 @@ private:
     /// Of directions those that are normalised to the same bits again.
     std::string numbers_of(const SceneKey& key, const std::string& path) {
         if (key.count == 4) return one_of({"[1, 0, 0, 0]", "[0, 1, 0, 0]", "[0, 0, -1, 0]", "[0.5, 0.5, -0.5, 0.5]"});
+        if (path == "expect.during") return list(2, [&, end = uniform(0.0, 1.0)]() mutable { return number_text(end += 1.0); });
         if (path.ends_with(".axis")) return one_of({"[0, 0, -4]", "[2, 0, 0]", "[0, -0.5, 0]", "[0, 0, 1]"});
         return list(key.count, [&] { return number_of(key, path); });
     }

@@ -95,7 +95,8 @@ TEST_CASE("the tables of keys have a row for every key that is no heading") {
     }
     std::size_t headings = 0;
     for (const SceneKey& key : scene_keys()) {
-        const bool table = key.kind == KeyKind::table || key.kind == KeyKind::table_list || key.kind == KeyKind::named_tables;
+        const bool table = key.kind == KeyKind::table || key.kind == KeyKind::table_or_list || key.kind == KeyKind::table_list ||
+                           key.kind == KeyKind::named_tables;
         headings += table && !contains(key.path, ".") ? 1 : 0;
     }
     CHECK(rows + headings == scene_keys().size());

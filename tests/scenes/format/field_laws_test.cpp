@@ -18,7 +18,10 @@ using test::GeneratedScene;
 
 namespace {
 
-bool is_table(KeyKind kind) { return kind == KeyKind::table || kind == KeyKind::table_list || kind == KeyKind::named_tables; }
+bool is_table(KeyKind kind) {
+    return kind == KeyKind::table || kind == KeyKind::table_or_list || kind == KeyKind::table_list ||
+           kind == KeyKind::named_tables;
+}
 
 bool same_value(const TomlNode& a, const TomlNode& b) {
     if (a.is_number() && b.is_number()) return a.number == b.number;
@@ -127,6 +130,7 @@ std::vector<std::string> wrong_kinds(const SceneKey& key) {
         case KeyKind::limit:
             return {"\"small\"", "true", "[1, 2]"};
         case KeyKind::table:
+        case KeyKind::table_or_list:
         case KeyKind::table_list:
         case KeyKind::named_tables:
             break;

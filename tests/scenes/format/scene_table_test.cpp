@@ -16,7 +16,8 @@ using namespace percale::scenes;
 namespace {
 
 bool is_table(const SceneKey& key) {
-    return key.kind == KeyKind::table || key.kind == KeyKind::table_list || key.kind == KeyKind::named_tables;
+    return key.kind == KeyKind::table || key.kind == KeyKind::table_or_list || key.kind == KeyKind::table_list ||
+           key.kind == KeyKind::named_tables;
 }
 
 std::string parent_of(const std::string& path) { return path.substr(0, path.rfind('.')); }

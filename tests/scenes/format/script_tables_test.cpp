@@ -109,6 +109,33 @@ TEST_CASE("the forms of an expectation become limits") {
     CHECK(matches.highest_included);
 }
 
+TEST_CASE("tables of expectations have each their time, and are written as they were read") {
+    const std::string text =
+        small_scene() +
+        "[[expect]]\nintersections = 0\n[[expect]]\nat = 1.5\nlowest_vertex = { above = 0.1 }\n"
+        "speed_at_end = { below = 1.0 }\n[[expect]]\nduring = [0.5, 1.0]\nlargest_strain = { below = 0.2 }\n";
+    const Scene scene = parse_scene(text, "t");
+    REQUIRE(scene.expectations.size() == 4);
+    CHECK_FALSE(scene.expectations[0].at.has_value());
+    CHECK(scene.expectations[1].at == 1.5);
+    CHECK(scene.expectations[2].at == 1.5);
+    CHECK(scene.expectations[3].during == std::array{0.5, 1.0});
+    const TomlNode node = *expect_field().write(scene);
+    REQUIRE(node.items.size() == 3);
+    CHECK(node.items[1].entries.size() == 3);
+    Scene again;
+    FaultList faults(false);
+    expect_field().read(node, again, faults);
+    REQUIRE(again.expectations.size() == 4);
+    CHECK(again.expectations[2].at == 1.5);
+    CHECK(again.expectations[3].highest == 0.2);
+    CHECK_THROWS_WITH(parse_scene(small_scene() + "[[expect]]\nat = 1.0\nduring = [0, 1]\n", "t"),
+                      Catch::Contains("exclude each other"));
+    CHECK_THROWS_WITH(parse_scene(small_scene() + "[[expect]]\nduring = [2, 1]\n", "t"),
+                      Catch::Contains("ends before it begins"));
+    CHECK_THROWS_WITH(parse_scene(small_scene() + "[[expect]]\nwhen = 1.0\n", "t"), Catch::Contains("unknown key 'when'"));
+}
+
 TEST_CASE("expectations keep the order of the file and know their places") {
     const auto list = expectations("speed_at_end = 0\nintersections = 0\n");
     REQUIRE(list.size() == 2);

@@ -27,6 +27,23 @@ TEST_CASE("check says of every expectation whether it passed, and writes nothing
     CHECK(folder.file_count() == 1);
 }
 
+TEST_CASE("check --update writes the files that are compared with, then they match, and the other expectations are judged") {
+    const TestFolder folder;
+    folder.write("scene.toml", falling_sheet() +
+                                   "[[expect]]\nmatches = { file = \"end.obj\", within = 1e-12 }\n"
+                                   "[[expect]]\nat = 0.05\nspeed_at_end = { below = 0.1 }\n");
+    CHECK(run_program({"check", "scene.toml"}, folder.path()).exit_code == 2);
+    const ProgramRun update = run_program({"check", "scene.toml", "--update"}, folder.path());
+    CHECK(update.exit_code == 1);
+    CHECK(update.out.find("  speed_at_end at 0.05 s 0.4905, expected < 0.1: failed\n") != std::string::npos);
+    CHECK(update.out.find("  matches end.obj: written, 16 vertices\n") != std::string::npos);
+    const ProgramRun again = run_program({"check", "scene.toml"}, folder.path());
+    CHECK(again.exit_code == 1);
+    CHECK(again.out.find("  matches end.obj 0, expected <= 1e-12: passed\n") != std::string::npos);
+    const ProgramRun other = run_program({"check", "scene.toml", "--set", "step.time_step=0.005"}, folder.path());
+    CHECK(other.out.find("  matches end.obj 0.002") != std::string::npos);
+}
+
 TEST_CASE("one failed expectation among many is exit code 1") {
     const TestFolder folder;
     folder.write("good.toml", falling_sheet() + "[expect]\nintersections = 0\n");

@@ -1,4 +1,4 @@
-#include "run/measures.h"
+#include "measures/measures.h"
 
 #include <cmath>
 #include <vector>

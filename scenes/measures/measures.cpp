@@ -1,4 +1,4 @@
-#include "run/measures.h"
+#include "measures/measures.h"
 
 #include <algorithm>
 #include <array>
@@ -83,10 +83,14 @@ void add_state(StepChecks& checks, int step, double time, const FrameCheck& chec
     checks.worst_time = time;
 }
 
+double energy_gain(const StepReport& report, double energy_before) {
+    return report.energy.total() - energy_before - report.energy.work;
+}
+
 void add_step(Measures& measures, const StepReport& report, double energy_before) {
     measures.smallest_distance = std::min(measures.smallest_distance, report.smallest_distance);
     measures.largest_strain = std::max(measures.largest_strain, report.largest_strain);
-    measures.energy_gain = std::max(measures.energy_gain, report.energy.total() - energy_before - report.energy.work);
+    measures.energy_gain = std::max(measures.energy_gain, energy_gain(report, energy_before));
 }
 
 void add_end(Measures& measures, const Simulation& simulation, std::span<const ClothId> cloths) {

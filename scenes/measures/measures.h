@@ -120,7 +120,9 @@ std::string not_at_rest_text(const RestFigures& figures, const std::string& clot
 /// Of two frames with equal distances (0 where both intersect) the one with more intersecting pairs is the worse.
 void add_frame(Measures& measures, int index, const FrameCheck& check);
 
-/// `energy_before`: total energy at the start of the step, J.
+/// By how much the total energy rose in a step beyond its work, J, < 0 where it fell. `energy_before`: at the start of the step.
+double energy_gain(const StepReport& report, double energy_before);
+
 void add_step(Measures& measures, const StepReport& report, double energy_before);
 
 /// Speeds and heights of all cloths as they are now.

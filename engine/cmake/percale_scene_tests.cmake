@@ -1,0 +1,26 @@
+# percale_add_scene_test(NAME SCENE... [OPTIONS OPTION...] [LABELS LABEL...] [TIMEOUT SECONDS])
+#
+# A ctest that runs `percale check SCENE...` with the program of this package: it passes if every scene finishes and every line of
+# [expect] holds. OPTIONS are those of percale check, such as --jobs 2, --certify-steps or --set step.threads=1. Paths are relative to
+# the current source folder. NAME.xml beside the build's other files holds the outcome as JUnit.
+function(percale_add_scene_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "OPTIONS;LABELS")
+  if(NOT arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "percale_add_scene_test(${name} ...): no scene file is named")
+  endif()
+  set(scenes "")
+  foreach(scene IN LISTS arg_UNPARSED_ARGUMENTS)
+    get_filename_component(file "${scene}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
+    if(NOT EXISTS "${file}")
+      message(FATAL_ERROR "percale_add_scene_test(${name} ...): ${file} does not exist")
+    endif()
+    list(APPEND scenes "${file}")
+  endforeach()
+  add_test(NAME ${name} COMMAND "${PERCALE_PROGRAM}" check ${scenes} --junit "${CMAKE_CURRENT_BINARY_DIR}/${name}.xml" ${arg_OPTIONS})
+  if(arg_LABELS)
+    set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}")
+  endif()
+  if(arg_TIMEOUT)
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT})
+  endif()
+endfunction()

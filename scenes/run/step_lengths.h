@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "format/scene.h"
+#include "run/step_count.h"
+
+namespace percale::scenes {
+
+/// Tells how long the steps of a run are: `time_step`, the last one shorter; with "auto" equal ones from stop to stop, which are
+/// the times of frames, events and expectations, and the scene's end. Times in s.
+class StepLengths {
+public:
+    /// `made`: steps so far; `length`: of the last one, before the first step.time_step.
+    StepLengths(const Scene& scene, long made, double length);
+
+    long made() const { return made_; }
+    double length() const { return length_; }
+    bool over(double now) const;
+    /// Of the next step.
+    double next(double now);
+    /// "stopped after 3 of 60 steps"
+    std::string made_text(double now) const;
+
+private:
+    /// In steps of step.time_step.
+    double left(double now) const;
+
+    const Scene& scene_;
+    StepCount count_;
+    double length_;
+    long made_;
+};
+
+}  // namespace percale::scenes

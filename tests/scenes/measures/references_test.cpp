@@ -1,0 +1,33 @@
+#include "scenes/measures/references.h"
+
+#include "percale/error.h"
+#include "scenes/format/scene_file.h"
+#include "scenes/meshes/obj_file.h"
+#include "tests/scenes/small_scenes.h"
+#include "tests/scenes/test_folder.h"
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::scenes;
+using percale::scenes::test::falling_sheet;
+using percale::scenes::test::TestFolder;
+
+TEST_CASE("each expectation has the vertices of its own file, others have none") {
+    const TestFolder folder;
+    const TriangleMesh one = make_grid(1.0, 1.0, 4, 4), other = make_grid(2.0, 1.0, 4, 4);
+    write_obj(folder.path("one.obj"), one.vertices, one.triangles);
+    write_obj(folder.path("other.obj"), other.vertices, other.triangles);
+    const Scene scene = parse_scene(falling_sheet() +
+                                        "[[expect]]\nat = 0.05\nmatches = { file = \"one.obj\", within = 1 }\n"
+                                        "[[expect]]\nintersections = 0\nmatches = { file = \"other.obj\", within = 1 }\n",
+                                    folder.path("test.toml"));
+    const auto references = read_references(scene, 16);
+    REQUIRE(references.size() == 3);
+    CHECK(references[0] == one.vertices);
+    CHECK(references[1].empty());
+    CHECK(references[2] == other.vertices);
+    CHECK_THROWS_WITH(read_references(scene, 17),
+                      Catch::Contains("test.toml:20:1: matches: ") && Catch::Contains("has 16 vertices, the cloth has 17"));
+    std::filesystem::remove(folder.path("other.obj"));
+    CHECK_THROWS_AS(read_references(scene, 16), SceneError);
+}

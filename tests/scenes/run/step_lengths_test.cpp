@@ -1,0 +1,60 @@
+#include "scenes/run/step_lengths.h"
+
+#include <vector>
+
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::scenes;
+
+namespace {
+
+Scene lasting(double duration, double time_step) {
+    Scene scene;
+    scene.duration = duration;
+    scene.step.time_step = time_step;
+    return scene;
+}
+
+/// When the steps of a scene end.
+std::vector<double> ends(const Scene& scene) {
+    StepLengths lengths(scene, 0, scene.step.time_step);
+    std::vector<double> times = {0.0};
+    while (!lengths.over(times.back())) times.push_back(times.back() + lengths.next(times.back()));
+    return times;
+}
+
+bool holds(const std::vector<double>& times, double wanted) {
+    for (const double time : times)
+        if (time == Approx(wanted).margin(1e-12)) return true;
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("steps are as long as said, and the last one is shorter where they do not fill the duration") {
+    const std::vector<double> times = ends(lasting(0.25, 0.1));
+    REQUIRE(times.size() == 4);
+    CHECK(times[2] == Approx(0.2));
+    CHECK(times[3] == Approx(0.25));
+}
+
+TEST_CASE("adaptive steps end at frames, events and expectations, and none is longer than said") {
+    Scene scene = lasting(0.5, 0.09);
+    scene.step.adaptive = true;
+    scene.output.fps = 4.0;
+    scene.events.emplace_back().time = 0.3333;
+    scene.expectations.emplace_back().at = 0.4321;
+    const std::vector<double> times = ends(scene);
+    for (const double stop : {0.25, 0.3333, 0.4321, 0.5}) CHECK(holds(times, stop));
+    for (std::size_t i = 1; i < times.size(); ++i) CHECK(times[i] - times[i - 1] < 0.09 * (1.0 + 1e-9));
+}
+
+TEST_CASE("a run that is gone on with counts from where it was") {
+    const Scene scene = lasting(1.0, 0.1);
+    StepLengths lengths(scene, 7, 0.1);
+    CHECK_FALSE(lengths.over(0.7));
+    lengths.next(0.7);
+    CHECK(lengths.made() == 8);
+    CHECK(lengths.made_text(0.8) == "stopped after 8 of 10 steps");
+}
