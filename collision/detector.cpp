@@ -41,6 +41,8 @@ public:
         return add(mesh, pose, friction, SurfaceShape::deforming);
     }
 
+    void set_friction(int obstacle, double friction) override { obstacles_[obstacle]->set_friction(friction); }
+
     void deform_obstacle(int obstacle, std::span<const Vec3> start, std::span<const Vec3> end) override {
         obstacles_[obstacle]->deform(start, end);
     }

@@ -16,7 +16,7 @@
 #include "tolerances.h"
 
 // What the sources of Simulation share: simulation_scene.cpp (made of what, steps, saved states), simulation_script.cpp (what the
-// caller prescribes) and simulation_views.cpp (what it looks at).
+// caller prescribes), simulation_changes.cpp (what it makes otherwise on the way) and simulation_views.cpp (what it looks at).
 namespace percale {
 
 inline std::string number_text(double value) {
@@ -64,9 +64,16 @@ inline void check_all_finite(std::span<const Vec3> values, const std::string& wh
     }
 }
 
+inline void check_friction(const std::string& owner, double friction) {
+    if (friction >= 0.0 && friction <= 10.0) return;
+    throw SceneError(owner, "friction = " + number_text(friction) + " is outside the allowed range 0 ... 10");
+}
+
 struct Simulation::Implementation {
     World world;
     std::vector<StartMove> start_moves;
+    bool keeps_previous = false;
+    std::vector<Vec3> previous;  // m, of each vertex before the last step; those that it has not are where they are now
 
     const ClothRange& cloth(ClothId id) const {
         if (id.index >= 0 && id.index < static_cast<int>(world.scene.model.cloths.size()))
@@ -93,6 +100,36 @@ struct Simulation::Implementation {
         const int at = vertex(id, index);
         if (world.scene.script.free[at] == 0.0) return at;
         throw SceneError(cloth(id).name, std::string(call) + " of vertex " + std::to_string(index) + ", which is not pinned");
+    }
+
+    /// `what` counts `size` entries.
+    void check_size(const ClothRange& range, std::size_t size, const char* call, const char* what) const {
+        if (static_cast<int>(size) == range.count) return;
+        throw SceneError(range.name, std::string(call) + " got " + std::to_string(size) + " " + what + " for " +
+                                         std::to_string(range.count) + " vertices");
+    }
+
+    /// The vertices of a cloth were put elsewhere in no time.
+    void was_placed(const ClothRange& range) {
+        const auto is_of_cloth = [&](const auto& held) {
+            return held.vertex >= range.first && held.vertex < range.first + range.count;
+        };
+        std::erase_if(world.state.cloth.grips, is_of_cloth);
+        std::erase_if(world.state.cloth.impacts, is_of_cloth);
+        update_points(world.state.cloth);
+        forget_previous(range);
+        update_views();
+        world.load_source = LoadSource::nowhere;
+        world.state.contact_energy = 0.0;  // known again after the next step
+        world.state.past.forget();
+        world.changed = true;
+        wake(world.rest);
+    }
+
+    /// Nothing lies between where the cloth was and is.
+    void forget_previous(const ClothRange& range) {
+        const std::size_t end = std::min(previous.size(), static_cast<std::size_t>(range.first + range.count));
+        for (std::size_t i = range.first; i < end; ++i) previous[i] = world.state.cloth.points[i];
     }
 
     void change(const StepSettings& settings) {

@@ -91,10 +91,7 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
     World& world = implementation_->world;
     if (!world.scene.detector)
         throw SceneError(settings.name, "an obstacle needs a contact detector, give one to the simulation");
-    if (!(settings.friction >= 0.0 && settings.friction <= 10.0)) {
-        throw SceneError(settings.name,
-                         "friction = " + number_text(settings.friction) + " is outside the allowed range 0 ... 10");
-    }
+    check_friction(settings.name, settings.friction);
     check_range(settings.name, "restitution", "", settings.restitution, 0.0, 1.0);
     check_pose(pose, settings.name);
     check_mesh(mesh, settings.name, false);
@@ -118,7 +115,8 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
                                             .start_shape = shape,
                                             .end_shape = shape,
                                             .yielding = settings.yields ? yielding_mesh(mesh) : nullptr,
-                                            .aim = settings.yields ? shape : nullptr});
+                                            .aim = settings.yields ? shape : nullptr,
+                                            .friction = settings.friction});
     world.changed = true;
     scene_changed(world);
     return {static_cast<int>(world.scene.script.obstacles.size()) - 1};
@@ -142,6 +140,7 @@ void Simulation::prepare() {
         if (!sewn_now) known.clear();
         if (sewn_now && !moves.empty()) world.state.past.forget();
         known.insert(known.end(), moves.begin(), moves.end());
+        if (!moves.empty()) implementation_->previous.clear();
         implementation_->update_views();
     }
     world.state.contact.forget();
@@ -155,6 +154,7 @@ StepReport Simulation::step() {
     const auto cpu_seconds = [&] { return thread_cpu_seconds() + (world.workers ? world.workers->other_cpu_seconds() : 0.0); };
     const double start = cpu_seconds();
     prepare();
+    if (implementation_->keeps_previous) implementation_->previous = world.state.cloth.points;
     // Should cloth not come apart when seams have closed, the whole step is taken back.
     const double next = world.state.time + 1.5 * world.scene.settings.time_step;
     const bool may_close = meets_cloth(world.scene) && waiting_cloth(world.scene, next) != world.waiting;
@@ -185,6 +185,7 @@ std::vector<std::byte> Simulation::save() const { return saved_world(implementat
 void Simulation::restore(std::span<const std::byte> saved) {
     check_scheme(implementation_->world.scene);
     implementation_->start_moves = restore_world(saved, implementation_->world);
+    implementation_->previous.clear();
     implementation_->update_views();
 }
 

@@ -34,6 +34,7 @@ void Simulation::move_pin(ClothId cloth, int vertex, const Vec3& target) {
     world.state.past.forget();
     world.load_source = LoadSource::nowhere;
     update_points(world.state.cloth);
+    implementation_->forget_previous(implementation_->cloth(cloth));
     implementation_->update_views();
 }
 
@@ -174,27 +175,13 @@ void Simulation::set_work_limit(int iterations) {
 void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     World& world = implementation_->world;
     const ClothRange& range = implementation_->cloth(cloth);
-    if (static_cast<int>(positions.size()) != range.count) {
-        throw SceneError(range.name, "set_positions got " + std::to_string(positions.size()) + " positions for " +
-                                         std::to_string(range.count) + " vertices");
-    }
+    implementation_->check_size(range, positions.size(), "set_positions", "positions");
     check_all_finite(positions, range.name + ": position ");
     for (int i = 0; i < range.count; ++i) {
         world.state.cloth.positions.set(range.index_of(i), positions[i]);
         world.scene.script.pin_targets.set(range.index_of(i), positions[i]);
     }
-    const auto is_of_cloth = [&](const auto& held) {
-        return held.vertex >= range.first && held.vertex < range.first + range.count;
-    };
-    std::erase_if(world.state.cloth.grips, is_of_cloth);
-    std::erase_if(world.state.cloth.impacts, is_of_cloth);
-    update_points(world.state.cloth);
-    implementation_->update_views();
-    world.load_source = LoadSource::nowhere;
-    world.state.contact_energy = 0.0;  // known again after the next step
-    world.state.past.forget();
-    world.changed = true;
-    wake(world.rest);
+    implementation_->was_placed(range);
 }
 
 void Simulation::teleport(std::span<const ClothId> cloths, std::span<const ObstacleId> obstacles, const Pose& motion,
@@ -212,16 +199,14 @@ void Simulation::teleport(std::span<const ClothId> cloths, std::span<const Obsta
     }
     percale::teleport(implementation_->world, cloth_numbers, obstacle_numbers, normalised(motion),
                       velocities == TeleportVelocities::keep);
+    for (const int cloth : cloth_numbers) implementation_->forget_previous(implementation_->cloth({cloth}));
     implementation_->update_views();
 }
 
 void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities) {
     World& world = implementation_->world;
     const ClothRange& range = implementation_->cloth(cloth);
-    if (static_cast<int>(velocities.size()) != range.count) {
-        throw SceneError(range.name, "set_velocities got " + std::to_string(velocities.size()) + " velocities for " +
-                                         std::to_string(range.count) + " vertices");
-    }
+    implementation_->check_size(range, velocities.size(), "set_velocities", "velocities");
     check_all_finite(velocities, range.name + ": velocity ");
     for (int i = 0; i < range.count; ++i) {
         const bool free = world.scene.script.free[range.index_of(i)] > 0.0;

@@ -1,5 +1,7 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 
+#include "mesh/vertex_normals.h"
 #include "simulation_implementation.h"
 #include "step/measure.h"
 #include "support/hash.h"
@@ -31,6 +33,40 @@ std::span<const double> Simulation::masses(ClothId cloth) const {
     const World& world = implementation_->world;
     const std::vector<double>& all = range.order.kept() ? world.scene.model.mass : world.views.masses;
     return std::span(all).subspan(range.first, range.count);
+}
+
+std::vector<Vec3> Simulation::normals(ClothId cloth) const {
+    std::vector<Vec3> all(implementation_->cloth(cloth).count);
+    normals(cloth, all);
+    return all;
+}
+
+void Simulation::normals(ClothId cloth, std::span<Vec3> out) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    implementation_->check_size(range, out.size(), "normals", "places");
+    const ClothModel& model = implementation_->world.scene.model;
+    vertex_normals({.triangles = triangles_of(model, range),
+                    .points = implementation_->world.state.cloth.points,
+                    .first_vertex = range.first,
+                    .order = range.order},
+                   out);
+}
+
+void Simulation::interpolate(double fraction, ClothId cloth, std::span<Vec3> out) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    if (!implementation_->keeps_previous)
+        throw SceneError(range.name, "interpolate: no positions are kept, call keep_previous_positions before the step");
+    if (!(fraction >= 0.0 && fraction <= 1.0)) {
+        throw SceneError(range.name,
+                         "interpolate: fraction = " + number_text(fraction) + " is outside the allowed range 0 ... 1");
+    }
+    implementation_->check_size(range, out.size(), "interpolate", "places");
+    const std::vector<Vec3>&now = implementation_->world.state.cloth.points, &before = implementation_->previous;
+    for (int i = 0; i < range.count; ++i) {
+        const auto at = static_cast<std::size_t>(range.index_of(i));
+        const bool moved = fraction < 1.0 && at < before.size();
+        out[i] = moved ? Vec3(before[at] + fraction * (now[at] - before[at])) : now[at];
+    }
 }
 
 Pose Simulation::obstacle_pose(ObstacleId obstacle) const { return implementation_->obstacle(obstacle).start; }
@@ -74,6 +110,15 @@ Vec3 Simulation::force_on(ObstacleId obstacle) const {
     Vec3 sum = Vec3::Zero();
     for (const ContactLoad& load : percale::contact_loads(implementation_->world)) {
         if (load.obstacle == obstacle.index) sum -= load.force();
+    }
+    return sum;
+}
+
+Vec3 Simulation::torque_on(ObstacleId obstacle, const Vec3& about) const {
+    check_finite(about, implementation_->obstacle(obstacle).name + ": the point that torque_on is about");
+    Vec3 sum = Vec3::Zero();
+    for (const ContactLoad& load : percale::contact_loads(implementation_->world)) {
+        if (load.obstacle == obstacle.index) sum -= (load.cloth_point - about).cross(load.force());
     }
     return sum;
 }

@@ -7,13 +7,20 @@
 namespace percale {
 namespace {
 
-using LoadMap = std::map<std::pair<int, int>, ContactLoad>;
+/// A load, and what its obstacle point is the mean of.
+struct SummedLoad {
+    ContactLoad load;
+    Vec3 points = Vec3::Zero();  // m N, by normal force
+    double press = 0.0;          // N
+};
 
-ContactLoad& load_at(LoadMap& loads, int vertex, int obstacle) {
-    ContactLoad& load = loads[{vertex, obstacle}];
-    load.vertex = vertex;
-    load.obstacle = obstacle;
-    return load;
+using LoadMap = std::map<std::pair<int, int>, SummedLoad>;
+
+SummedLoad& load_at(LoadMap& loads, int vertex, int obstacle) {
+    SummedLoad& sum = loads[{vertex, obstacle}];
+    sum.load.vertex = vertex;
+    sum.load.obstacle = obstacle;
+    return sum;
 }
 
 }  // namespace
@@ -27,14 +34,20 @@ std::vector<ContactLoad> contact_loads(const ContactRows& rows, const ContactTer
         for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
             const double weight = rows.weight[row][k];
             if (weight == 0.0) continue;
-            ContactLoad& load = load_at(loads, rows.vertex[row][k], rows.obstacle[row]);
-            load.normal += weight * force.normal * rows.direction[row];
-            load.friction += weight * force.friction;  // of projection; penalty has it by touches
+            SummedLoad& sum = load_at(loads, rows.vertex[row][k], rows.obstacle[row]);
+            sum.load.normal += weight * force.normal * rows.direction[row];
+            sum.load.friction += weight * force.friction;  // of projection; penalty has it by touches
+            sum.points += weight * force.normal * rows.obstacle_point[row];
+            sum.press += weight * force.normal;
         }
     }
-    for (const Touch& touch : terms.touches.all) load_at(loads, touch.vertex, touch.obstacle).friction += friction_force(touch);
+    for (const Touch& touch : terms.touches.all)
+        load_at(loads, touch.vertex, touch.obstacle).load.friction += friction_force(touch);
     std::vector<ContactLoad> result;
-    for (const auto& [key, load] : loads) result.push_back(load);
+    for (auto& [key, sum] : loads) {
+        if (sum.press > 0.0) sum.load.obstacle_point = sum.points / sum.press;
+        result.push_back(sum.load);
+    }
     return result;
 }
 

@@ -99,9 +99,7 @@ void order_last_cloth(ClothModel& model) {
 
 void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness, const RestShape& shape) {
     const ClothRange& cloth = model.cloths.back();
-    const auto own = std::partition_point(model.triangles.begin(), model.triangles.end(),
-                                          [&](const Triangle& t) { return t[0] < cloth.first; });
-    const HingeMesh mesh{.triangles = {own, model.triangles.end()},
+    const HingeMesh mesh{.triangles = triangles_of(model, cloth),
                          .rest = model.rest,
                          .first_spring = first_spring_of(model, cloth),
                          .first_vertex = cloth.first,
@@ -147,6 +145,13 @@ void set_model_clamps(std::span<const double> free, ClothModel& model) {
 int body_of(std::span<const Body> bodies, int vertex) {
     const auto ends_before = [&](const Body& body) { return body.first + body.count <= vertex; };
     return static_cast<int>(std::partition_point(bodies.begin(), bodies.end(), ends_before) - bodies.begin());
+}
+
+std::span<const Triangle> triangles_of(const ClothModel& model, const ClothRange& cloth) {
+    const auto from = [&](int vertex) {
+        return std::ranges::partition_point(model.triangles, [=](const Triangle& t) { return t[0] < vertex; });
+    };
+    return std::span<const Triangle>(from(cloth.first), from(cloth.first + cloth.count));
 }
 
 int cloth_of(const ClothModel& model, int vertex) {

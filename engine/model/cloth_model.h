@@ -84,6 +84,8 @@ void set_bending(ClothModel& model);
 /// Makes hinges beside clamps stiffer. `free`: 1, or 0 at pinned vertices.
 void set_model_clamps(std::span<const double> free, ClothModel& model);
 
+/// The triangles of one cloth.
+std::span<const Triangle> triangles_of(const ClothModel& model, const ClothRange& cloth);
 /// The number of the cloth that a vertex belongs to.
 int cloth_of(const ClothModel& model, int vertex);
 /// The number of the body that a vertex belongs to.

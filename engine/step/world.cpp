@@ -120,7 +120,9 @@ std::vector<ContactLoad> contact_loads(const World& world) {
     if (world.load_source == LoadSource::nowhere) return {};
     if (world.load_source == LoadSource::saved_state) return world.saved_loads;
     const StagePoint& last = world.work.newton.current;
-    return contact_loads(last.rows, last.contact, last.row_forces);
+    std::vector<ContactLoad> loads = contact_loads(last.rows, last.contact, last.row_forces);
+    for (ContactLoad& load : loads) load.cloth_point = world.state.cloth.positions.at(load.vertex);
+    return loads;
 }
 
 void set_workers(World& world) {

@@ -43,6 +43,19 @@ TEST_CASE("Rows between cloths, and rows that do not push, load nothing") {
     CHECK(r.loads().empty());
 }
 
+TEST_CASE("A load's obstacle point is the mean of what presses its vertex, by normal force") {
+    Rows r;
+    r.add({4, 2, -1, -1}, {0.25, 0.75, 0, 0}, 1, {.normal = 8.0});
+    r.add({2, -1, -1, -1}, {1, 0, 0, 0}, 1, {.normal = 2.0});
+    r.add({2, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 5.0});
+    r.rows.obstacle_point = {Vec3(1, 0, 0), Vec3(0, 4, 0), Vec3(0, 0, 3)};
+    const std::vector<ContactLoad> loads = r.loads();
+    REQUIRE(loads.size() == 3);
+    CHECK(loads[0].obstacle_point == Vec3(0, 0, 3));
+    CHECK((loads[1].obstacle_point - Vec3(0.75, 1.0, 0)).norm() < 1e-15);  // 6 N and 2 N
+    CHECK(loads[2].obstacle_point == Vec3(1, 0, 0));
+}
+
 TEST_CASE("Friction that acts on vertices is that of their touches") {
     Rows r;
     r.add({3, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 10.0});

@@ -1,0 +1,196 @@
+#include "percale/simulation.h"
+
+#include <limits>
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+#include "tests/support/plane_detector.h"
+
+namespace percale::test {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// A sheet 6 mm above a plane of friction `mu` that is tilted by `slope`, 0 or atan 3/4, about z: downhill is +x.
+struct SlopeScene {
+    Simulation simulation;
+    ClothId cloth;
+    ObstacleId plane;
+
+    explicit SlopeScene(double mu, bool slope = true, double restitution = 0.0, double height = 0.0045,
+                        std::unique_ptr<ContactDetector> detector = std::make_unique<PlaneDetector>())
+        : simulation(StepSettings{}, std::move(detector)) {
+        const double half = slope ? -0.5 * std::atan(0.75) : 0.0;
+        const Rotation tilt{std::cos(half), 0.0, 0.0, std::sin(half)};
+        const Pose pose{.translation = transform({.rotation = tilt}, Vec3(0, height, 0)), .rotation = tilt};
+        cloth = simulation.add_cloth(make_grid(0.2, 0.2, 4, 4), sheet_fabric(), pose, "towel");
+        plane = simulation.add_obstacle(make_plane(1.0), {.rotation = tilt},
+                                        {.friction = mu, .restitution = restitution, .name = "floor"});
+    }
+    void run(int steps) {
+        for (int n = 0; n < steps; ++n) REQUIRE(simulation.step().ok());
+    }
+    Vec3 mean(std::span<const Vec3> of) const {
+        Vec3 sum = Vec3::Zero();
+        for (const Vec3& x : of) sum += x / static_cast<double>(of.size());
+        return sum;
+    }
+};
+
+/// A detector without what it need not be able to do.
+class StubbornDetector : public PlaneDetector {
+public:
+    void set_friction(int obstacle, double friction) override { ContactDetector::set_friction(obstacle, friction); }
+};
+
+/// The call throws, its message has the parts, and the simulation stays as it was.
+template <class Call>
+void check_refused(Simulation& simulation, Call&& call, const std::vector<std::string>& parts) {
+    const std::vector<std::byte> before = simulation.save();
+    const std::string message = scene_error(call);
+    CAPTURE(message);
+    CHECK(!message.empty());
+    CHECK(mentions(message, parts));
+    CHECK(simulation.save() == before);
+}
+
+}  // namespace
+
+TEST_CASE("Friction set on the way acts from the next step on: cloth that slid sticks, and slides again") {
+    SlopeScene scene(0.0);
+    scene.run(10);
+    const double speed = scene.mean(scene.simulation.velocities(scene.cloth)).norm();
+    CHECK(speed == Approx(10.0 / 60.0 * 9.81 * 0.6).epsilon(0.01));  // g sin
+    scene.simulation.set_friction(scene.plane, 5.0);
+    scene.run(60);
+    const Vec3 held = scene.mean(scene.simulation.positions(scene.cloth));
+    scene.run(30);
+    CHECK((scene.mean(scene.simulation.positions(scene.cloth)) - held).norm() < 1e-5);
+    scene.simulation.set_friction(scene.plane, 0.25);
+    scene.run(30);
+    // g (sin - mu cos) = 0.4 g for half a second.
+    CHECK(scene.mean(scene.simulation.velocities(scene.cloth)).norm() == Approx(0.5 * 9.81 * 0.4).epsilon(0.02));
+}
+
+TEST_CASE("Friction and restitution set before the first step are those that an obstacle is added with") {
+    SlopeScene set(0.0, true, 0.0, 0.1), added(0.6, true, 0.8, 0.1);
+    set.simulation.set_friction(set.plane, 0.6);
+    set.simulation.set_restitution(set.plane, 0.8);
+    for (int n = 0; n < 60; ++n) {
+        REQUIRE(set.simulation.step().ok());
+        REQUIRE(added.simulation.step().ok());
+        REQUIRE(set.simulation.state_hash() == added.simulation.state_hash());
+    }
+}
+
+TEST_CASE("Restitution set on the way: cloth that fell dead bounces") {
+    for (const double restitution : {0.0, 0.5}) {
+        SlopeScene scene(0.0, false, 0.9, 0.1);
+        scene.run(2);
+        scene.simulation.set_restitution(scene.plane, restitution);
+        double fastest = 0.0, fall = 0.0;
+        for (int n = 0; n < 20; ++n) {
+            scene.run(1);
+            fastest = std::max(fastest, scene.mean(scene.simulation.velocities(scene.cloth)).y());
+            fall = std::max(fall, -scene.mean(scene.simulation.velocities(scene.cloth)).y());
+        }
+        CAPTURE(restitution, fastest, fall);
+        CHECK(fastest >= restitution * fall - 0.25);
+        CHECK(fastest <= restitution * (fall + 9.81 / 60.0) + 0.02);  // it fell on within the step of the impact
+    }
+}
+
+TEST_CASE("What sets friction and restitution wakes cloth at rest, unless it is what they are") {
+    SlopeScene scene(5.0);
+    while (!scene.simulation.step().slept) REQUIRE(scene.simulation.time() < 20.0);
+    scene.simulation.set_friction(scene.plane, 5.0);
+    scene.simulation.set_restitution(scene.plane, 0.0);
+    CHECK(scene.simulation.step().slept);
+    scene.simulation.set_friction(scene.plane, 0.0);
+    CHECK_FALSE(scene.simulation.step().slept);
+    scene.run(30);
+    CHECK(scene.mean(scene.simulation.velocities(scene.cloth)).x() > 1.0);
+}
+
+TEST_CASE("Friction and restitution out of range, or of no obstacle, are refused and change nothing") {
+    SlopeScene scene(0.3);
+    scene.run(5);
+    Simulation& s = scene.simulation;
+    for (const double wrong : {-0.1, 10.1, not_a_number}) {
+        check_refused(s, [&] { s.set_friction(scene.plane, wrong); }, {"floor", "friction", "0 ... 10"});
+    }
+    for (const double wrong : {-0.1, 1.1, not_a_number}) {
+        check_refused(s, [&] { s.set_restitution(scene.plane, wrong); }, {"floor", "restitution", "0 ... 1"});
+    }
+    check_refused(s, [&] { s.set_friction({1}, 0.5); }, {"no obstacle 1"});
+    check_refused(s, [&] { s.set_restitution({-1}, 0.5); }, {"no obstacle -1"});
+}
+
+TEST_CASE("A detector that cannot change friction says so, naming the obstacle") {
+    SlopeScene scene(0.3, true, 0.0, 0.0045, std::make_unique<StubbornDetector>());
+    check_refused(scene.simulation, [&] { scene.simulation.set_friction(scene.plane, 0.5); },
+                  {"floor", "cannot change the friction"});
+    scene.simulation.set_friction(scene.plane, 0.3);  // which it has
+    scene.run(1);
+}
+
+TEST_CASE("A cloth that was reset makes the steps of one that was just added, in every bit") {
+    for (const bool slope : {false, true}) {
+        SlopeScene used(0.4, slope, 0.3, 0.1), fresh(0.4, slope, 0.3, 0.1);
+        used.run(45);
+        used.simulation.reset(used.cloth);
+        CHECK(copy(used.simulation.positions(used.cloth)) == copy(fresh.simulation.positions(fresh.cloth)));
+        CHECK(used.simulation.largest_speed() == 0.0);
+        CHECK(used.simulation.contact_loads(used.cloth).empty());
+        for (int n = 0; n < 45; ++n) {
+            used.run(1);
+            fresh.run(1);
+            REQUIRE(used.simulation.state_hash() == fresh.simulation.state_hash());
+        }
+    }
+}
+
+TEST_CASE("Reset takes pins along, and what the cloth holds with beside its springs; other cloth stays") {
+    Simulation simulation(StepSettings{});
+    Fabric limited = free_fabric();
+    limited.springs.structural = 20.0;
+    limited.strain_limit = 0.01;
+    TriangleMesh mesh = make_grid(0.3, 0.3, 5, 5);
+    mesh.grid_columns = mesh.grid_rows = 0;
+    const ClothId hung = simulation.add_cloth(mesh, limited, {.translation = Vec3(1, 0, 0)}, "hung");
+    const ClothId other = simulation.add_cloth(mesh, limited, {.translation = Vec3(2, 0, 0)}, "other");
+    const std::vector<Vec3> start = copy(simulation.positions(hung));
+    for (const ClothId cloth : {hung, other}) simulation.pin(cloth, 0);
+    const double stored = simulation.energy().elastic;
+    for (int n = 1; n <= 30; ++n) {
+        simulation.move_pin(hung, 0, start[0] + Vec3(0, 0.01 * n, 0));
+        REQUIRE(simulation.step().ok());
+    }
+    const std::vector<Vec3> others = copy(simulation.positions(other));
+    simulation.reset(hung);
+    CHECK(copy(simulation.positions(hung)) == start);
+    CHECK(copy(simulation.positions(other)) == others);
+    simulation.reset(other);
+    CHECK(simulation.energy().elastic == Approx(stored).margin(1e-12));  // nothing holds on
+    REQUIRE(simulation.step().ok());
+    CHECK(simulation.positions(hung)[0] == start[0]);
+    CHECK_THROWS_AS(simulation.reset({2}), SceneError);
+}
+
+TEST_CASE("Interpolation needs positions to be kept, a fraction in range and room for each vertex") {
+    SlopeScene scene(0.3);
+    Simulation& s = scene.simulation;
+    std::vector<Vec3> out(16), small(15);
+    check_refused(s, [&] { s.interpolate(0.5, scene.cloth, out); }, {"towel", "keep_previous_positions"});
+    s.keep_previous_positions();
+    scene.run(1);
+    for (const double wrong : {-0.01, 1.01, not_a_number}) {
+        check_refused(s, [&] { s.interpolate(wrong, scene.cloth, out); }, {"towel", "fraction", "0 ... 1"});
+    }
+    check_refused(s, [&] { s.interpolate(0.5, scene.cloth, small); }, {"towel", "15", "16 vertices"});
+    check_refused(s, [&] { s.interpolate(0.5, {1}, out); }, {"no cloth 1"});
+    s.keep_previous_positions(false);
+    check_refused(s, [&] { s.interpolate(0.5, scene.cloth, out); }, {"keep_previous_positions"});
+}
+
+}  // namespace percale::test
