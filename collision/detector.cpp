@@ -41,6 +41,12 @@ public:
         return add(mesh, pose, friction, SurfaceShape::deforming);
     }
 
+    void remove_obstacle(int obstacle) override {
+        const int before = total_version(obstacles_);
+        obstacles_.erase(obstacles_.begin() + obstacle);
+        if (lists_) lists_->remove_obstacle(obstacle, before, obstacles_);
+    }
+
     void set_friction(int obstacle, double friction) override { obstacles_[obstacle]->set_friction(friction); }
 
     void deform_obstacle(int obstacle, std::span<const Vec3> start, std::span<const Vec3> end) override {

@@ -1,6 +1,52 @@
+#include <algorithm>
+
 #include "simulation_implementation.h"
+#include "step/scene_changes.h"
 
 namespace percale {
+
+void Simulation::remove_cloth(ClothId cloth) {
+    World& world = implementation_->world;
+    const int index = implementation_->index(cloth);
+    const ClothRange& range = world.scene.model.cloths[index];
+    const std::size_t first = range.first, last = first + range.count;
+    std::vector<Vec3>& previous = implementation_->previous;
+    if (previous.size() >= last)
+        previous.erase(previous.begin() + static_cast<long>(first), previous.begin() + static_cast<long>(last));
+    const std::vector<int> seams_left = drop_cloth(world, index);
+    world.cloth_numbers.take_out(index);
+    std::vector<int> numbers;
+    for (const int seam : seams_left) numbers.push_back(world.seam_numbers.all[seam]);
+    world.seam_numbers.all = std::move(numbers);
+    std::erase_if(implementation_->start_moves, [&](const StartMove& move) { return move.cloth == cloth.index; });
+    implementation_->renew_views();
+}
+
+void Simulation::remove_obstacle(ObstacleId obstacle) {
+    World& world = implementation_->world;
+    const int index = implementation_->index(obstacle);
+    try {
+        drop_obstacle(world, index);
+    } catch (const SceneError& error) {
+        throw SceneError(world.scene.script.obstacles[index].name, error.what());
+    }
+    world.obstacle_numbers.take_out(index);
+    std::erase_if(implementation_->start_moves, [&](const StartMove& move) { return move.obstacle == obstacle.index; });
+}
+
+void Simulation::set_fabric(ClothId cloth, const Fabric& fabric) {
+    World& world = implementation_->world;
+    const int index = implementation_->index(cloth);
+    const ClothRange before = world.scene.model.cloths[index];
+    if (fabric.self_contact) implementation_->check_meets(before.name);
+    std::vector<Vec3>& previous = implementation_->previous;
+    const std::vector<Vec3> earlier = previous;
+    change_fabric(world, index, fabric);
+    const ClothRange& now = world.scene.model.cloths[index];
+    for (int i = 0; i < now.count && static_cast<std::size_t>(before.first + before.count) <= earlier.size(); ++i)
+        previous[now.index_of(i)] = earlier[before.index_of(i)];
+    implementation_->renew_views();
+}
 
 void Simulation::set_friction(ObstacleId obstacle, double friction) {
     ObstacleState& state = implementation_->obstacle(obstacle);
@@ -8,7 +54,7 @@ void Simulation::set_friction(ObstacleId obstacle, double friction) {
     if (friction == state.friction) return;
     World& world = implementation_->world;
     try {
-        world.scene.detector->set_friction(obstacle.index, friction);
+        world.scene.detector->set_friction(implementation_->index(obstacle), friction);
     } catch (const SceneError& error) {
         throw SceneError(state.name, error.what());
     }

@@ -10,6 +10,7 @@
 #include "forces/springs.h"
 #include "percale/error.h"
 #include "percale/simulation.h"
+#include "start/start_check.h"
 #include "state/saved_world.h"
 #include "step/measure.h"
 #include "step/step.h"
@@ -71,22 +72,59 @@ inline void check_friction(const std::string& owner, double friction) {
 
 struct Simulation::Implementation {
     World world;
-    std::vector<StartMove> start_moves;
+    std::vector<StartMove> start_moves;  // with the caller's numbers
     bool keeps_previous = false;
     std::vector<Vec3> previous;  // m, of each vertex before the last step; those that it has not are where they are now
 
-    const ClothRange& cloth(ClothId id) const {
-        if (id.index >= 0 && id.index < static_cast<int>(world.scene.model.cloths.size()))
-            return world.scene.model.cloths[id.index];
-        throw SceneError("there is no cloth " + std::to_string(id.index) + ", cloths are 0 ... " +
-                         std::to_string(static_cast<int>(world.scene.model.cloths.size()) - 1));
+    /// Where a body stands among those of its kind.
+    static int index_of(const GivenNumbers& numbers, int number, const std::string& kind) {
+        const int index = numbers.index_of(number);
+        if (index >= 0) return index;
+        if (number >= 0 && number < numbers.next) throw SceneError(kind + " " + std::to_string(number) + " was removed");
+        throw SceneError("there is no " + kind + " " + std::to_string(number) + ", " + kind + "s are 0 ... " +
+                         std::to_string(numbers.next - 1));
     }
+    int index(ClothId id) const { return index_of(world.cloth_numbers, id.index, "cloth"); }
+    int index(ObstacleId id) const { return index_of(world.obstacle_numbers, id.index, "obstacle"); }
+    int index(SeamId id) const { return index_of(world.seam_numbers, id.index, "seam"); }
 
-    ObstacleState& obstacle(ObstacleId id) {
-        if (id.index >= 0 && id.index < static_cast<int>(world.scene.script.obstacles.size()))
-            return world.scene.script.obstacles[id.index];
-        throw SceneError("there is no obstacle " + std::to_string(id.index) + ", obstacles are 0 ... " +
-                         std::to_string(static_cast<int>(world.scene.script.obstacles.size()) - 1));
+    const ClothRange& cloth(ClothId id) const { return world.scene.model.cloths[index(id)]; }
+    ObstacleState& obstacle(ObstacleId id) { return world.scene.script.obstacles[index(id)]; }
+
+    /// The caller's numbers in place of those that bodies have inside; -1 stays.
+    int cloth_number(int index) const { return index < 0 ? index : world.cloth_numbers.all[index]; }
+    int obstacle_number(int index) const { return index < 0 ? index : world.obstacle_numbers.all[index]; }
+    void tell_numbers(StepReport& report) const {
+        for (int* cloth : {&report.blocked_cloth, &report.stretched_cloth}) *cloth = cloth_number(*cloth);
+        for (int* obstacle : {&report.blocking_obstacle, &report.second_obstacle, &report.pinching[0], &report.pinching[1]})
+            *obstacle = obstacle_number(*obstacle);
+    }
+    void tell_numbers(std::vector<StartMove>& moves) const {
+        for (StartMove& move : moves) {
+            move.cloth = cloth_number(move.cloth);
+            move.obstacle = obstacle_number(move.obstacle);
+        }
+    }
+    /// clear_start, with the caller's numbers, in what it throws, too.
+    std::vector<StartMove> cleared_start(const char* verb) {
+        try {
+            std::vector<StartMove> moves = clear_start(world, verb);
+            tell_numbers(moves);
+            return moves;
+        } catch (const StartError& error) {
+            StartFault fault = error.fault();
+            fault.obstacle = obstacle_number(fault.obstacle);
+            throw StartError(error.what(), fault);
+        }
+    }
+    /// As saved states have them.
+    std::vector<StartMove> moves_inside() const {
+        std::vector<StartMove> moves = start_moves;
+        for (StartMove& move : moves) {
+            move.cloth = world.cloth_numbers.index_of(move.cloth);
+            if (move.obstacle >= 0) move.obstacle = world.obstacle_numbers.index_of(move.obstacle);
+        }
+        return moves;
     }
 
     int vertex(ClothId id, int index) const {
@@ -100,6 +138,11 @@ struct Simulation::Implementation {
         const int at = vertex(id, index);
         if (world.scene.script.free[at] == 0.0) return at;
         throw SceneError(cloth(id).name, std::string(call) + " of vertex " + std::to_string(index) + ", which is not pinned");
+    }
+
+    /// For a cloth with self_contact.
+    void check_meets(const std::string& name) const {
+        if (!world.scene.detector) throw SceneError(name, "self_contact needs a contact detector, give one to the simulation");
     }
 
     /// `what` counts `size` entries.
@@ -142,7 +185,7 @@ struct Simulation::Implementation {
     /// Simulation::save, or nothing where the detector cannot save its state.
     std::vector<std::byte> saved_if_possible() const {
         try {
-            return saved_world(world, start_moves);
+            return saved_world(world, moves_inside());
         } catch (const SceneError&) {
             return {};
         }
@@ -168,6 +211,13 @@ struct Simulation::Implementation {
                 world.views.positions[range.first + i] = world.state.cloth.points[range.index_of(i)];
             }
         }
+    }
+
+    /// All views, after vertices got other numbers.
+    void renew_views() {
+        world.views = {};
+        update_views();
+        for (const ClothRange& range : world.scene.model.cloths) add_masses(range);
     }
 
     /// The view of masses, after a cloth was added.

@@ -46,7 +46,7 @@ void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
     }
     state.end = normalised(end);
     if (state.end != state.start) wake(implementation_->world.rest);
-    if (implementation_->world.refused.obstacle != obstacle.index) return;
+    if (implementation_->world.refused.obstacle != implementation_->index(obstacle)) return;
     state.start = state.end;  // no step begins where it is
     state.settled = false;
 }
@@ -61,13 +61,13 @@ void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end)
     check_all_finite(end, state.name + ": vertex ");
     World& world = implementation_->world;
     try {  // now, lest a step throws
-        world.scene.detector->deform_obstacle(obstacle.index, *state.start_shape, end);
+        world.scene.detector->deform_obstacle(implementation_->index(obstacle), *state.start_shape, end);
     } catch (const SceneError& error) {
         throw SceneError(state.name, error.what());
     }
     state.aim_at(std::make_shared<const std::vector<Vec3>>(end.begin(), end.end()));
     if (state.deforms()) wake(world.rest);
-    if (world.refused.obstacle != obstacle.index) return;
+    if (world.refused.obstacle != implementation_->index(obstacle)) return;
     if (state.deforms()) state.reach = state.end_reach;
     state.start_shape = state.end_shape;  // no step begins where it is
     state.dent.clear();
@@ -104,7 +104,8 @@ SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const Stitc
                                             " is sewn to itself");
     }
     if (sewn.empty()) throw SceneError(settings.name, "no vertices, a seam joins at least one pair");
-    return {sew(world, sewn, settings)};
+    sew(world, sewn, settings);
+    return {world.seam_numbers.give()};
 }
 
 SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices,
@@ -124,7 +125,7 @@ void Simulation::set_pair(ClothId first, ClothId second, const ClothPair& pair) 
     }
     if (pair.thickness && !pair.contact) throw SceneError(names, "without contact a thickness says nothing");
     if (pair.thickness) check_range(names, "thickness", "m", *pair.thickness, 1e-6, 1.0);
-    world.scene.script.pairs.set(first.index, second.index, pair);
+    world.scene.script.pairs.set(implementation_->index(first), implementation_->index(second), pair);
     pass_cloth_to_detector(world);
     world.changed = true;
     scene_changed(world);
@@ -135,26 +136,20 @@ void Simulation::set_layer(ClothId cloth, int layer) {
     const ClothRange& range = implementation_->cloth(cloth);
     check_range(range.name, "layer", "", layer, -1000.0, 1000.0);
     if (!range.fabric.self_contact) throw SceneError(range.name, "a layer says nothing where it meets no cloth (self_contact)");
-    world.scene.script.pairs.set_layer(cloth.index, layer);
+    world.scene.script.pairs.set_layer(implementation_->index(cloth), layer);
     pass_cloth_to_detector(world);
     world.changed = true;
 }
 
 bool Simulation::meets(ClothId first, ClothId second) const {
-    static_cast<void>(implementation_->cloth(first)), static_cast<void>(implementation_->cloth(second));
-    return meet_now(implementation_->world, first.index, second.index);
+    return meet_now(implementation_->world, implementation_->index(first), implementation_->index(second));
 }
 
 std::vector<double> Simulation::seam_gaps(SeamId seam) const {
-    const std::vector<Seam>& seams = implementation_->world.scene.script.seams;
-    if (seam.index < 0 || seam.index >= static_cast<int>(seams.size())) {
-        throw SceneError("there is no seam " + std::to_string(seam.index) + ", seams are 0 ... " +
-                         std::to_string(static_cast<int>(seams.size()) - 1));
-    }
+    const World& world = implementation_->world;
     std::vector<double> gaps;
-    for (const Stitch& stitch : seams[seam.index].stitches) {
-        gaps.push_back(stitch_gap(stitch, implementation_->world.state.cloth.positions).norm());
-    }
+    for (const Stitch& stitch : world.scene.script.seams[implementation_->index(seam)].stitches)
+        gaps.push_back(stitch_gap(stitch, world.state.cloth.positions).norm());
     return gaps;
 }
 
@@ -188,18 +183,18 @@ void Simulation::teleport(std::span<const ClothId> cloths, std::span<const Obsta
                           TeleportVelocities velocities) {
     check_pose(motion, "teleport");
     if (motion.scale != 1.0) throw SceneError("teleport", "scale = " + number_text(motion.scale) + ", a rigid motion has 1");
-    std::vector<int> cloth_numbers, obstacle_numbers;
+    std::vector<int> cloth_indices, obstacle_indices;
     for (const ClothId id : cloths) {
-        static_cast<void>(implementation_->cloth(id));
-        if (std::ranges::count(cloth_numbers, id.index) == 0) cloth_numbers.push_back(id.index);
+        const int index = implementation_->index(id);
+        if (std::ranges::count(cloth_indices, index) == 0) cloth_indices.push_back(index);
     }
     for (const ObstacleId id : obstacles) {
-        static_cast<void>(implementation_->obstacle(id));
-        if (std::ranges::count(obstacle_numbers, id.index) == 0) obstacle_numbers.push_back(id.index);
+        const int index = implementation_->index(id);
+        if (std::ranges::count(obstacle_indices, index) == 0) obstacle_indices.push_back(index);
     }
-    percale::teleport(implementation_->world, cloth_numbers, obstacle_numbers, normalised(motion),
+    percale::teleport(implementation_->world, cloth_indices, obstacle_indices, normalised(motion),
                       velocities == TeleportVelocities::keep);
-    for (const int cloth : cloth_numbers) implementation_->forget_previous(implementation_->cloth({cloth}));
+    for (const int cloth : cloth_indices) implementation_->forget_previous(implementation_->world.scene.model.cloths[cloth]);
     implementation_->update_views();
 }
 

@@ -99,6 +99,7 @@ std::vector<ContactLoad> Simulation::contact_loads(ClothId cloth) const {
     for (ContactLoad load : percale::contact_loads(implementation_->world)) {
         if (load.vertex < range.first || load.vertex >= range.first + range.count) continue;
         load.vertex = range.user_vertex(load.vertex);
+        load.obstacle = implementation_->obstacle_number(load.obstacle);
         loads.push_back(load);
     }
     std::ranges::stable_sort(loads, {}, &ContactLoad::vertex);
@@ -106,19 +107,20 @@ std::vector<ContactLoad> Simulation::contact_loads(ClothId cloth) const {
 }
 
 Vec3 Simulation::force_on(ObstacleId obstacle) const {
-    static_cast<void>(implementation_->obstacle(obstacle));
+    const int index = implementation_->index(obstacle);
     Vec3 sum = Vec3::Zero();
     for (const ContactLoad& load : percale::contact_loads(implementation_->world)) {
-        if (load.obstacle == obstacle.index) sum -= load.force();
+        if (load.obstacle == index) sum -= load.force();
     }
     return sum;
 }
 
 Vec3 Simulation::torque_on(ObstacleId obstacle, const Vec3& about) const {
     check_finite(about, implementation_->obstacle(obstacle).name + ": the point that torque_on is about");
+    const int index = implementation_->index(obstacle);
     Vec3 sum = Vec3::Zero();
     for (const ContactLoad& load : percale::contact_loads(implementation_->world)) {
-        if (load.obstacle == obstacle.index) sum -= (load.cloth_point - about).cross(load.force());
+        if (load.obstacle == index) sum -= (load.cloth_point - about).cross(load.force());
     }
     return sum;
 }

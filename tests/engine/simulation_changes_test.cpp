@@ -1,58 +1,24 @@
 #include "percale/simulation.h"
 
+#include <algorithm>
+#include <array>
+#include <functional>
 #include <limits>
+#include <tuple>
 
 #include "tests/support/catch.h"
-#include "tests/support/cloth_scenes.h"
-#include "tests/support/plane_detector.h"
+#include "tests/support/slope_scene.h"
 
 namespace percale::test {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A sheet 6 mm above a plane of friction `mu` that is tilted by `slope`, 0 or atan 3/4, about z: downhill is +x.
-struct SlopeScene {
-    Simulation simulation;
-    ClothId cloth;
-    ObstacleId plane;
-
-    explicit SlopeScene(double mu, bool slope = true, double restitution = 0.0, double height = 0.0045,
-                        std::unique_ptr<ContactDetector> detector = std::make_unique<PlaneDetector>())
-        : simulation(StepSettings{}, std::move(detector)) {
-        const double half = slope ? -0.5 * std::atan(0.75) : 0.0;
-        const Rotation tilt{std::cos(half), 0.0, 0.0, std::sin(half)};
-        const Pose pose{.translation = transform({.rotation = tilt}, Vec3(0, height, 0)), .rotation = tilt};
-        cloth = simulation.add_cloth(make_grid(0.2, 0.2, 4, 4), sheet_fabric(), pose, "towel");
-        plane = simulation.add_obstacle(make_plane(1.0), {.rotation = tilt},
-                                        {.friction = mu, .restitution = restitution, .name = "floor"});
-    }
-    void run(int steps) {
-        for (int n = 0; n < steps; ++n) REQUIRE(simulation.step().ok());
-    }
-    Vec3 mean(std::span<const Vec3> of) const {
-        Vec3 sum = Vec3::Zero();
-        for (const Vec3& x : of) sum += x / static_cast<double>(of.size());
-        return sum;
-    }
-};
-
 /// A detector without what it need not be able to do.
 class StubbornDetector : public PlaneDetector {
 public:
     void set_friction(int obstacle, double friction) override { ContactDetector::set_friction(obstacle, friction); }
 };
-
-/// The call throws, its message has the parts, and the simulation stays as it was.
-template <class Call>
-void check_refused(Simulation& simulation, Call&& call, const std::vector<std::string>& parts) {
-    const std::vector<std::byte> before = simulation.save();
-    const std::string message = scene_error(call);
-    CAPTURE(message);
-    CHECK(!message.empty());
-    CHECK(mentions(message, parts));
-    CHECK(simulation.save() == before);
-}
 
 }  // namespace
 
@@ -191,6 +157,111 @@ TEST_CASE("Interpolation needs positions to be kept, a fraction in range and roo
     check_refused(s, [&] { s.interpolate(0.5, {1}, out); }, {"no cloth 1"});
     s.keep_previous_positions(false);
     check_refused(s, [&] { s.interpolate(0.5, scene.cloth, out); }, {"keep_previous_positions"});
+}
+
+TEST_CASE("The id of a cloth that was removed is refused by every call, and nothing changes") {
+    SlopeScene scene(0.3);
+    Simulation& s = scene.simulation;
+    const ClothId gone = s.add_cloth(make_grid(0.2, 0.2, 3, 3), sheet_fabric(), {.translation = Vec3(0, 2, 0)});
+    s.keep_previous_positions();
+    scene.run(3);
+    s.remove_cloth(gone);
+    std::vector<Vec3> nine(9, Vec3::Zero());
+    const std::array<ClothId, 1> one = {gone};
+    const std::vector<std::function<void()>> calls = {
+        [&] { s.pin(gone, 0); },
+        [&] { s.unpin(gone, 0); },
+        [&] { s.move_pin(gone, 0, Vec3::Zero()); },
+        [&] {
+            s.add_seam(scene.cloth, gone, std::vector<std::array<int, 2>>{{0, 0}});
+        },
+        [&] { s.set_pair(gone, gone, {}); },
+        [&] { s.set_layer(gone, 1); },
+        [&] { s.meets(gone, scene.cloth); },
+        [&] { s.set_positions(gone, nine); },
+        [&] { s.set_velocities(gone, nine); },
+        [&] { s.reset(gone); },
+        [&] { s.set_fabric(gone, sheet_fabric()); },
+        [&] { s.teleport(one, {}, {}); },
+        [&] { s.positions(gone); },
+        [&] { s.velocities(gone); },
+        [&] { s.masses(gone); },
+        [&] { s.normals(gone); },
+        [&] { s.interpolate(0.5, gone, nine); },
+        [&] { s.largest_strain(gone); },
+        [&] { s.contact_loads(gone); },
+        [&] { s.remove_cloth(gone); },
+    };
+    for (const auto& call : calls) check_refused(s, call, {"cloth 1 was removed"});
+    check_refused(s, [&] { s.remove_cloth({7}); }, {"no cloth 7"});
+}
+
+TEST_CASE("The id of an obstacle that was removed is refused by every call, and nothing changes") {
+    SlopeScene scene(0.3);
+    Simulation& s = scene.simulation;
+    const ObstacleId gone = s.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -3, 0)}, {.name = "cellar"});
+    const ObstacleId last = s.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -4, 0)}, {.name = "rock"});
+    scene.run(3);
+    s.remove_obstacle(gone);
+    const std::array<ObstacleId, 1> one = {gone};
+    const std::vector<std::function<void()>> calls = {
+        [&] { s.move_obstacle(gone, {}); },    [&] { s.deform_obstacle(gone, {}); },
+        [&] { s.set_friction(gone, 0.5); },    [&] { s.set_restitution(gone, 0.5); },
+        [&] { s.teleport({}, one, {}); },      [&] { s.obstacle_pose(gone); },
+        [&] { s.obstacle_shape(gone); },       [&] { s.force_on(gone); },
+        [&] { s.torque_on(gone, {0, 0, 0}); }, [&] { s.remove_obstacle(gone); },
+    };
+    for (const auto& call : calls) check_refused(s, call, {"obstacle 1 was removed"});
+    CHECK(s.obstacle_pose(last).translation == Vec3(0, -4, 0));
+    CHECK(s.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -5, 0)}).index == 3);
+    scene.run(3);
+}
+
+TEST_CASE("States saved before a removal are refused, states saved after it go on in every bit") {
+    const auto make = [](bool twice) {
+        SlopeScene scene(0.4);
+        const ObstacleId far = scene.simulation.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -3, 0)});
+        const ClothId other =
+            scene.simulation.add_cloth(make_grid(0.2, 0.2, 3, 3), sheet_fabric(), {.translation = Vec3(0, 1, 3)});
+        if (twice) scene.run(4);
+        return std::tuple(std::move(scene), far, other);
+    };
+    auto [scene, far, other] = make(true);
+    Simulation& s = scene.simulation;
+    const auto whole = s.save();
+    s.remove_obstacle(far);
+    check_refused(s, [&] { s.restore(whole); }, {"other obstacles"});
+    const auto one_obstacle = s.save();
+    s.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -3, 0)});  // the same again, under another id
+    check_refused(s, [&] { s.restore(whole); }, {"removed before it was saved"});
+    s.remove_obstacle({2});
+    s.restore(one_obstacle);
+    s.remove_cloth(other);
+    check_refused(s, [&] { s.restore(one_obstacle); }, {"other cloth"});
+    scene.run(2);
+    const auto after = s.save();
+    auto [again, again_far, again_other] = make(false);
+    again.simulation.remove_cloth(again_other);
+    again.simulation.remove_obstacle(again_far);
+    again.simulation.restore(after);
+    CHECK(again.simulation.save() == after);
+    for (int n = 0; n < 20; ++n) {
+        scene.run(1);
+        again.run(1);
+        REQUIRE(s.state_hash() == again.simulation.state_hash());
+    }
+}
+
+TEST_CASE("A detector that cannot remove an obstacle says so, naming it") {
+    class Firm : public PlaneDetector {
+    public:
+        void remove_obstacle(int obstacle) override { ContactDetector::remove_obstacle(obstacle); }
+    };
+    SlopeScene scene(0.3, true, 0.0, 0.0045, std::make_unique<Firm>());
+    check_refused(scene.simulation, [&] { scene.simulation.remove_obstacle(scene.plane); },
+                  {"floor", "cannot remove an obstacle"});
+    scene.run(2);
+    CHECK(scene.simulation.force_on(scene.plane).norm() > 0.0);
 }
 
 }  // namespace percale::test

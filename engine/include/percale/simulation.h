@@ -63,6 +63,19 @@ public:
     ClothId add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose = {}, const std::string& name = "cloth",
                       const RestShape& rest = {});
     ObstacleId add_obstacle(const TriangleMesh& mesh, const Pose& pose = {}, const ObstacleSettings& settings = {});
+    /// Takes a cloth out, with its seams, pairs and layer. All other ids stay good; its own, and those of its seams, throw
+    /// SceneError in every call and are not given again. What is left keeps its state and its contacts; it wakes up, and schemes
+    /// of several steps begin anew. States saved before are refused.
+    void remove_cloth(ClothId cloth);
+    /// The same of an obstacle. Cloth wakes up only if it touched some: else all later steps are those that would have been
+    /// without it. Throws SceneError where the detector cannot do it.
+    void remove_obstacle(ObstacleId obstacle);
+    /// Another fabric for a cloth whose mesh, rest shape, positions, velocities and pins stay: the coming steps are those of a
+    /// simulation with that fabric that was given this state. Everything of a fabric may change, kinds of springs too. Contacts
+    /// are forgotten where thickness, friction, self_contact or the order of the springs changes (the next step checks the start
+    /// then, as `prepare` does), what its strain limits hold with always. Costs as much as adding a cloth. Throws SceneError as
+    /// add_cloth does, and leaves everything as it was. States saved before are refused.
+    void set_fabric(ClothId cloth, const Fabric& fabric);
 
     void pin(ClothId cloth, int vertex);
     void unpin(ClothId cloth, int vertex);
@@ -137,8 +150,8 @@ public:
     /// What the coming steps are made of and what is left out; runs nothing. `to_come`: what will change later on.
     ScenePlan plan(const ScriptedChanges& to_come = {}) const;
 
-    double time() const;  // s
-    int cloth_count() const;
+    double time() const;      // s
+    int cloth_count() const;  // without those that were removed
     /// Views, valid until the next call that changes the simulation. m and m/s, world.
     std::span<const Vec3> positions(ClothId cloth) const;
     std::span<const Vec3> velocities(ClothId cloth) const;
