@@ -43,12 +43,17 @@ void set_drift(ClusterList& list, std::span<const PatchMotion> motions) {
 
 /// Features by an obstacle, with their packs; later obstacles have numbers less by one. Bounds of the others stay what they are.
 void remove_features_of(int obstacle, ClusterList& list) {
+    if (list.features.empty() || list.features.back().obstacle < obstacle) return;
+    const auto is_of_it = [&](const ContactPair& feature) { return feature.obstacle == obstacle; };
+    if (std::none_of(list.features.begin(), list.features.end(), is_of_it)) {
+        for (ContactPair& feature : list.features) feature.obstacle -= feature.obstacle > obstacle ? 1 : 0;
+        return;
+    }
     std::vector<int> number;  // of each feature now; -1: gone
     std::vector<ContactPair> features;
     for (const ContactPair& feature : list.features) {
-        const bool goes = feature.obstacle == obstacle;
-        number.push_back(goes ? -1 : static_cast<int>(features.size()));
-        if (goes) continue;
+        number.push_back(is_of_it(feature) ? -1 : static_cast<int>(features.size()));
+        if (is_of_it(feature)) continue;
         features.push_back(feature);
         if (feature.obstacle > obstacle) --features.back().obstacle;
     }
