@@ -116,7 +116,7 @@ TEST_CASE("A cloth that was reset makes the steps of one that was just added, in
     }
 }
 
-TEST_CASE("Reset takes pins along, and what the cloth holds with beside its springs; other cloth stays") {
+TEST_CASE("Reset takes pins along, and what the cloth holds with beside its springs, and leaves other cloth alone") {
     Simulation simulation(StepSettings{});
     Fabric limited = free_fabric();
     limited.springs.structural = 20.0;
