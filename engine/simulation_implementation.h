@@ -10,13 +10,14 @@
 #include "forces/springs.h"
 #include "percale/error.h"
 #include "percale/simulation.h"
+#include "start/start_check.h"
 #include "state/saved_world.h"
 #include "step/measure.h"
 #include "step/step.h"
 #include "tolerances.h"
 
 // What the sources of Simulation share: simulation_scene.cpp (made of what, steps, saved states), simulation_script.cpp (what the
-// caller prescribes) and simulation_views.cpp (what it looks at).
+// caller prescribes), simulation_changes.cpp (what it makes otherwise on the way) and simulation_views.cpp (what it looks at).
 namespace percale {
 
 inline std::string number_text(double value) {
@@ -64,22 +65,66 @@ inline void check_all_finite(std::span<const Vec3> values, const std::string& wh
     }
 }
 
+inline void check_friction(const std::string& owner, double friction) {
+    if (friction >= 0.0 && friction <= 10.0) return;
+    throw SceneError(owner, "friction = " + number_text(friction) + " is outside the allowed range 0 ... 10");
+}
+
 struct Simulation::Implementation {
     World world;
-    std::vector<StartMove> start_moves;
+    std::vector<StartMove> start_moves;  // with the caller's numbers
+    bool keeps_previous = false;
+    std::vector<Vec3> previous;  // m, of each vertex before the last step; those that it has not are where they are now
 
-    const ClothRange& cloth(ClothId id) const {
-        if (id.index >= 0 && id.index < static_cast<int>(world.scene.model.cloths.size()))
-            return world.scene.model.cloths[id.index];
-        throw SceneError("there is no cloth " + std::to_string(id.index) + ", cloths are 0 ... " +
-                         std::to_string(static_cast<int>(world.scene.model.cloths.size()) - 1));
+    /// Where a body stands among those of its kind.
+    static int index_of(const GivenNumbers& numbers, int number, const std::string& kind) {
+        const int index = numbers.index_of(number);
+        if (index >= 0) return index;
+        if (number >= 0 && number < numbers.next) throw SceneError(kind + " " + std::to_string(number) + " was removed");
+        throw SceneError("there is no " + kind + " " + std::to_string(number) + ", " + kind + "s are 0 ... " +
+                         std::to_string(numbers.next - 1));
     }
+    int index(ClothId id) const { return index_of(world.cloth_numbers, id.index, "cloth"); }
+    int index(ObstacleId id) const { return index_of(world.obstacle_numbers, id.index, "obstacle"); }
+    int index(SeamId id) const { return index_of(world.seam_numbers, id.index, "seam"); }
 
-    ObstacleState& obstacle(ObstacleId id) {
-        if (id.index >= 0 && id.index < static_cast<int>(world.scene.script.obstacles.size()))
-            return world.scene.script.obstacles[id.index];
-        throw SceneError("there is no obstacle " + std::to_string(id.index) + ", obstacles are 0 ... " +
-                         std::to_string(static_cast<int>(world.scene.script.obstacles.size()) - 1));
+    const ClothRange& cloth(ClothId id) const { return world.scene.model.cloths[index(id)]; }
+    ObstacleState& obstacle(ObstacleId id) { return world.scene.script.obstacles[index(id)]; }
+
+    /// The caller's numbers in place of those that bodies have inside; -1 stays.
+    int cloth_number(int index) const { return index < 0 ? index : world.cloth_numbers.all[index]; }
+    int obstacle_number(int index) const { return index < 0 ? index : world.obstacle_numbers.all[index]; }
+    void tell_numbers(StepReport& report) const {
+        for (int* cloth : {&report.blocked_cloth, &report.stretched_cloth}) *cloth = cloth_number(*cloth);
+        for (int* obstacle : {&report.blocking_obstacle, &report.second_obstacle, &report.pinching[0], &report.pinching[1]})
+            *obstacle = obstacle_number(*obstacle);
+    }
+    void tell_numbers(std::vector<StartMove>& moves) const {
+        for (StartMove& move : moves) {
+            move.cloth = cloth_number(move.cloth);
+            move.obstacle = obstacle_number(move.obstacle);
+        }
+    }
+    /// clear_start, with the caller's numbers, in what it throws, too.
+    std::vector<StartMove> cleared_start(const char* verb) {
+        try {
+            std::vector<StartMove> moves = clear_start(world, verb);
+            tell_numbers(moves);
+            return moves;
+        } catch (const StartError& error) {
+            StartFault fault = error.fault();
+            fault.obstacle = obstacle_number(fault.obstacle);
+            throw StartError(error.what(), fault);
+        }
+    }
+    /// As saved states have them.
+    std::vector<StartMove> moves_inside() const {
+        std::vector<StartMove> moves = start_moves;
+        for (StartMove& move : moves) {
+            move.cloth = world.cloth_numbers.index_of(move.cloth);
+            if (move.obstacle >= 0) move.obstacle = world.obstacle_numbers.index_of(move.obstacle);
+        }
+        return moves;
     }
 
     int vertex(ClothId id, int index) const {
@@ -95,6 +140,41 @@ struct Simulation::Implementation {
         throw SceneError(cloth(id).name, std::string(call) + " of vertex " + std::to_string(index) + ", which is not pinned");
     }
 
+    /// For a cloth with self_contact.
+    void check_meets(const std::string& name) const {
+        if (!world.scene.detector) throw SceneError(name, "self_contact needs a contact detector, give one to the simulation");
+    }
+
+    /// `what` counts `size` entries.
+    void check_size(const ClothRange& range, std::size_t size, const char* call, const char* what) const {
+        if (static_cast<int>(size) == range.count) return;
+        throw SceneError(range.name, std::string(call) + " got " + std::to_string(size) + " " + what + " for " +
+                                         std::to_string(range.count) + " vertices");
+    }
+
+    /// The vertices of a cloth were put elsewhere in no time.
+    void was_placed(const ClothRange& range) {
+        const auto is_of_cloth = [&](const auto& held) {
+            return held.vertex >= range.first && held.vertex < range.first + range.count;
+        };
+        std::erase_if(world.state.cloth.grips, is_of_cloth);
+        std::erase_if(world.state.cloth.impacts, is_of_cloth);
+        update_points(world.state.cloth);
+        forget_previous(range);
+        update_views();
+        world.load_source = LoadSource::nowhere;
+        world.state.contact_energy = 0.0;  // known again after the next step
+        world.state.past.forget();
+        world.changed = true;
+        wake(world.rest);
+    }
+
+    /// Nothing lies between where the cloth was and is.
+    void forget_previous(const ClothRange& range) {
+        const std::size_t end = std::min(previous.size(), static_cast<std::size_t>(range.first + range.count));
+        for (std::size_t i = range.first; i < end; ++i) previous[i] = world.state.cloth.points[i];
+    }
+
     void change(const StepSettings& settings) {
         const bool same_air = settings.wind == world.scene.settings.wind,
                    same_gravity = settings.gravity == world.scene.settings.gravity;
@@ -105,7 +185,7 @@ struct Simulation::Implementation {
     /// Simulation::save, or nothing where the detector cannot save its state.
     std::vector<std::byte> saved_if_possible() const {
         try {
-            return saved_world(world, start_moves);
+            return saved_world(world, moves_inside());
         } catch (const SceneError&) {
             return {};
         }
@@ -131,6 +211,13 @@ struct Simulation::Implementation {
                 world.views.positions[range.first + i] = world.state.cloth.points[range.index_of(i)];
             }
         }
+    }
+
+    /// All views, after vertices got other numbers.
+    void renew_views() {
+        world.views = {};
+        update_views();
+        for (const ClothRange& range : world.scene.model.cloths) add_masses(range);
     }
 
     /// The view of masses, after a cloth was added.

@@ -37,9 +37,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
                               const RestShape& rest) {
     World& world = implementation_->world;
     check_pose(pose, name);
-    if (fabric.self_contact && !world.scene.detector) {
-        throw SceneError(name, "self_contact needs a contact detector, give one to the simulation");
-    }
+    if (fabric.self_contact) implementation_->check_meets(name);
     TriangleMesh placed = mesh;
     placed.vertices = transform(normalised(pose), mesh.vertices);
     RestShape shape = rest;
@@ -48,9 +46,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     }
     if (shape.corners.empty()) shape.warp = transform({.rotation = normalised(pose).rotation}, rest.warp);
     ClothModel model = world.scene.model;
-    append_cloth(model, placed, fabric, name, shape);
-    order_last_cloth(model);
-    if (fabric.bend_stiffness.value_or(0.0) > 0.0) append_hinges_of_last_cloth(model, *fabric.bend_stiffness, shape);
+    append_whole_cloth(model, placed, fabric, name, shape);
     finish_model(model);
     world.scene.model = std::move(model);
     world.work.newton.solver.forget_model();
@@ -84,17 +80,14 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     pass_cloth_to_detector(world);
     world.changed = true;
     scene_changed(world);
-    return {static_cast<int>(world.scene.model.cloths.size()) - 1};
+    return {world.cloth_numbers.give()};
 }
 
 ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, const ObstacleSettings& settings) {
     World& world = implementation_->world;
     if (!world.scene.detector)
         throw SceneError(settings.name, "an obstacle needs a contact detector, give one to the simulation");
-    if (!(settings.friction >= 0.0 && settings.friction <= 10.0)) {
-        throw SceneError(settings.name,
-                         "friction = " + number_text(settings.friction) + " is outside the allowed range 0 ... 10");
-    }
+    check_friction(settings.name, settings.friction);
     check_range(settings.name, "restitution", "", settings.restitution, 0.0, 1.0);
     check_pose(pose, settings.name);
     check_mesh(mesh, settings.name, false);
@@ -118,10 +111,11 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
                                             .start_shape = shape,
                                             .end_shape = shape,
                                             .yielding = settings.yields ? yielding_mesh(mesh) : nullptr,
-                                            .aim = settings.yields ? shape : nullptr});
+                                            .aim = settings.yields ? shape : nullptr,
+                                            .friction = settings.friction});
     world.changed = true;
     scene_changed(world);
-    return {static_cast<int>(world.scene.script.obstacles.size()) - 1};
+    return {world.obstacle_numbers.give()};
 }
 
 void Simulation::prepare() {
@@ -137,11 +131,12 @@ void Simulation::prepare() {
     check_scheme(implementation_->world.scene);
     const bool obstacles = !world.scene.script.obstacles.empty() && !world.scene.model.cloths.empty();
     if (world.scene.detector && (obstacles || cloth_meets_now(world))) {
-        std::vector<StartMove> moves = clear_start(world, sewn_now ? " is sewn " : " starts ");
+        std::vector<StartMove> moves = implementation_->cleared_start(sewn_now ? " is sewn " : " starts ");
         std::vector<StartMove>& known = implementation_->start_moves;
         if (!sewn_now) known.clear();
         if (sewn_now && !moves.empty()) world.state.past.forget();
         known.insert(known.end(), moves.begin(), moves.end());
+        if (!moves.empty()) implementation_->previous.clear();
         implementation_->update_views();
     }
     world.state.contact.forget();
@@ -155,11 +150,13 @@ StepReport Simulation::step() {
     const auto cpu_seconds = [&] { return thread_cpu_seconds() + (world.workers ? world.workers->other_cpu_seconds() : 0.0); };
     const double start = cpu_seconds();
     prepare();
+    if (implementation_->keeps_previous) implementation_->previous = world.state.cloth.points;
     // Should cloth not come apart when seams have closed, the whole step is taken back.
     const double next = world.state.time + 1.5 * world.scene.settings.time_step;
     const bool may_close = meets_cloth(world.scene) && waiting_cloth(world.scene, next) != world.waiting;
     const std::vector<std::byte> before = may_close ? implementation_->saved_if_possible() : std::vector<std::byte>();
     StepReport report = percale::step(world);
+    implementation_->tell_numbers(report);
     if (!report.slept) implementation_->update_views();
     if (report.ok() && waiting_cloth(world.scene, world.state.time) != world.waiting) {
         const std::size_t moves = implementation_->start_moves.size();
@@ -180,11 +177,13 @@ ScenePlan Simulation::plan(const ScriptedChanges& to_come) const {
     return scene_plan(implementation_->world.scene, implementation_->world.state.cloth, to_come);
 }
 
-std::vector<std::byte> Simulation::save() const { return saved_world(implementation_->world, implementation_->start_moves); }
+std::vector<std::byte> Simulation::save() const { return saved_world(implementation_->world, implementation_->moves_inside()); }
 
 void Simulation::restore(std::span<const std::byte> saved) {
     check_scheme(implementation_->world.scene);
     implementation_->start_moves = restore_world(saved, implementation_->world);
+    implementation_->tell_numbers(implementation_->start_moves);
+    implementation_->previous.clear();
     implementation_->update_views();
 }
 

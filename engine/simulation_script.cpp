@@ -34,6 +34,7 @@ void Simulation::move_pin(ClothId cloth, int vertex, const Vec3& target) {
     world.state.past.forget();
     world.load_source = LoadSource::nowhere;
     update_points(world.state.cloth);
+    implementation_->forget_previous(implementation_->cloth(cloth));
     implementation_->update_views();
 }
 
@@ -45,7 +46,7 @@ void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
     }
     state.end = normalised(end);
     if (state.end != state.start) wake(implementation_->world.rest);
-    if (implementation_->world.refused.obstacle != obstacle.index) return;
+    if (implementation_->world.refused.obstacle != implementation_->index(obstacle)) return;
     state.start = state.end;  // no step begins where it is
     state.settled = false;
 }
@@ -60,13 +61,13 @@ void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end)
     check_all_finite(end, state.name + ": vertex ");
     World& world = implementation_->world;
     try {  // now, lest a step throws
-        world.scene.detector->deform_obstacle(obstacle.index, *state.start_shape, end);
+        world.scene.detector->deform_obstacle(implementation_->index(obstacle), *state.start_shape, end);
     } catch (const SceneError& error) {
         throw SceneError(state.name, error.what());
     }
     state.aim_at(std::make_shared<const std::vector<Vec3>>(end.begin(), end.end()));
     if (state.deforms()) wake(world.rest);
-    if (world.refused.obstacle != obstacle.index) return;
+    if (world.refused.obstacle != implementation_->index(obstacle)) return;
     if (state.deforms()) state.reach = state.end_reach;
     state.start_shape = state.end_shape;  // no step begins where it is
     state.dent.clear();
@@ -103,7 +104,8 @@ SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const Stitc
                                             " is sewn to itself");
     }
     if (sewn.empty()) throw SceneError(settings.name, "no vertices, a seam joins at least one pair");
-    return {sew(world, sewn, settings)};
+    sew(world, sewn, settings);
+    return {world.seam_numbers.give()};
 }
 
 SeamId Simulation::add_seam(ClothId first, ClothId second, std::span<const std::array<int, 2>> vertices,
@@ -123,7 +125,7 @@ void Simulation::set_pair(ClothId first, ClothId second, const ClothPair& pair) 
     }
     if (pair.thickness && !pair.contact) throw SceneError(names, "without contact a thickness says nothing");
     if (pair.thickness) check_range(names, "thickness", "m", *pair.thickness, 1e-6, 1.0);
-    world.scene.script.pairs.set(first.index, second.index, pair);
+    world.scene.script.pairs.set(implementation_->index(first), implementation_->index(second), pair);
     pass_cloth_to_detector(world);
     world.changed = true;
     scene_changed(world);
@@ -134,26 +136,20 @@ void Simulation::set_layer(ClothId cloth, int layer) {
     const ClothRange& range = implementation_->cloth(cloth);
     check_range(range.name, "layer", "", layer, -1000.0, 1000.0);
     if (!range.fabric.self_contact) throw SceneError(range.name, "a layer says nothing where it meets no cloth (self_contact)");
-    world.scene.script.pairs.set_layer(cloth.index, layer);
+    world.scene.script.pairs.set_layer(implementation_->index(cloth), layer);
     pass_cloth_to_detector(world);
     world.changed = true;
 }
 
 bool Simulation::meets(ClothId first, ClothId second) const {
-    static_cast<void>(implementation_->cloth(first)), static_cast<void>(implementation_->cloth(second));
-    return meet_now(implementation_->world, first.index, second.index);
+    return meet_now(implementation_->world, implementation_->index(first), implementation_->index(second));
 }
 
 std::vector<double> Simulation::seam_gaps(SeamId seam) const {
-    const std::vector<Seam>& seams = implementation_->world.scene.script.seams;
-    if (seam.index < 0 || seam.index >= static_cast<int>(seams.size())) {
-        throw SceneError("there is no seam " + std::to_string(seam.index) + ", seams are 0 ... " +
-                         std::to_string(static_cast<int>(seams.size()) - 1));
-    }
+    const World& world = implementation_->world;
     std::vector<double> gaps;
-    for (const Stitch& stitch : seams[seam.index].stitches) {
-        gaps.push_back(stitch_gap(stitch, implementation_->world.state.cloth.positions).norm());
-    }
+    for (const Stitch& stitch : world.scene.script.seams[implementation_->index(seam)].stitches)
+        gaps.push_back(stitch_gap(stitch, world.state.cloth.positions).norm());
     return gaps;
 }
 
@@ -174,54 +170,38 @@ void Simulation::set_work_limit(int iterations) {
 void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     World& world = implementation_->world;
     const ClothRange& range = implementation_->cloth(cloth);
-    if (static_cast<int>(positions.size()) != range.count) {
-        throw SceneError(range.name, "set_positions got " + std::to_string(positions.size()) + " positions for " +
-                                         std::to_string(range.count) + " vertices");
-    }
+    implementation_->check_size(range, positions.size(), "set_positions", "positions");
     check_all_finite(positions, range.name + ": position ");
     for (int i = 0; i < range.count; ++i) {
         world.state.cloth.positions.set(range.index_of(i), positions[i]);
         world.scene.script.pin_targets.set(range.index_of(i), positions[i]);
     }
-    const auto is_of_cloth = [&](const auto& held) {
-        return held.vertex >= range.first && held.vertex < range.first + range.count;
-    };
-    std::erase_if(world.state.cloth.grips, is_of_cloth);
-    std::erase_if(world.state.cloth.impacts, is_of_cloth);
-    update_points(world.state.cloth);
-    implementation_->update_views();
-    world.load_source = LoadSource::nowhere;
-    world.state.contact_energy = 0.0;  // known again after the next step
-    world.state.past.forget();
-    world.changed = true;
-    wake(world.rest);
+    implementation_->was_placed(range);
 }
 
 void Simulation::teleport(std::span<const ClothId> cloths, std::span<const ObstacleId> obstacles, const Pose& motion,
                           TeleportVelocities velocities) {
     check_pose(motion, "teleport");
     if (motion.scale != 1.0) throw SceneError("teleport", "scale = " + number_text(motion.scale) + ", a rigid motion has 1");
-    std::vector<int> cloth_numbers, obstacle_numbers;
+    std::vector<int> cloth_indices, obstacle_indices;
     for (const ClothId id : cloths) {
-        static_cast<void>(implementation_->cloth(id));
-        if (std::ranges::count(cloth_numbers, id.index) == 0) cloth_numbers.push_back(id.index);
+        const int index = implementation_->index(id);
+        if (std::ranges::count(cloth_indices, index) == 0) cloth_indices.push_back(index);
     }
     for (const ObstacleId id : obstacles) {
-        static_cast<void>(implementation_->obstacle(id));
-        if (std::ranges::count(obstacle_numbers, id.index) == 0) obstacle_numbers.push_back(id.index);
+        const int index = implementation_->index(id);
+        if (std::ranges::count(obstacle_indices, index) == 0) obstacle_indices.push_back(index);
     }
-    percale::teleport(implementation_->world, cloth_numbers, obstacle_numbers, normalised(motion),
+    percale::teleport(implementation_->world, cloth_indices, obstacle_indices, normalised(motion),
                       velocities == TeleportVelocities::keep);
+    for (const int cloth : cloth_indices) implementation_->forget_previous(implementation_->world.scene.model.cloths[cloth]);
     implementation_->update_views();
 }
 
 void Simulation::set_velocities(ClothId cloth, std::span<const Vec3> velocities) {
     World& world = implementation_->world;
     const ClothRange& range = implementation_->cloth(cloth);
-    if (static_cast<int>(velocities.size()) != range.count) {
-        throw SceneError(range.name, "set_velocities got " + std::to_string(velocities.size()) + " velocities for " +
-                                         std::to_string(range.count) + " vertices");
-    }
+    implementation_->check_size(range, velocities.size(), "set_velocities", "velocities");
     check_all_finite(velocities, range.name + ": velocity ");
     for (int i = 0; i < range.count; ++i) {
         const bool free = world.scene.script.free[range.index_of(i)] > 0.0;

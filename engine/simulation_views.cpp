@@ -1,5 +1,7 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 
+#include "mesh/vertex_normals.h"
 #include "simulation_implementation.h"
 #include "step/measure.h"
 #include "support/hash.h"
@@ -33,6 +35,40 @@ std::span<const double> Simulation::masses(ClothId cloth) const {
     return std::span(all).subspan(range.first, range.count);
 }
 
+std::vector<Vec3> Simulation::normals(ClothId cloth) const {
+    std::vector<Vec3> all(implementation_->cloth(cloth).count);
+    normals(cloth, all);
+    return all;
+}
+
+void Simulation::normals(ClothId cloth, std::span<Vec3> out) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    implementation_->check_size(range, out.size(), "normals", "places");
+    const ClothModel& model = implementation_->world.scene.model;
+    vertex_normals({.triangles = triangles_of(model, range),
+                    .points = implementation_->world.state.cloth.points,
+                    .first_vertex = range.first,
+                    .order = range.order},
+                   out);
+}
+
+void Simulation::interpolate(double fraction, ClothId cloth, std::span<Vec3> out) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    if (!implementation_->keeps_previous)
+        throw SceneError(range.name, "interpolate: no positions are kept, call keep_previous_positions before the step");
+    if (!(fraction >= 0.0 && fraction <= 1.0)) {
+        throw SceneError(range.name,
+                         "interpolate: fraction = " + number_text(fraction) + " is outside the allowed range 0 ... 1");
+    }
+    implementation_->check_size(range, out.size(), "interpolate", "places");
+    const std::vector<Vec3>&now = implementation_->world.state.cloth.points, &before = implementation_->previous;
+    for (int i = 0; i < range.count; ++i) {
+        const auto at = static_cast<std::size_t>(range.index_of(i));
+        const bool moved = fraction < 1.0 && at < before.size();
+        out[i] = moved ? Vec3(before[at] + fraction * (now[at] - before[at])) : now[at];
+    }
+}
+
 Pose Simulation::obstacle_pose(ObstacleId obstacle) const { return implementation_->obstacle(obstacle).start; }
 
 std::span<const Vec3> Simulation::obstacle_shape(ObstacleId obstacle) const {
@@ -63,6 +99,7 @@ std::vector<ContactLoad> Simulation::contact_loads(ClothId cloth) const {
     for (ContactLoad load : percale::contact_loads(implementation_->world)) {
         if (load.vertex < range.first || load.vertex >= range.first + range.count) continue;
         load.vertex = range.user_vertex(load.vertex);
+        load.obstacle = implementation_->obstacle_number(load.obstacle);
         loads.push_back(load);
     }
     std::ranges::stable_sort(loads, {}, &ContactLoad::vertex);
@@ -70,11 +107,17 @@ std::vector<ContactLoad> Simulation::contact_loads(ClothId cloth) const {
 }
 
 Vec3 Simulation::force_on(ObstacleId obstacle) const {
-    static_cast<void>(implementation_->obstacle(obstacle));
     Vec3 sum = Vec3::Zero();
-    for (const ContactLoad& load : percale::contact_loads(implementation_->world)) {
-        if (load.obstacle == obstacle.index) sum -= load.force();
-    }
+    for (const ContactLoad& load : percale::contact_loads(implementation_->world, implementation_->index(obstacle)))
+        sum -= load.force();
+    return sum;
+}
+
+Vec3 Simulation::torque_on(ObstacleId obstacle, const Vec3& about) const {
+    check_finite(about, implementation_->obstacle(obstacle).name + ": the point that torque_on is about");
+    Vec3 sum = Vec3::Zero();
+    for (const ContactLoad& load : percale::contact_loads(implementation_->world, implementation_->index(obstacle)))
+        sum -= (load.cloth_point - about).cross(load.force());
     return sum;
 }
 

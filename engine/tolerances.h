@@ -38,6 +38,10 @@ constexpr double least_triangle_area = 1e-12;
 /// Volume over area^1.5 of a closed mesh (0.094 of a ball). With less it is flat: what its volume is, is rounding.
 constexpr double least_enclosed_share = 1e-9;
 
+/// Areas of the triangles around a vertex, summed with their directions, over the products of their edges. With less the vertex
+/// has no normal. Smaller: rounding is taken for one. Larger: needles have none.
+constexpr double least_normal_share = 1e-12;
+
 /// Bits of each axis along the curve that vertices are ordered by; three axes fit into 63. Fewer: vertices of a fine mesh share a
 /// cell and keep their order. Cost alone.
 constexpr int curve_key_bits = 20;

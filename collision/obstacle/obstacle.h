@@ -30,6 +30,7 @@ public:
 
     const ObstacleSurface& surface() const { return surface_; }
     double friction() const { return friction_; }
+    void set_friction(double friction) { friction_ = friction; }
     bool moves() const { return moves_; }
     /// m, largest displacement of a vertex in the coming step.
     double largest_displacement() const { return largest_displacement_; }

@@ -11,14 +11,6 @@ namespace {
 
 bool is_filled(const Fabric& fabric) { return fabric.pressure || fabric.gas_volume; }
 
-/// The triangles of one cloth: the model has them together, in the order of the cloths.
-std::span<const Triangle> triangles_of(const ClothModel& model, const ClothRange& cloth) {
-    const auto below = [](int vertex) { return [vertex](const Triangle& t) { return t[0] < vertex; }; };
-    const auto end = model.triangles.end();
-    const auto first = std::partition_point(model.triangles.begin(), end, below(cloth.first));
-    return {first, std::partition_point(first, end, below(cloth.first + cloth.count))};
-}
-
 class Pressure final : public ForceTerm {
 public:
     std::string_view name() const override { return "pressure"; }

@@ -17,12 +17,6 @@ void put_in_order(const ClothRange& cloth, std::vector<T>& list) {
     for (int i = 0; i < cloth.count; ++i) list[cloth.first + i] = before[cloth.order.vertex[i]];
 }
 
-int first_spring_of(const ClothModel& model, const ClothRange& cloth) {
-    const auto& firsts = model.springs.first;
-    const auto own = std::partition_point(firsts.begin(), firsts.end(), [&](int vertex) { return vertex < cloth.first; });
-    return static_cast<int>(own - firsts.begin());
-}
-
 std::vector<Body> make_bodies(const ClothModel& model) {
     std::vector<Body> bodies;
     for (const ClothRange& cloth : model.cloths) bodies.push_back({cloth.first, cloth.count, cloth.mass});
@@ -60,7 +54,7 @@ void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fab
     if (fabric.pressure || fabric.gas_volume) {
         check_encloses(mesh, name, fabric.pressure ? "pressure needs a closed mesh" : "gas_volume needs a closed mesh");
     }
-    const int first = model.vertex_count();
+    const int first = model.vertex_count(), first_spring = model.springs.size();
     if (fabric.has_moduli()) {
         append_membrane(model.springs, model.membrane, {mesh, shape}, fabric, first, name);
     } else {
@@ -70,6 +64,8 @@ void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fab
     range.grid = mesh.is_grid();
     range.columns = mesh.is_grid() ? mesh.grid_columns : 0;
     range.fabric = fabric;
+    range.first_spring = first_spring;
+    if (shape.said()) range.shape = std::make_shared<const RestShape>(shape);
     for (const double mass : lumped_masses(mesh, fabric.area_density, shape)) {
         model.mass.push_back(mass);
         range.mass += mass;
@@ -83,7 +79,7 @@ void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fab
 void order_last_cloth(ClothModel& model) {
     ClothRange& cloth = model.cloths.back();
     if (cloth.grid) return;
-    const int first_spring = first_spring_of(model, cloth);
+    const int first_spring = cloth.first_spring;
     cloth.order = memory_order(std::span(model.rest).subspan(cloth.first),
                                springs_at_vertices(model.springs, first_spring, cloth.first, cloth.count));
     renumber_springs(model.springs, first_spring, cloth.first, cloth.order);
@@ -99,16 +95,21 @@ void order_last_cloth(ClothModel& model) {
 
 void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness, const RestShape& shape) {
     const ClothRange& cloth = model.cloths.back();
-    const auto own = std::partition_point(model.triangles.begin(), model.triangles.end(),
-                                          [&](const Triangle& t) { return t[0] < cloth.first; });
-    const HingeMesh mesh{.triangles = {own, model.triangles.end()},
+    const HingeMesh mesh{.triangles = triangles_of(model, cloth),
                          .rest = model.rest,
-                         .first_spring = first_spring_of(model, cloth),
+                         .first_spring = cloth.first_spring,
                          .first_vertex = cloth.first,
                          .columns = cloth.columns,
                          .rows = cloth.grid ? cloth.count / cloth.columns : 0,
                          .corners = shape.corners};
     append_hinges(mesh, bend_stiffness, model.hinges, model.springs);
+}
+
+void append_whole_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const std::string& name,
+                        const RestShape& shape) {
+    append_cloth(model, mesh, fabric, name, shape);
+    order_last_cloth(model);
+    if (fabric.bend_stiffness.value_or(0.0) > 0.0) append_hinges_of_last_cloth(model, *fabric.bend_stiffness, shape);
 }
 
 void set_bending(ClothModel& model) {
@@ -147,6 +148,13 @@ void set_model_clamps(std::span<const double> free, ClothModel& model) {
 int body_of(std::span<const Body> bodies, int vertex) {
     const auto ends_before = [&](const Body& body) { return body.first + body.count <= vertex; };
     return static_cast<int>(std::partition_point(bodies.begin(), bodies.end(), ends_before) - bodies.begin());
+}
+
+std::span<const Triangle> triangles_of(const ClothModel& model, const ClothRange& cloth) {
+    const auto from = [&](int vertex) {
+        return std::ranges::partition_point(model.triangles, [=](const Triangle& t) { return t[0] < vertex; });
+    };
+    return std::span<const Triangle>(from(cloth.first), from(cloth.first + cloth.count));
 }
 
 int cloth_of(const ClothModel& model, int vertex) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct ClothRange {
     int columns = 0;    // of a grid
     Fabric fabric = {};
     VertexOrder order = {};
+    int first_spring = 0;  // of its own, in the network; seams come behind those of the cloths that were there
+    std::shared_ptr<const RestShape> shape = {};  // m; null: it has no strain as its vertices lie at rest
 
     /// The number in the system of a vertex in the user's mesh, and back.
     int index_of(int user_vertex) const { return first + order.place_of(user_vertex); }
@@ -78,12 +81,17 @@ void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fab
 void order_last_cloth(ClothModel& model);
 /// Gives the cloth that was appended last hinges of its own, after its order is settled.
 void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness, const RestShape& shape = {});
+/// All three of these. finish_model has to follow.
+void append_whole_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const std::string& name,
+                        const RestShape& shape = {});
 void finish_model(ClothModel& model);
 /// Sets springs.bending: of hinges and of sewn points.
 void set_bending(ClothModel& model);
 /// Makes hinges beside clamps stiffer. `free`: 1, or 0 at pinned vertices.
 void set_model_clamps(std::span<const double> free, ClothModel& model);
 
+/// The triangles of one cloth.
+std::span<const Triangle> triangles_of(const ClothModel& model, const ClothRange& cloth);
 /// The number of the cloth that a vertex belongs to.
 int cloth_of(const ClothModel& model, int vertex);
 /// The number of the body that a vertex belongs to.

@@ -42,6 +42,7 @@ struct ObstacleState {
     Shape aim = {};                                     // of one that yields: what end_shape should be
     std::vector<Vec3> dent = {};                        // m, before the pose: start_shape less what it should be; empty: nothing
     std::vector<Vec3> next_dent = {};                   // end_shape less aim, during a step
+    double friction = 0.0;                              // as the detector knows it
 
     bool deforms() const { return start_shape != end_shape; }
     bool moves() const { return start != end || deforms(); }

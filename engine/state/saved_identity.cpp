@@ -1,6 +1,7 @@
 #include "saved_identity.h"
 
 #include "forces/total_force.h"
+#include "percale/error.h"
 #include "percale/options.h"
 #include "percale/saved_state.h"
 #include "support/hash.h"
@@ -39,10 +40,26 @@ std::uint64_t obstacles_hash(const World& world) {
     return checksum(writer.take());
 }
 
+std::uint64_t numbers_hash(const World& world) {
+    StateWriter writer;
+    for (const GivenNumbers* numbers : {&world.cloth_numbers, &world.obstacle_numbers, &world.seam_numbers}) writer(numbers->all);
+    return checksum(writer.take());
+}
+
 }  // namespace
 
 Identity identity_of(const World& world) {
-    return {cloth_hash(world.scene.model, world.scene.script.pairs), obstacles_hash(world), options_hash(world.scene.settings)};
+    return {cloth_hash(world.scene.model, world.scene.script.pairs), obstacles_hash(world), options_hash(world.scene.settings),
+            numbers_hash(world)};
+}
+
+void demand_same(const Identity& saved, const Identity& own) {
+    if (saved.cloth != own.cloth)
+        throw SceneError("saved state: it is of other cloth, pairs of cloths or seams than this simulation has");
+    if (saved.obstacles != own.obstacles) throw SceneError("saved state: it is of other obstacles than this simulation has");
+    if (saved.numbers != own.numbers)
+        throw SceneError("saved state: other cloths, seams or obstacles were removed before it was saved than here");
+    if (saved.settings != own.settings) throw SceneError("saved state: it was made with other step settings than these");
 }
 
 }  // namespace percale

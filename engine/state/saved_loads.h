@@ -16,7 +16,7 @@ struct SavedLoads {
 
 template <class Archive, OfType<ContactLoad> Value>
 void exchange(Archive& archive, Value& load) {
-    archive(load.vertex, load.obstacle, load.normal, load.friction);
+    archive(load.vertex, load.obstacle, load.normal, load.friction, load.cloth_point, load.obstacle_point);
 }
 
 template <class Archive, OfType<SavedLoads> Value>
@@ -31,6 +31,7 @@ inline bool are_loads_of(const SavedLoads& loads, int vertices, int obstacles) {
         const std::pair<int, int> at{load.vertex, load.obstacle};
         const bool there = load.vertex >= 0 && load.vertex < vertices && load.obstacle >= 0 && load.obstacle < obstacles;
         if (!there || !(before < at) || !load.force().allFinite()) return false;
+        if (!load.cloth_point.allFinite() || !load.obstacle_point.allFinite()) return false;
         before = at;
     }
     return loads.known || loads.all.empty();

@@ -421,7 +421,7 @@ std::vector<std::byte> saved_world(const World& world, const std::vector<StartMo
     SavedWorld saved = state_of(world);
     saved.start_moves = start_moves;
     StateWriter writer;
-    writer(identity.cloth, identity.obstacles, identity.settings, saved);
+    writer(identity.numbers, identity.cloth, identity.obstacles, identity.settings, saved);
     return sealed(state_seal, writer.take());
 }
 
@@ -429,11 +429,8 @@ std::vector<StartMove> restore_world(std::span<const std::byte> bytes, World& wo
     StateReader reader(unsealed(state_seal, bytes));
     const Identity own = identity_of(world);
     Identity identity;
-    reader(identity.cloth, identity.obstacles, identity.settings);
-    if (identity.cloth != own.cloth)
-        throw SceneError("saved state: it is of other cloth, pairs of cloths or seams than this simulation has");
-    if (identity.obstacles != own.obstacles) throw SceneError("saved state: it is of other obstacles than this simulation has");
-    if (identity.settings != own.settings) throw SceneError("saved state: it was made with other step settings than these");
+    reader(identity.numbers, identity.cloth, identity.obstacles, identity.settings);
+    demand_same(identity, own);
     SavedWorld saved;
     reader(saved);
     reader.demand(reader.at_end(), "there is more than belongs to it");

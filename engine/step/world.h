@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -26,6 +27,24 @@ struct RefusedStart {
     std::vector<int> vertices;  // inside it
 };
 
+/// The callers' numbers of the bodies of one kind that there are: ascending, and never given twice.
+struct GivenNumbers {
+    std::vector<int> all;
+    int next = 0;
+
+    int give() {
+        all.push_back(next);
+        return next++;
+    }
+    /// Where the body of a number stands among those that there are; -1: nowhere.
+    int index_of(int number) const {
+        const auto found = std::ranges::lower_bound(all, number);
+        return found != all.end() && *found == number ? static_cast<int>(found - all.begin()) : -1;
+    }
+    void take_out(int index) { all.erase(all.begin() + index); }
+    bool operator==(const GivenNumbers&) const = default;
+};
+
 /// Everything one simulation holds. Only what owns it knows it as a whole: the simulation, the step at its top, and saving.
 struct World {
     std::shared_ptr<Workers> workers;  // null: the caller's thread alone
@@ -44,6 +63,7 @@ struct World {
     /// Of each cloth that waits for seams to close: cloths with the same number are joined by such seams and do not meet each
     /// other, nor themselves, before; -1: it waits for none. Empty where none waits.
     std::vector<int> waiting;
+    GivenNumbers cloth_numbers, obstacle_numbers, seam_numbers;
 };
 
 /// Some cloth has self_contact.
@@ -66,8 +86,8 @@ void pass_cloth_to_detector(World& world);
 void check_scheme(const StepScene& scene);
 
 /// Forces of obstacles on vertices at the end of the last step that was solved, sorted by vertex and obstacle; none where they
-/// are not known.
-std::vector<ContactLoad> contact_loads(const World& world);
+/// are not known. `only`: of one obstacle; -1: of all.
+std::vector<ContactLoad> contact_loads(const World& world, int only = -1);
 
 /// As many threads as the settings say, or as pay for the cloth that there is; the workers that were given, if any.
 void set_workers(World& world);

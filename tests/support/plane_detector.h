@@ -24,6 +24,9 @@ public:
         return static_cast<int>(planes_.size()) - 1;
     }
 
+    void remove_obstacle(int obstacle) override { planes_.erase(planes_.begin() + obstacle); }
+    void set_friction(int obstacle, double friction) override { planes_[obstacle].friction = friction; }
+
     void move_obstacle(int obstacle, const Pose& start, const Pose& end) override {
         planes_[obstacle].start = start.translation;
         planes_[obstacle].end = end.translation;

@@ -135,6 +135,13 @@ public:
     /// Returns the obstacle's number. Throws SceneError if nothing is left of the mesh after cleaning.
     virtual int add_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) = 0;
 
+    /// Takes an obstacle out: from now on nothing meets it, and those that were added later have numbers less by one. What is
+    /// remembered of the others stays. A detector need not be able to.
+    virtual void remove_obstacle(int obstacle);
+
+    /// Friction of an obstacle in all later rows. A detector need not be able to.
+    virtual void set_friction(int obstacle, double friction);
+
     /// Where the obstacle is at the two ends of the coming step and of all later ones until the next call. The scale must not
     /// change.
     virtual void move_obstacle(int obstacle, const Pose& start, const Pose& end) = 0;
@@ -200,6 +207,10 @@ inline int ContactDetector::add_deforming_obstacle(const TriangleMesh&, const Po
 }
 inline void ContactDetector::deform_obstacle(int, std::span<const Vec3>, std::span<const Vec3>) {
     throw SceneError("this contact detector knows rigid obstacles only");
+}
+inline void ContactDetector::remove_obstacle(int) { throw SceneError("this contact detector cannot remove an obstacle"); }
+inline void ContactDetector::set_friction(int, double) {
+    throw SceneError("this contact detector cannot change the friction of an obstacle");
 }
 inline void ContactDetector::set_self_contact(const SelfContact&) {
     throw SceneError("this contact detector knows obstacles only; self_contact must be false");

@@ -63,6 +63,19 @@ public:
     ClothId add_cloth(const TriangleMesh& mesh, const Fabric& fabric, const Pose& pose = {}, const std::string& name = "cloth",
                       const RestShape& rest = {});
     ObstacleId add_obstacle(const TriangleMesh& mesh, const Pose& pose = {}, const ObstacleSettings& settings = {});
+    /// Takes a cloth out, with its seams, pairs and layer. All other ids stay good; its own, and those of its seams, throw
+    /// SceneError in every call and are not given again. What is left keeps its state and its contacts; it wakes up, and schemes
+    /// of several steps begin anew. States saved before are refused.
+    void remove_cloth(ClothId cloth);
+    /// The same of an obstacle. Cloth wakes up only if it touched some: else all later steps are those that would have been
+    /// without it. Throws SceneError where the detector cannot do it.
+    void remove_obstacle(ObstacleId obstacle);
+    /// Another fabric for a cloth whose mesh, rest shape, positions, velocities and pins stay: the coming steps are those of a
+    /// simulation with that fabric that was given this state. Everything of a fabric may change, kinds of springs too. Contacts
+    /// are forgotten where thickness, friction, self_contact or the order of the springs changes (the next step checks the start
+    /// then, as `prepare` does), what its strain limits hold with always. Costs as much as adding a cloth. Throws SceneError as
+    /// add_cloth does, and leaves everything as it was. States saved before are refused.
+    void set_fabric(ClothId cloth, const Fabric& fabric);
 
     void pin(ClothId cloth, int vertex);
     void unpin(ClothId cloth, int vertex);
@@ -79,6 +92,11 @@ public:
     /// pose comes on top. They then stay there. In between each runs straight. What is said of far motion holds for its farthest
     /// vertex. Vertices that the mesh has at one place have to stay together.
     void deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end);
+    /// Coulomb coefficient of an obstacle against cloth from the next step on, 0 ... 10. Throws SceneError where the detector
+    /// cannot change it.
+    void set_friction(ObstacleId obstacle, double friction);
+    /// ObstacleSettings::restitution from the next step on, 0 ... 1.
+    void set_restitution(ObstacleId obstacle, double restitution);
     void set_gravity(const Vec3& gravity);  // m/s^2
     /// Velocity of the air, m/s; before the first call there is no air (StepSettings::wind). Drag: Fabric::drag_normal,
     /// drag_tangential, StepSettings::air_density. In an implicit step triangles meet the air as they lay at its start.
@@ -103,6 +121,10 @@ public:
     /// All vertices of a cloth; m and m/s. For starts that are not at rest.
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
+    /// Puts a cloth back to where it was added, at rest; forgets its contacts, and what its strain limits and welds hold with.
+    /// Pins stay, where it was added, and so do time, seams (closed ones pull it together again), fabric and layers. The next
+    /// step checks its start as `prepare` does.
+    void reset(ClothId cloth);
     /// Moves cloths and obstacles together by a rigid motion x -> translation + rotation x of the world (scale 1), in no time:
     /// pins, targets that no step has reached yet and all that contact and seams remember go along; velocities turn along, or are
     /// cleared. The next step checks as `prepare` does whether they are clear of what did not move.
@@ -128,13 +150,29 @@ public:
     /// What the coming steps are made of and what is left out; runs nothing. `to_come`: what will change later on.
     ScenePlan plan(const ScriptedChanges& to_come = {}) const;
 
-    double time() const;  // s
-    int cloth_count() const;
+    double time() const;      // s
+    int cloth_count() const;  // without those that were removed
     /// Views, valid until the next call that changes the simulation. m and m/s, world.
     std::span<const Vec3> positions(ClothId cloth) const;
     std::span<const Vec3> velocities(ClothId cloth) const;
     /// Lumped masses, kg.
     std::span<const double> masses(ClothId cloth) const;
+    /// Unit normals of the vertices, world: of the triangles around each the mean by area, on the side from which they run
+    /// counter-clockwise. Zero at a vertex without triangles, or whose triangles have no area or cancel (to 1e-12 of their edges'
+    /// squares): there is none. Costs a pass over the triangles of the cloth.
+    std::vector<Vec3> normals(ClothId cloth) const;
+    /// The same into memory of the caller's; throws SceneError unless it has one entry a vertex.
+    void normals(ClothId cloth, std::span<Vec3> out) const;
+    /// From now on, for `interpolate`: each step first notes where the cloth is, a copy of 24 B a vertex; until then, and after
+    /// `false`, it costs nothing. Not part of saved states.
+    void keep_previous_positions(bool keep = true);
+    /// Where the cloth is, m, at a fraction, 0 ... 1, of the last step: x0 + fraction (x1 - x0), from before it to now. For hosts
+    /// that draw more often than they step; lines between two states, along which cloth may cross what it did not cross in
+    /// either. Present positions where nothing lies between: before the first step since keep_previous_positions, after a step
+    /// that failed, for cloth that was placed meanwhile (set_positions, reset, teleport, restore, move_pin after a refused start)
+    /// or whose start was repaired. Throws SceneError unless positions are kept, for a fraction out of range, or unless `out` has
+    /// one entry a vertex.
+    void interpolate(double fraction, ClothId cloth, std::span<Vec3> out) const;
     Pose obstacle_pose(ObstacleId obstacle) const;
     /// Where the vertices of an obstacle's mesh are before its pose, m, those of a rigid one none; of one that yields as they
     /// have given way.
@@ -146,11 +184,14 @@ public:
     double largest_strain(ClothId cloth) const;
     /// What obstacles do to the vertices of a cloth at the end of the last step that was solved, friction included: sorted by
     /// vertex and obstacle, vertices that nothing presses left out. Of a step made in spans it is what the last span ended with.
-    /// Empty before the first step, after a failed one, set_positions and teleport. Costs nothing unless it is asked for.
+    /// Empty before the first step, after a failed one, set_positions, reset and teleport. Costs nothing unless it is asked for.
     std::vector<ContactLoad> contact_loads(ClothId cloth) const;
     /// What all cloth does to an obstacle, N: the sum of those forces with the other sign. Cloth at rest that nothing else holds
     /// presses with its weight.
     Vec3 force_on(ObstacleId obstacle) const;
+    /// Torque of the same forces about a point (m, world), N m: the sum of (ContactLoad::cloth_point - about) x force. They act
+    /// where they act on the cloth, on its middle surface, so that body and cloth keep their angular momentum.
+    Vec3 torque_on(ObstacleId obstacle, const Vec3& about) const;
     /// Whether two cloths, or a cloth with itself, meet now: both have self_contact, set_pair does not keep them apart, and no
     /// seam that joins them closes without contact (SeamSettings::contact_while_closing).
     bool meets(ClothId first, ClothId second) const;

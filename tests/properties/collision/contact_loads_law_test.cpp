@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -75,6 +76,65 @@ TEST_CASE("Cloth that sticks to a slope is held by normal force and friction in 
     }
 }
 
+TEST_CASE("Cloth at rest presses a plane with its weight to a millionth, and turns it by weight times lever", "[law]") {
+    for (StepSettings settings : ways_of_contact) {
+        settings.newton_tolerance = 1e-10;
+        settings.skip = false;  // nothing falls asleep
+        Simulation simulation = on_meshes(settings);
+        const Vec3 place(0.07, 0.0, -0.04);
+        simulation.add_cloth(make_grid(0.2, 0.2, 9, 9), fabric(), {.translation = place + Vec3(0, 0.0045, 0)});
+        const ObstacleId plane = simulation.add_obstacle(make_plane(1.0), {}, {.friction = 0.5, .name = "plane"});
+        run(simulation, 600);
+        const double weight = area_density * 0.04 * g;
+        const Vec3 force = simulation.force_on(plane), about(0.3, 0.1, 0.2);
+        CAPTURE(static_cast<int>(settings.contact_response), (force - Vec3(0, -weight, 0)).norm() / weight);
+        CHECK((force - Vec3(0, -weight, 0)).norm() < 1e-6 * weight);
+        const Vec3 torque = simulation.torque_on(plane, about), exact = (place - about).cross(Vec3(0, -weight, 0));
+        CAPTURE((torque - exact).norm() / exact.norm());
+        CHECK((torque - exact).norm() < 1e-6 * exact.norm());
+    }
+}
+
+TEST_CASE("A plate balanced off the top of a ball turns the ball by weight times lever, to a millionth", "[law]") {
+    for (StepSettings settings : ways_of_contact) {
+        settings.newton_tolerance = 1e-10;
+        settings.skip = false;
+        Simulation simulation = on_meshes(settings);
+        Fabric plate = fabric();
+        plate.springs.bend = 0.0;
+        plate.bend_stiffness = 1.0;  // 0.15 m of it bend by a micrometre
+        const Vec3 centre(0.2, -0.1, 0.4);
+        const ClothId cloth =
+            simulation.add_cloth(make_grid(0.15, 0.15, 7, 7), plate, {.translation = centre + Vec3(0.03, 0.206, 0)});
+        const ObstacleId ball =
+            simulation.add_obstacle(make_sphere(0.2, 4), {.translation = centre}, {.friction = 5.0, .name = "ball"});
+        run(simulation, 1200);
+        Vec3 lever = Vec3::Zero();
+        double mass = 0.0;
+        for (int i = 0; i < 49; ++i) {
+            lever += simulation.masses(cloth)[i] * (simulation.positions(cloth)[i] - centre);
+            mass += simulation.masses(cloth)[i];
+        }
+        lever /= mass;
+        const Vec3 weight(0, -mass * g, 0), exact = lever.cross(weight);
+        const Vec3 torque = simulation.torque_on(ball, centre);
+        CAPTURE(static_cast<int>(settings.contact_response), lever.x(), simulation.largest_speed(),
+                (simulation.force_on(ball) - weight).norm() / weight.norm(), (torque - exact).norm() / exact.norm());
+        CHECK(lever.x() > 0.01);
+        CHECK((torque - exact).norm() < 1e-6 * exact.norm());
+        const Vec3 p(1, 2, 3), difference = simulation.torque_on(ball, p) - torque;
+        CHECK((difference - (centre - p).cross(simulation.force_on(ball))).norm() < 1e-12);
+        // By where loads say that they act.
+        Vec3 sum = Vec3::Zero();
+        for (const ContactLoad& load : simulation.contact_loads(cloth)) {
+            sum -= (load.cloth_point - centre).cross(load.force());
+            CHECK((load.obstacle_point - centre).norm() <= 0.2 + 1e-12);
+            CHECK((load.obstacle_point - centre).norm() > 0.198);  // on the mesh
+        }
+        CHECK((sum - torque).norm() < 1e-14);
+    }
+}
+
 TEST_CASE("Vertices that are pressed are told with the numbers of their mesh, in order", "[law]") {
     // A free mesh has another order inside. Half of it lies on a box, the other half hangs over.
     Simulation simulation = on_meshes({});
@@ -110,7 +170,13 @@ TEST_CASE("Contact forces are known again in a resumed run, and unknown where cl
     Simulation resumed = make();
     resumed.restore(simulation.save());
     CHECK(resumed.force_on({0}) == force);
-    CHECK(resumed.contact_loads({0}).size() == simulation.contact_loads({0}).size());
+    CHECK(resumed.torque_on({0}, {1, 2, 3}) == simulation.torque_on({0}, {1, 2, 3}));
+    const std::vector<ContactLoad> loads = simulation.contact_loads({0}), again = resumed.contact_loads({0});
+    REQUIRE(again.size() == loads.size());
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+        CHECK(again[k].cloth_point == loads[k].cloth_point);
+        CHECK(again[k].obstacle_point == loads[k].obstacle_point);
+    }
     run(simulation, 1);
     run(resumed, 1);
     CHECK(resumed.force_on({0}) == simulation.force_on({0}));

@@ -1,0 +1,171 @@
+#include "scene_changes.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace percale {
+namespace {
+
+/// What is one less where a number was taken out; -1: it is the one, or was none.
+int without(int number, int removed) { return number == removed ? -1 : number > removed ? number - 1 : number; }
+
+/// Of all that names a vertex and an obstacle, where `vertex` and `obstacle` say what their numbers are now, -1: gone. What is
+/// bound to no obstacle, but to cloth (-1), is so on.
+template <class Held, class VertexNumber, class ObstacleNumber>
+void renumber(std::vector<Held>& list, VertexNumber vertex, ObstacleNumber obstacle) {
+    std::vector<Held> left;
+    for (Held held : list) {
+        const bool of_obstacle = held.obstacle >= 0;
+        held.vertex = vertex(held.vertex);
+        if (of_obstacle) held.obstacle = obstacle(held.obstacle);
+        if (held.vertex >= 0 && (!of_obstacle || held.obstacle >= 0)) left.push_back(held);
+    }
+    list = std::move(left);
+    std::ranges::sort(list, {}, [](const Held& held) { return std::tuple(held.vertex, held.obstacle); });
+}
+
+template <class VertexNumber, class ObstacleNumber>
+void renumber(ContactMultipliers& forces, VertexNumber vertex, ObstacleNumber obstacle) {
+    std::vector<KeyedForce> left;
+    for (KeyedForce force : forces.all()) {
+        bool there = true;
+        for (int& each : force.key.vertex) {
+            if (each < 0) continue;
+            each = vertex(each);
+            there = there && each >= 0;
+        }
+        if (force.key.obstacle >= 0) {
+            force.key.obstacle = obstacle(force.key.obstacle);
+            there = there && force.key.obstacle >= 0;
+        }
+        if (there) left.push_back(force);
+    }
+    forces.clear(left.size());
+    forces.set(left);
+}
+
+/// Forces of the last solve, of which the rows will not do: they go on with old numbers.
+void note_loads(World& world) {
+    world.saved_loads = contact_loads(world);
+    if (world.load_source != LoadSource::nowhere) world.load_source = LoadSource::saved_state;
+}
+
+/// All that a world remembers of contacts, its loads noted down.
+template <class VertexNumber, class ObstacleNumber>
+void renumber_contacts(World& world, VertexNumber vertex, ObstacleNumber obstacle) {
+    renumber(world.saved_loads, vertex, obstacle);
+    renumber(world.state.cloth.grips, vertex, obstacle);
+    renumber(world.state.cloth.impacts, vertex, obstacle);
+    renumber(world.state.contact.last, vertex, obstacle);
+    renumber(world.state.contact.lasting, vertex, obstacle);
+    if (world.refused.obstacle >= 0) world.refused.obstacle = obstacle(world.refused.obstacle);
+    for (int& each : world.refused.vertices) each = vertex(each);
+    std::erase(world.refused.vertices, -1);
+}
+
+/// Positions, velocities and pins of the cloth that is left; cloth is never new here.
+void carry_over(const std::vector<int>& number, World& world) {
+    const int count = world.scene.model.vertex_count();
+    const ClothState& before = world.state.cloth;
+    ClothState state;
+    for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(count);
+    state.points.resize(count);
+    Vectors targets = state.positions;
+    AlignedVector<double> free(targets.padded_size(), 0.0);
+    for (std::size_t i = 0; i < number.size(); ++i) {
+        const int from = static_cast<int>(i), to = number[i];
+        if (to < 0) continue;
+        state.positions.set(to, before.positions.at(from));
+        state.velocities.set(to, before.velocities.at(from));
+        targets.set(to, world.scene.script.pin_targets.at(from));
+        free[to] = world.scene.script.free[from];
+    }
+    state.grips = before.grips;
+    state.impacts = before.impacts;
+    update_points(state);
+    if (!before.rest_length.empty() && !world.scene.script.seams.empty()) {
+        state.rest_length = world.scene.model.springs.rest_length;
+        for (const Seam& seam : world.scene.script.seams) set_seam_lengths(seam, world.state.time, state.rest_length);
+    }
+    world.state.cloth = std::move(state);
+    world.scene.script.free = std::move(free);
+    world.scene.script.pin_targets = std::move(targets);
+}
+
+/// Loads are noted down.
+bool touches(const World& world, int obstacle) {
+    const auto with_it = [&](const auto& held) { return held.obstacle == obstacle; };
+    const auto force_with_it = [&](const KeyedForce& force) { return force.key.obstacle == obstacle; };
+    const ClothState& cloth = world.state.cloth;
+    const ContactMemory& contact = world.state.contact;
+    return std::ranges::any_of(cloth.grips, with_it) || std::ranges::any_of(cloth.impacts, with_it) ||
+           std::ranges::any_of(contact.last.all(), force_with_it) || std::ranges::any_of(contact.lasting.all(), force_with_it) ||
+           std::ranges::any_of(world.saved_loads, with_it);
+}
+
+/// Whether a detector is told anything else of two cloths of the same mesh, or the start of one may not be one of the other.
+bool meets_otherwise(const Fabric& a, const Fabric& b) {
+    return a.thickness != b.thickness || a.self_contact != b.self_contact || a.friction != b.friction ||
+           a.strain_limit.has_value() != b.strain_limit.has_value();
+}
+
+}  // namespace
+
+void adopt_model(RemadeModel&& made, World& world) {
+    note_loads(world);
+    renumber_contacts(
+        world, [&](int vertex) { return made.vertex[vertex]; }, [](int obstacle) { return obstacle; });
+    world.scene.model = std::move(made.model);
+    world.scene.script.seams = std::move(made.seams);
+    carry_over(made.vertex, world);
+    world.work = Workspace{};
+    world.holds_before = {};
+    world.waiting = waiting_cloth(world.scene, world.state.time);
+    set_workers(world);
+    scene_changed(world);
+}
+
+std::vector<int> drop_cloth(World& world, int cloth) {
+    RemadeModel made = remake(world.scene.model, world.scene.script.seams, {.cloth = cloth});
+    std::vector<int> seams_left = std::move(made.seam_before);
+    adopt_model(std::move(made), world);
+    const ClothPairs before = std::move(world.scene.script.pairs);
+    ClothPairs& pairs = world.scene.script.pairs = {};
+    for (const auto& [cloths, pair] : before.said()) {
+        const int first = without(cloths[0], cloth), second = without(cloths[1], cloth);
+        if (first >= 0 && second >= 0) pairs.set(first, second, pair);
+    }
+    for (const auto& [number, layer] : before.layers()) {
+        if (number != cloth) pairs.set_layer(without(number, cloth), layer);
+    }
+    pass_cloth_to_detector(world);
+    return seams_left;
+}
+
+void change_fabric(World& world, int cloth, const Fabric& fabric) {
+    const ClothRange before = world.scene.model.cloths[cloth];
+    adopt_model(remake(world.scene.model, world.scene.script.seams, {cloth, &fabric}), world);
+    const bool same_order = before.order.place == world.scene.model.cloths[cloth].order.place;
+    if (same_order && !meets_otherwise(before.fabric, fabric)) return;
+    world.changed = true;
+    try {
+        pass_cloth_to_detector(world);
+    } catch (const SceneError&) {  // it knows no contact of cloth with cloth
+        adopt_model(remake(world.scene.model, world.scene.script.seams, {cloth, &before.fabric}), world);
+        pass_cloth_to_detector(world);
+        throw;
+    }
+}
+
+void drop_obstacle(World& world, int obstacle) {
+    world.scene.detector->remove_obstacle(obstacle);
+    note_loads(world);
+    const bool touched = touches(world, obstacle);
+    renumber_contacts(
+        world, [](int vertex) { return vertex; }, [&](int number) { return without(number, obstacle); });
+    world.scene.script.obstacles.erase(world.scene.script.obstacles.begin() + obstacle);
+    world.plan_outdated = true;
+    if (touched) scene_changed(world);
+}
+
+}  // namespace percale
