@@ -6,7 +6,7 @@ set(percale_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/percale)
 
 # One export a component, so that a program that only wants percale::engine needs neither FCL nor Bullet. Order: what is needed first.
 set(percale_components "")
-foreach(component engine collision brute_force fcl bullet)
+foreach(component engine collision brute_force fcl bullet c c_shared)
   if(TARGET percale_${component})
     list(APPEND percale_components ${component})
     install(TARGETS percale_${component} EXPORT percale_${component}
@@ -34,6 +34,11 @@ endif()
 file(RELATIVE_PATH percale_pc_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/percale.pc.in ${CMAKE_CURRENT_BINARY_DIR}/percale.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/percale.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+# percale-c.pc: libpercale.so, which needs no other name on the command line.
+if(TARGET percale_c_shared)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/percale_c.pc.in ${CMAKE_CURRENT_BINARY_DIR}/percale-c.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/percale-c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()
 
 if(TARGET percale)
   set_target_properties(percale PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
