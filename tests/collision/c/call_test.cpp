@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "percale/contact.h"
-#include "support/catch.h"
-#include "support/collision/c_objects.h"
+#include "tests/support/catch.h"
+#include "tests/support/collision/c_objects.h"
 
 using namespace percale;
 using namespace percale::c_interface;

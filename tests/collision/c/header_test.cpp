@@ -3,7 +3,7 @@
 
 #include "header_as_c99.h"
 #include "percale.h"
-#include "support/catch.h"
+#include "tests/support/catch.h"
 
 TEST_CASE("A C99 compiler lays the structs of percale.h out as C++ does") {
     const std::vector<std::size_t> of_cpp{sizeof(percale_pose),

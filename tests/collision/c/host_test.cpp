@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "collision/c/call.h"
-#include "support/collision/c_objects.h"
+#include "tests/support/collision/c_objects.h"
 
 using namespace percale;
 using namespace percale::test;

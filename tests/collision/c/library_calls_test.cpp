@@ -2,7 +2,7 @@
 #include <string>
 
 #include "percale/report.h"
-#include "support/collision/c_objects.h"
+#include "tests/support/collision/c_objects.h"
 
 using namespace percale::test;
 

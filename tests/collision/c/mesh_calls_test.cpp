@@ -4,7 +4,7 @@
 
 #include "percale/certify.h"
 #include "percale/strain.h"
-#include "support/collision/c_objects.h"
+#include "tests/support/collision/c_objects.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "support/catch.h"
+#include "tests/support/catch.h"
 
 using namespace percale;
 using namespace percale::c_interface;

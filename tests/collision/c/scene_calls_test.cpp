@@ -2,7 +2,7 @@
 #include <functional>
 #include <string>
 
-#include "support/collision/c_objects.h"
+#include "tests/support/collision/c_objects.h"
 
 using namespace percale;
 using namespace percale::test;

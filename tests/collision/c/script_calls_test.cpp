@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "support/collision/c_objects.h"
+#include "tests/support/collision/c_objects.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -2,7 +2,7 @@
 
 #include "percale/fabric_presets.h"
 #include "percale/options.h"
-#include "support/collision/c_objects.h"
+#include "tests/support/collision/c_objects.h"
 
 using namespace percale::test;
 

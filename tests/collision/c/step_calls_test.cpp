@@ -1,7 +1,7 @@
 #include <cmath>
 #include <string>
 
-#include "support/collision/c_objects.h"
+#include "tests/support/collision/c_objects.h"
 
 using namespace percale;
 using namespace percale::test;

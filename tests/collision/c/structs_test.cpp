@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "percale/simulation.h"
-#include "support/collision/c_objects.h"
+#include "tests/support/collision/c_objects.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "support/catch.h"
+#include "tests/support/catch.h"
 
 // The binary interface of libpercale.so: what it shows to those that load it.
 namespace {

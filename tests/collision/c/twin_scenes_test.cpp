@@ -3,7 +3,7 @@
 #include <functional>
 #include <numbers>
 
-#include "support/collision/c_twin.h"
+#include "tests/support/collision/c_twin.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -2,8 +2,8 @@
 #include <functional>
 #include <string>
 
-#include "support/collision/c_objects.h"
-#include "support/collision/c_twin.h"
+#include "tests/support/collision/c_objects.h"
+#include "tests/support/collision/c_twin.h"
 
 using namespace percale;
 using namespace percale::test;

@@ -7,7 +7,7 @@
 
 #include "percale.h"
 #include "percale/mesh.h"
-#include "support/catch.h"
+#include "tests/support/catch.h"
 
 // Objects of the C interface that free themselves, and calls that have to go well.
 namespace percale::test {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "percale/percale.h"
-#include "support/collision/backends.h"
-#include "support/collision/c_objects.h"
+#include "tests/support/collision/backends.h"
+#include "tests/support/collision/c_objects.h"
 
 namespace percale::test {
 
