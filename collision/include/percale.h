@@ -39,7 +39,10 @@ const char* percale_last_error(const percale_simulation* simulation);
 /* Whether this build has a detector: 1 for "none" and those built, else 0, also for unknown words and NULL. */
 int percale_has_detector(const char* detector);
 
-/* ---- Defaults of structs: struct_size is sizeof of the caller's; another size than the library knows is an error ---- */
+/* ---- Structs ---- */
+
+/* Each sets all fields to their defaults and struct_size to the one given, sizeof of the struct as the caller was compiled.
+ * Another size than the library knows is an error. */
 
 percale_status percale_init_setup(percale_setup* setup, size_t struct_size);
 percale_status percale_init_workers(percale_workers* workers, size_t struct_size);
@@ -59,7 +62,8 @@ percale_pose percale_identity_pose(void);
 
 /* All options at their defaults. */
 percale_status percale_create_step_settings(percale_step_settings** settings);
-void percale_destroy_step_settings(percale_step_settings* settings); /* NULL does nothing */
+/* NULL does nothing. Simulations that were made with them keep their own copy. */
+void percale_destroy_step_settings(percale_step_settings* settings);
 /* A value as text: a number ("0.01"), a whole number, "true" or "false", a word, "auto" or "none" where the option takes it, or
  * two numbers with a space or comma between. Errors name the key and its range or words. */
 percale_status percale_set_step_option(percale_step_settings* settings, const char* key, const char* value);
@@ -71,25 +75,34 @@ percale_status percale_step_option(const percale_step_settings* settings, const 
                                    size_t* count);
 /* How many options there are; their numbers are 0, 1, ... */
 size_t percale_step_option_count(void);
+/* What an option is: key, unit, range, words. option: a struct that percale_init_option prepared. */
 percale_status percale_describe_step_option(size_t number, percale_option* option);
 /* The word of that number of an option of words; NULL where there is none. Lives as long as the library. */
 const char* percale_step_option_word(size_t number, int word);
 
 /* preset: NULL for all defaults, or a name of percale_fabric_preset_name: moduli along warp and weft. */
 percale_status percale_create_fabric(const char* preset, percale_fabric** fabric);
-void percale_destroy_fabric(percale_fabric* fabric); /* NULL does nothing */
+/* NULL does nothing. Cloth that was made of it keeps its own copy. */
+void percale_destroy_fabric(percale_fabric* fabric);
+/* As percale_set_step_option. Options that exclude each other are refused by percale_add_cloth. */
 percale_status percale_set_fabric_option(percale_fabric* fabric, const char* key, const char* value);
+/* As percale_set_step_number. */
 percale_status percale_set_fabric_number(percale_fabric* fabric, const char* key, double value);
+/* As percale_step_option. */
 percale_status percale_fabric_option(const percale_fabric* fabric, const char* key, char* text, size_t capacity, size_t* count);
+/* How many options there are; their numbers are 0, 1, ... */
 size_t percale_fabric_option_count(void);
+/* As percale_describe_step_option. */
 percale_status percale_describe_fabric_option(size_t number, percale_option* option);
+/* As percale_step_option_word. */
 const char* percale_fabric_option_word(size_t number, int word);
 /* The same for meshes that do not say where warp is: shear_stiffness is kept, stretch_stiffness becomes what belongs to it. */
 percale_status percale_make_fabric_isotropic(percale_fabric* fabric);
+/* How many presets there are; their numbers are 0, 1, ... */
 size_t percale_fabric_preset_count(void);
 /* NULL where there is no preset of that number. Lives as long as the library. */
 const char* percale_fabric_preset_name(size_t number);
-/* Where its numbers come from; likewise. */
+/* Where the numbers of that preset come from; likewise. */
 const char* percale_fabric_preset_source(size_t number);
 
 /* ---- Meshes ---- */
@@ -151,7 +164,9 @@ percale_status percale_set_layer(percale_simulation* simulation, int cloth, int 
 
 /* ---- Simulation: what moves ---- */
 
+/* Holds a vertex where it is; its velocity becomes 0. A pinned vertex may be pinned again. */
 percale_status percale_pin(percale_simulation* simulation, int cloth, int vertex);
+/* Lets a pinned vertex go; of one that is not pinned it is an error. */
 percale_status percale_unpin(percale_simulation* simulation, int cloth, int vertex);
 /* target: m, where a pinned vertex is at the end of the next step; it then stays there. */
 percale_status percale_move_pin(percale_simulation* simulation, int cloth, int vertex, const double* target);
@@ -203,8 +218,11 @@ percale_status percale_restore(percale_simulation* simulation, const void* bytes
 
 /* ---- Simulation: what it is like now ---- */
 
-percale_status percale_time(const percale_simulation* simulation, double* time); /* s */
+/* s of simulated time. */
+percale_status percale_time(const percale_simulation* simulation, double* time);
+/* How many cloths were added. */
 percale_status percale_cloth_count(const percale_simulation* simulation, int* count);
+/* Of one cloth. */
 percale_status percale_vertex_count(const percale_simulation* simulation, int cloth, size_t* count);
 /* m and m/s, three numbers a vertex; capacity and count: of vertices. */
 percale_status percale_positions(const percale_simulation* simulation, int cloth, double* positions, size_t capacity,
@@ -217,6 +235,7 @@ percale_status percale_masses(const percale_simulation* simulation, int cloth, d
 const double* percale_positions_view(const percale_simulation* simulation, int cloth, size_t* count);
 const double* percale_velocities_view(const percale_simulation* simulation, int cloth, size_t* count);
 const double* percale_masses_view(const percale_simulation* simulation, int cloth, size_t* count);
+/* Where an obstacle is now; its scale is that it was added with. */
 percale_status percale_obstacle_pose(const percale_simulation* simulation, int obstacle, percale_pose* pose);
 /* m, before its pose, the vertices of a deforming or yielding obstacle; of a rigid one none. */
 percale_status percale_obstacle_shape(const percale_simulation* simulation, int obstacle, double* vertices, size_t capacity,

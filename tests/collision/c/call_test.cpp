@@ -1,5 +1,10 @@
 #include "collision/c/call.h"
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -8,6 +13,15 @@
 #include "percale/contact.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision/c_objects.h"
+
+// Sanitizers take more addresses than a limit leaves.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PERCALE_TEST_UNDER_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define PERCALE_TEST_UNDER_SANITIZER
+#endif
+#endif
 
 using namespace percale;
 using namespace percale::c_interface;
@@ -32,6 +46,43 @@ TEST_CASE("Whatever is thrown becomes a status with a text, of the object and of
     CHECK(status_of(42) == PERCALE_INTERNAL_ERROR);
     CHECK(own.text() == std::string("f: an exception of unknown type"));
 }
+
+#ifndef PERCALE_TEST_UNDER_SANITIZER
+namespace {
+
+/// In a process that may take a few more pages: a large mesh, then a small one. 0 where the first lacked memory and the second,
+/// once there is some again, was made.
+int lack_memory() {
+    std::ifstream sizes("/proc/self/statm");
+    rlim_t pages = 0;
+    sizes >> pages;
+    rlimit before{}, tight{};
+    getrlimit(RLIMIT_AS, &before);
+    tight = before;
+    tight.rlim_cur = (pages + 1024) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+    setrlimit(RLIMIT_AS, &tight);
+    percale_mesh* mesh = nullptr;
+    const percale_status lacking = percale_make_sphere(1.0, 8, &mesh);
+    if (lacking != PERCALE_OUT_OF_MEMORY || mesh != nullptr) return 1;
+    setrlimit(RLIMIT_AS, &before);
+    if (std::string(percale_last_error(nullptr)).find("out of memory") == std::string::npos) return 2;
+    if (percale_make_sphere(1.0, 1, &mesh) != PERCALE_OK) return 3;
+    percale_destroy_mesh(mesh);
+    return 0;
+}
+
+}  // namespace
+
+TEST_CASE("Lack of memory is a status, and the library goes on when there is some again") {
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) _exit(lack_memory());
+    int status = -1;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+}
+#endif
 
 TEST_CASE("A call that goes well leaves the text of the last error") {
     ErrorText own;

@@ -61,6 +61,7 @@ TEST_CASE("Wrong meshes are refused and nothing is made") {
     refused(percale_create_mesh(x, 3, t, SIZE_MAX / 2, &made), "triangle");
     refused(percale_create_mesh(x, 3, t, 1, nullptr), "NULL");
     fails(percale_make_grid(1.0, -1.0, 3, 3, &made), PERCALE_INVALID_ARGUMENT, "percale_make_grid", "-1");
+    fails(percale_make_grid(1.0, 1.0, INT_MAX, INT_MAX, &made), PERCALE_INVALID_ARGUMENT, "percale_make_grid", "1073741823");
     fails(percale_make_sphere(1.0, 9, &made), PERCALE_INVALID_ARGUMENT, "percale_make_sphere", "9");
     fails(percale_make_box(nullptr, &made), PERCALE_INVALID_ARGUMENT, "percale_make_box", "size");
     fails(percale_make_cylinder(1.0, 1.0, 2, &made), PERCALE_INVALID_ARGUMENT, "percale_make_cylinder", "2");
