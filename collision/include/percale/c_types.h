@@ -77,7 +77,7 @@ typedef struct percale_workers {
     /* Calls work(data, part, slot) once for each part of 0 ... parts - 1, in any order and on any threads, and returns when all
      * are done; what they wrote is then seen by the caller. Calls at the same time have different slots of 0 ... threads - 1.
      * work does not call run, and returns. run calls no function of this library, and leaves neither by longjmp nor by an
-     * exception. Required. */
+     * exception. Simulations that share a host may call it at the same time. Required. */
     void (*run)(void* host, int parts, void (*work)(void* data, int part, int slot), void* data);
 } percale_workers;
 
