@@ -4,8 +4,9 @@
 /* The C interface of Percale, C99: for hosts written in C and for those that load libpercale.so. C++ has <percale/simulation.h>.
  *
  * Errors. Calls that can fail give a percale_status, and percale_last_error tells in words. A call that does not give PERCALE_OK
- * leaves everything as it was and writes nothing to its results, but where its comment says otherwise. NULL where a pointer is
- * needed is an error, too. Nothing throws through this interface.
+ * leaves everything as it was and writes nothing to its results, but where its comment says otherwise. After
+ * PERCALE_OUT_OF_MEMORY or PERCALE_INTERNAL_ERROR from a call that changes a simulation, that one may be half changed: destroy
+ * it. NULL where a pointer is needed is an error, too. Nothing throws through this interface.
  *
  * Memory. Numbers belong to the caller: the library copies what it is given before a call returns, and writes results into
  * buffers whose capacity the caller says, in items. Such calls set *count to how many items there are, also where the buffer is
@@ -65,7 +66,8 @@ percale_status percale_create_step_settings(percale_step_settings** settings);
 /* NULL does nothing. Simulations that were made with them keep their own copy. */
 void percale_destroy_step_settings(percale_step_settings* settings);
 /* A value as text: a number ("0.01"), a whole number, "true" or "false", a word, "auto" or "none" where the option takes it, or
- * two numbers with a space or comma between. Errors name the key and its range or words. */
+ * two numbers with a space or comma between. Errors name the key and its range or words. Unlike in a scene file, a time_step of
+ * "auto" leaves the scheme as it is. */
 percale_status percale_set_step_option(percale_step_settings* settings, const char* key, const char* value);
 /* The same of options that hold one number, every bit of it kept. */
 percale_status percale_set_step_number(percale_step_settings* settings, const char* key, double value);
