@@ -211,6 +211,13 @@ stage_consumer() {
     PKG_CONFIG_PATH=$pc_path pkg-config --cflags --libs percale |
         xargs g++ -std=c++20 "$scratch-source/hang.cpp" -I "$scratch-source" -o "$scratch/hang_by_pkg_config"
     "$scratch/hang_by_pkg_config"
+    # In C alone, which asks for no other package.
+    cmake -S "$scratch-source/c" -B "$scratch/c" -DCMAKE_PREFIX_PATH="$prefix"
+    cmake --build "$scratch/c"
+    ctest --test-dir "$scratch/c" --no-tests=error
+    PKG_CONFIG_PATH=$pc_path pkg-config --cflags --libs percale-c |
+        xargs cc -std=c99 "$scratch-source/c/weigh.c" -o "$scratch/weigh_by_pkg_config" -Wl,-rpath,"$(dirname "$pc_path")" -lm
+    "$scratch/weigh_by_pkg_config"
     "$prefix/bin/percale" --version
 }
 

@@ -43,7 +43,7 @@ SCENES_ROOMS = ['common', 'report', 'shapes', 'meshes', 'frames', 'fields', 'pat
 COLLISION_FOLDERS = {
     'geometry': set(), 'certificate': set(),
     'obstacle': {'geometry', 'certificate'}, 'lists': {'geometry', 'obstacle'}, 'self': {'geometry'},
-    'untangle': {'geometry', 'certificate'}, 'attach': {'geometry', 'certificate'},
+    'untangle': {'geometry', 'certificate'}, 'attach': {'geometry', 'certificate'}, 'c': set(),
     **{backend: {'top', 'geometry', 'obstacle'} for backend in ('fcl', 'bullet', 'brute_force')},
 }
 # Header prefixes of other projects and the folders that may see them.

@@ -169,6 +169,7 @@ TEST_CASE("Shapes refuse impossible sizes and name the value") {
     CHECK(mentions(scene_error([] { make_grid(-1.5, 1.0, 3, 3); }), {"make_grid", "-1.5", "m"}));
     CHECK(mentions(scene_error([] { make_grid(1.0, nan_value, 3, 3); }), {"make_grid", "nan"}));
     CHECK(mentions(scene_error([] { make_grid(1.0, 1.0, 1, 3); }), {"make_grid", "1 x 3", "at least 2"}));
+    CHECK(mentions(scene_error([] { make_grid(1.0, 1.0, 100000, 100000); }), {"make_grid", "100000 x 100000", "1073741823"}));
     CHECK(mentions(scene_error([] { make_sphere(-0.25, 2); }), {"make_sphere", "-0.25"}));
     CHECK(mentions(scene_error([] { make_sphere(1.0, 9); }), {"make_sphere", "0 ... 8", "9"}));
     CHECK(mentions(scene_error([] { make_sphere(1.0, -1); }), {"make_sphere", "-1"}));

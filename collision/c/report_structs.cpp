@@ -1,0 +1,137 @@
+#include "c/report_structs.h"
+
+#include <sstream>
+
+#include "c/structs.h"
+#include "percale/options.h"
+
+namespace percale::c_interface {
+namespace {
+
+const char* solver_word(LinearSolver solver) {
+    const Option<StepSettings>* found = nullptr;
+    for (const Option<StepSettings>& option : step_options()) {
+        if (option.key == "linear_solver") found = &option;
+    }
+    return found->choices[static_cast<std::size_t>(solver)].data();
+}
+
+/// The energies of a step report and of percale_energy have the same names.
+template <class Struct>
+void write_energy(const StepEnergy& from, Struct& to) {
+    to.kinetic = from.kinetic;
+    to.gravity = from.gravity;
+    to.elastic = from.elastic;
+    to.contact = from.contact;
+    to.work = from.work;
+    to.dissipated_material = from.dissipated_material;
+    to.dissipated_friction = from.dissipated_friction;
+    to.dissipated_contact = from.dissipated_contact;
+    to.dissipated_integrator = from.dissipated_integrator;
+    to.residual_work = from.residual_work;
+    to.imbalance = from.imbalance;
+}
+
+void write_solution(const StepReport& from, percale_step_report& to) {
+    to.status = static_cast<int>(from.status);
+    to.time = from.time;
+    to.dt = from.dt;
+    to.smallest_dt = from.smallest_dt;
+    to.largest_dt = from.largest_dt;
+    to.parts = from.parts;
+    to.rejected = from.rejected;
+    to.newton_iterations = from.newton_iterations;
+    to.linear_iterations = from.linear_iterations;
+    to.line_search_cuts = from.line_search_cuts;
+    to.linear_solver = solver_word(from.linear_solver);
+    to.halvings = from.halvings;
+    to.dropped_not_converged = from.dropped.not_converged;
+    to.dropped_blocked = from.dropped.blocked;
+    to.dropped_not_finite = from.dropped.not_finite;
+    to.dropped_inexact = from.dropped.inexact;
+    to.residual = from.residual;
+    to.smallest_fraction = from.smallest_fraction;
+    to.sleeping_cloths = from.sleeping_cloths;
+    to.slept = from.slept;
+    to.stopped = from.stopped;
+    to.contacts = from.contacts;
+    to.smallest_distance = from.smallest_distance;
+    to.contact_stiffness = from.contact_stiffness;
+    to.largest_strain = from.largest_strain;
+    to.largest_speed = from.largest_speed;
+    to.contact_hash = from.contact_hash;
+}
+
+void write_trouble(const StepReport& from, percale_step_report& to) {
+    to.blocked_by_pin = from.blocked_by_pin;
+    to.blocked_cloth = from.blocked_cloth;
+    to.blocked_vertex = from.blocked_vertex;
+    to.blocking_obstacle = from.blocking_obstacle;
+    to.travel = from.travel;
+    to.pinched = from.pinched;
+    to.yielded = from.yielded;
+    to.yielded_in_vain = from.yielded_in_vain;
+    std::ranges::copy(from.pinching, to.pinching);
+    to.second_obstacle = from.second_obstacle;
+    to.stretched_cloth = from.stretched_cloth;
+    to.stretched_pins = from.stretched_pins;
+    to.stretch = from.stretch;
+}
+
+}  // namespace
+
+percale_energy c_energy(const StepEnergy& energy) {
+    auto told = default_struct<percale_energy>();
+    write_energy(energy, told);
+    return told;
+}
+
+percale_step_report c_report(const StepReport& report) {
+    auto told = default_struct<percale_step_report>();
+    write_solution(report, told);
+    write_trouble(report, told);
+    write_energy(report.energy, told);
+    told.refresh_s = report.stages.refresh;
+    told.evaluate_s = report.stages.evaluate;
+    told.force_s = report.stages.force;
+    told.setup_s = report.stages.setup;
+    told.solve_s = report.stages.solve;
+    told.cut_s = report.stages.cut;
+    told.measure_s = report.stages.measure;
+    told.cpu_s = report.cpu_s;
+    return told;
+}
+
+percale_start_fault c_start_fault(const StartFault& fault) {
+    auto told = default_struct<percale_start_fault>();
+    told.obstacle = fault.obstacle;
+    told.intersecting_pairs = fault.intersecting_pairs;
+    told.cloth_triangle = fault.cloth_triangle;
+    told.obstacle_triangle = fault.obstacle_triangle;
+    told.other_cloth_triangle = fault.other_cloth_triangle;
+    told.vertices_inside = fault.vertices_inside;
+    told.inside_vertex = fault.inside_vertex;
+    return told;
+}
+
+percale_start_move c_start_move(const StartMove& move) {
+    return {move.cloth, move.obstacle, move.vertices_moved, move.largest_move};
+}
+
+std::string plan_lines(const ScenePlan& plan) {
+    std::ostringstream text;
+    text << "scheme: " << plan.scheme_word << (plan.scheme_reason.empty() ? "" : ", ") << plan.scheme_reason << '\n';
+    text << "stable step: " << plan.stable_step << " s\n";
+    for (const std::string& warning : plan.warnings) text << "warning: " << warning << '\n';
+    text << "vertices: " << plan.vertices << ", " << plan.pinned_vertices << " pinned\n";
+    const SpringCounts& springs = plan.springs;
+    text << "springs: " << springs.structural << " structural, " << springs.shear << " shear, " << springs.bend << " bending, "
+         << springs.seam << " of seams; hinges: " << springs.hinge << "; membrane triangles: " << springs.triangle << '\n';
+    text << "obstacles: " << plan.obstacles << ", triangles: " << plan.obstacle_triangles << '\n';
+    for (const Skip& skip : plan.skipped) text << "left out: " << skip.what << ": " << skip.why << '\n';
+    text << "memory: " << plan.memory_bytes << " bytes\n";
+    text << "cost of a step: " << plan.evaluations_a_step << " evaluations of all spring forces\n";
+    return text.str();
+}
+
+}  // namespace percale::c_interface

@@ -1,0 +1,40 @@
+#include <set>
+#include <string>
+
+#include "percale/report.h"
+#include "tests/support/collision/c_objects.h"
+
+using namespace percale::test;
+
+TEST_CASE("Every status of the C interface has a text of its own, others are unknown") {
+    std::set<std::string> texts;
+    for (int status = PERCALE_OK; status <= PERCALE_INTERNAL_ERROR; ++status) {
+        texts.insert(percale_status_text(static_cast<percale_status>(status)));
+    }
+    CHECK(texts.size() == static_cast<std::size_t>(PERCALE_INTERNAL_ERROR) + 1);
+    CHECK(texts.count("unknown status") == 0);
+    CHECK(percale_step_status_text(-1) == std::string("unknown status"));
+    CHECK(percale_step_status_text(PERCALE_STEP_WORK_LIMIT + 1) == std::string("unknown status"));
+}
+
+TEST_CASE("A status of a step has the word that C++ gives it") {
+    for (int status = PERCALE_STEP_OK; status <= PERCALE_STEP_WORK_LIMIT; ++status) {
+        CHECK(percale_step_status_text(status) == std::string(percale::status_word(static_cast<percale::StepStatus>(status))));
+    }
+    CHECK(static_cast<int>(percale::StepStatus::work_limit) == PERCALE_STEP_WORK_LIMIT);
+}
+
+TEST_CASE("The version has three numbers") {
+    int numbers[3], read = 0;
+    const std::string version = percale_version();
+    CHECK(std::sscanf(version.c_str(), "%d.%d.%d%n", &numbers[0], &numbers[1], &numbers[2], &read) == 3);
+    CHECK(static_cast<std::size_t>(read) == version.size());
+}
+
+TEST_CASE("Detectors are asked for by word") {
+    CHECK(percale_has_detector("none") == 1);
+    CHECK(percale_has_detector("brute_force") == 1);
+    CHECK(percale_has_detector("Brute_Force") == 0);
+    CHECK(percale_has_detector("") == 0);
+    CHECK(percale_has_detector(nullptr) == 0);
+}

@@ -1,0 +1,140 @@
+#include "collision/c/report_structs.h"
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "tests/support/catch.h"
+
+using namespace percale;
+using namespace percale::c_interface;
+
+namespace {
+
+using Fields = std::vector<double*>;
+using Counts = std::vector<int*>;
+
+Fields figures_of(StepReport& report) {
+    StageTimes& stages = report.stages;
+    Fields fields{&report.time, &report.dt, &report.smallest_dt, &report.largest_dt, &report.residual, &report.smallest_fraction};
+    fields.insert(fields.end(), {&report.smallest_distance, &report.contact_stiffness, &report.largest_strain, &report.travel});
+    fields.insert(fields.end(), {&report.largest_speed, &report.yielded, &report.stretch, &report.cpu_s, &stages.refresh});
+    fields.insert(fields.end(), {&stages.evaluate, &stages.force, &stages.setup, &stages.solve, &stages.cut, &stages.measure});
+    StepEnergy& energy = report.energy;
+    fields.insert(fields.end(), {&energy.kinetic, &energy.gravity, &energy.elastic, &energy.contact, &energy.work});
+    for (const auto entry : ledger_entries) fields.push_back(&(energy.*entry));
+    return fields;
+}
+
+/// In the order of figures_of.
+Fields figures_of(percale_step_report& told) {
+    Fields fields{&told.time, &told.dt, &told.smallest_dt, &told.largest_dt, &told.residual, &told.smallest_fraction};
+    fields.insert(fields.end(), {&told.smallest_distance, &told.contact_stiffness, &told.largest_strain, &told.travel});
+    fields.insert(fields.end(), {&told.largest_speed, &told.yielded, &told.stretch, &told.cpu_s, &told.refresh_s});
+    fields.insert(fields.end(), {&told.evaluate_s, &told.force_s, &told.setup_s, &told.solve_s, &told.cut_s, &told.measure_s});
+    fields.insert(fields.end(), {&told.kinetic, &told.gravity, &told.elastic, &told.contact, &told.work});
+    fields.insert(fields.end(), {&told.dissipated_material, &told.dissipated_friction, &told.dissipated_contact});
+    fields.insert(fields.end(), {&told.dissipated_integrator, &told.residual_work, &told.imbalance});
+    return fields;
+}
+
+Counts counts_of(StepReport& report) {
+    DroppedSpans& dropped = report.dropped;
+    Counts counts{&report.parts, &report.rejected, &report.newton_iterations, &report.linear_iterations};
+    counts.insert(counts.end(), {&report.line_search_cuts, &report.halvings, &dropped.not_converged, &dropped.blocked});
+    counts.insert(counts.end(), {&dropped.not_finite, &dropped.inexact, &report.sleeping_cloths, &report.contacts});
+    counts.insert(counts.end(), {&report.blocked_cloth, &report.blocked_vertex, &report.blocking_obstacle, &report.pinched});
+    counts.insert(counts.end(), {&report.pinching[0], &report.pinching[1], &report.second_obstacle});
+    counts.insert(counts.end(), {&report.stretched_cloth, &report.stretched_pins});
+    return counts;
+}
+
+/// In the order of counts_of.
+Counts counts_of(percale_step_report& told) {
+    Counts counts{&told.parts, &told.rejected, &told.newton_iterations, &told.linear_iterations};
+    counts.insert(counts.end(), {&told.line_search_cuts, &told.halvings, &told.dropped_not_converged, &told.dropped_blocked});
+    counts.insert(counts.end(), {&told.dropped_not_finite, &told.dropped_inexact, &told.sleeping_cloths, &told.contacts});
+    counts.insert(counts.end(), {&told.blocked_cloth, &told.blocked_vertex, &told.blocking_obstacle, &told.pinched});
+    counts.insert(counts.end(), {&told.pinching[0], &told.pinching[1], &told.second_obstacle});
+    counts.insert(counts.end(), {&told.stretched_cloth, &told.stretched_pins});
+    return counts;
+}
+
+}  // namespace
+
+TEST_CASE("A step report in C holds every figure of the one in C++, each in its place") {
+    StepReport from;
+    double figure = 1.5;
+    int count = 1001;
+    for (double* field : figures_of(from)) *field = figure++;
+    for (int* field : counts_of(from)) *field = count++;
+    from.contact_hash = 0x123456789abcdef0;
+    from.linear_solver = LinearSolver::multigrid;
+    from.status = StepStatus::work_limit;
+
+    percale_step_report told = c_report(from);
+    CHECK(told.struct_size == sizeof told);
+    CHECK(told.status == PERCALE_STEP_WORK_LIMIT);
+    CHECK(told.linear_solver == std::string("multigrid"));
+    CHECK(told.contact_hash == from.contact_hash);
+    const Fields figures = figures_of(told);
+    REQUIRE(figures.size() == figures_of(from).size());
+    for (std::size_t i = 0; i < figures.size(); ++i) CHECK(*figures[i] == *figures_of(from)[i]);
+    const Counts counts = counts_of(told);
+    REQUIRE(counts.size() == counts_of(from).size());
+    for (std::size_t i = 0; i < counts.size(); ++i) CHECK(*counts[i] == *counts_of(from)[i]);
+}
+
+TEST_CASE("Each flag of a step report is 1 where it is true, and no other one") {
+    for (bool StepReport::*flag :
+         {&StepReport::slept, &StepReport::stopped, &StepReport::blocked_by_pin, &StepReport::yielded_in_vain}) {
+        StepReport from;
+        from.*flag = true;
+        const percale_step_report told = c_report(from);
+        CHECK(told.slept + told.stopped + told.blocked_by_pin + told.yielded_in_vain == 1);
+        CHECK(told.slept == (flag == &StepReport::slept ? 1 : 0));
+        CHECK(told.stopped == (flag == &StepReport::stopped ? 1 : 0));
+        CHECK(told.blocked_by_pin == (flag == &StepReport::blocked_by_pin ? 1 : 0));
+    }
+}
+
+TEST_CASE("The fault of a start and what repaired it are told by number") {
+    StartFault fault;
+    fault.obstacle = 3;
+    fault.intersecting_pairs = 4;
+    fault.cloth_triangle = 5;
+    fault.obstacle_triangle = 6;
+    fault.other_cloth_triangle = 7;
+    fault.vertices_inside = 8;
+    fault.inside_vertex = 9;
+    const percale_start_fault told = c_start_fault(fault);
+    CHECK(told.obstacle == 3);
+    CHECK(told.intersecting_pairs == 4);
+    CHECK(told.cloth_triangle == 5);
+    CHECK(told.obstacle_triangle == 6);
+    CHECK(told.other_cloth_triangle == 7);
+    CHECK(told.vertices_inside == 8);
+    CHECK(told.inside_vertex == 9);
+    const percale_start_move move = c_start_move({.cloth = 1, .obstacle = 2, .vertices_moved = 3, .largest_move = 0.5});
+    CHECK(move.cloth == 1);
+    CHECK(move.obstacle == 2);
+    CHECK(move.vertices_moved == 3);
+    CHECK(move.largest_move == 0.5);
+}
+
+TEST_CASE("A plan as lines says its scheme, warnings, counts and what is left out") {
+    ScenePlan plan;
+    plan.scheme_word = "tr_bdf2";
+    plan.warnings = {"it may ring"};
+    plan.vertices = 12;
+    plan.pinned_vertices = 2;
+    plan.springs = {.structural = 31, .shear = 32, .bend = 33, .hinge = 34, .seam = 35, .triangle = 36};
+    plan.skipped = {{"wind", "no air"}};
+    const std::string text = plan_lines(plan);
+    for (const char* part :
+         {"scheme: tr_bdf2\n", "warning: it may ring\n", "vertices: 12, 2 pinned\n", "31 structural", "32 shear", "33 bending",
+          "35 of seams", "hinges: 34", "triangles: 36", "left out: wind: no air\n"}) {
+        INFO(part);
+        CHECK(text.find(part) != std::string::npos);
+    }
+}
