@@ -3,6 +3,7 @@
 const diagramKinds = [
   { column: 'energy', label: 'Energy', unit: 'J', scale: 1, missing: 'not measured in this run' },
   { column: 'newton', label: 'Newton iterations of a step', unit: '', scale: 1, fromZero: true },
+  { column: 'linear', label: 'Linear iterations of a step', unit: '', scale: 1, fromZero: true },
   { column: 'contacts', label: 'Contacts', unit: '', scale: 1, fromZero: true },
   { column: 'dt', label: 'Step length', unit: 'ms', scale: 1000, fromZero: true },
   { column: 'smallest_distance', label: 'Smallest distance', unit: 'mm', scale: 1000, fromZero: true, missing: 'cloth never came near' },
@@ -45,7 +46,7 @@ class Diagram {
     const all = this.numbers();
     let low = all.reduce((a, b) => Math.min(a, b)), high = all.reduce((a, b) => Math.max(a, b));
     if (this.kind.fromZero) low = Math.min(0, low);
-    if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low))) high = low + (Math.abs(low) || 1);
+    if (high - low <= 1e-9 * Math.max(Math.abs(high), Math.abs(low))) high = low + (Math.abs(low) || 1);
     return [low, high + 0.06 * (high - low)];
   }
 

@@ -36,7 +36,7 @@ function digits(value, count = 3) {
 }
 
 const withUnit = (value, unit, count) => isNumber(value) ? digits(value, count) + (unit ? '\u00a0' + unit : '') : '–';
-const seconds = value => isNumber(value) && value !== 0 && Math.abs(value) < 0.1 ? withUnit(1e3 * value, 'ms') : withUnit(value, 's', 4);
+const seconds = value => isNumber(value) && value !== 0 && Math.abs(value) < 0.1 ? withUnit(1e3 * value, 'ms') : withUnit(value, 's');
 const metres = value => isNumber(value) && value !== 0 && Math.abs(value) < 0.1 ? withUnit(1e3 * value, 'mm') : withUnit(value, 'm');
 const percent = value => withUnit(100 * value, '%');
 const whole = value => isNumber(value) ? Math.round(value).toLocaleString('en').replace(/,/g, '\u202f') : '–';
@@ -96,14 +96,15 @@ function rampColour(ramp, share, target, place) {
 
 const rampStyle = ramp => 'linear-gradient(90deg,' + ramp.map(colour => 'rgb(' + colour.join(',') + ')').join(',') + ')';
 
-// What is known of the fields that frames and pages have; `scale`: from the file's unit to the shown one.
+// What is known of the fields that frames and pages have. `scale`: from the file's unit to the shown one; `byFrame`: of the run most
+// values say little, as where cloth falls from afar.
 const fieldWords = {
   strain_warp: { label: 'Strain along the warp', unit: '%', scale: 100, both: true },
   strain_weft: { label: 'Strain along the weft', unit: '%', scale: 100, both: true },
   strain_shear: { label: 'Shear', unit: 'rad', scale: 1, both: true },
   edge_change: { label: 'Edge length against frame 0', unit: '%', scale: 100, both: true },
   pressure: { label: 'Contact pressure', unit: 'Pa', scale: 1 },
-  distance: { label: 'Distance to obstacles', unit: 'mm', scale: 1000 },
+  distance: { label: 'Distance to obstacles', unit: 'mm', scale: 1000, byFrame: true },
 };
 
 const fieldWord = name => fieldWords[name] || { label: name, unit: '', scale: 1 };

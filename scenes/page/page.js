@@ -1,4 +1,5 @@
-// Puts the page together. With #test behind its address it also tells, on <body>, what was drawn.
+// Puts the page together. Behind its address may stand what it shows first, #frame=11&colour=distance&view=back, or #test: then it
+// tells on <body> what was drawn.
 
 function noteOf(data, view) {
   const notes = [];
@@ -93,17 +94,23 @@ function start() {
   makeTables(data, goToFrame);
   const diagrams = makeDiagrams(data.steps, clock);
   clock.listeners.push(place => { for (const diagram of diagrams) diagram.setTime(times[place]); });
+  let colourBy = null;
+  const asked = new URLSearchParams(location.hash.slice(1));
   if (view) {
     makeClockText(data, clock);
     makeTransport(clock);
-    makeOptions(view);
+    colourBy = makeOptions(view);
     clock.listeners.push(place => view.show(place));
     listenToKeys(clock, view);
+    if (asked.get('view') in viewDirections) view.look(asked.get('view'));
   }
   byId('view-note').textContent = noteOf(data, view);
   foot(data, view);
   clock.go(clock.last);
-  if (location.hash === '#test') tellTests(view, clock);
+  if (view) colourBy(asked.get('colour'));
+  const frame = data.frames.findIndex(one => String(one.index) === asked.get('frame'));
+  if (frame >= 0) clock.goToTime(data.frames[frame].time);
+  if (asked.has('test')) tellTests(view, clock);
 }
 
 start();

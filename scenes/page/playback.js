@@ -147,7 +147,7 @@ class Colouring {
     this.name = name;
     this.bar.hidden = name === '';
     if (name === '') this.view.paint(null);
-    else this.setRange(this.wholeRange(name));
+    else this.setRange(fieldWord(name).byFrame ? this.frameRange(name) : this.wholeRange(name));
   }
 
   setRange([low, high]) {
@@ -178,6 +178,7 @@ class Colouring {
   }
 }
 
+/** Returns what chooses a field to colour by, by its name. */
 function makeOptions(view) {
   const names = [...new Set([].concat(...view.meshes.map(mesh => [...mesh.fields.keys()])))];
   const colouring = new Colouring(view, byId('colour-bar'));
@@ -199,5 +200,9 @@ function makeOptions(view) {
     make('span', { class: 'group', role: 'group', 'aria-label': 'View from' }, Object.keys(viewDirections).map(look)),
     make('div', { class: 'meshes', role: 'group', 'aria-label': 'Shown meshes' },
       view.meshes.map(mesh => tick(mesh.name, true, on => view.setVisible(mesh, on), mesh.colour))));
-  return colouring;
+  return name => {
+    if (!names.includes(name)) return;
+    choice.value = name;
+    colouring.choose(name);
+  };
 }

@@ -70,7 +70,7 @@ class ShownMesh {
       const material = part.material, wanted = field ? THREE.VertexColors : THREE.NoColors;
       if (material.vertexColors !== wanted) material.needsUpdate = true;
       material.vertexColors = wanted;
-      material.color.set(field ? '#ffffff' : this.colour);
+      material.color.set(field ? '#dedede' : this.colour);
       if (part === this.back) material.color.multiplyScalar(field ? 0.86 : 0.62);
     }
     if (field && this.place >= 0) this.paintVertices(field, colouring);
@@ -136,9 +136,9 @@ class SceneView {
     this.scene = new THREE.Scene();
     for (const mesh of this.meshes) this.scene.add(mesh.group);
     this.findFocus();
+    this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 100);
     this.addLights();
     this.addGround();
-    this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 100);
     this.controls = new THREE.OrbitControls(this.camera, canvas);
     this.controls.enableKeys = false;
     this.controls.enableZoom = false;  // until the picture is clicked: before that the wheel moves the page
@@ -172,8 +172,8 @@ class SceneView {
 
   addLights() {
     const reach = this.radius;
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x9a98a4, 0.72));
-    this.sun = new THREE.DirectionalLight(0xffffff, 0.5);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x9a98a4, 0.58));
+    this.sun = new THREE.DirectionalLight(0xffffff, 0.46);
     this.sun.position.copy(this.centre).add(new THREE.Vector3(-0.9, 2.2, 1.5).multiplyScalar(reach));
     this.sun.target.position.copy(this.centre);
     this.sun.castShadow = true;
@@ -182,7 +182,12 @@ class SceneView {
     this.sun.shadow.radius = 3;
     Object.assign(this.sun.shadow.camera,
       { left: -1.3 * reach, right: 1.3 * reach, top: 1.3 * reach, bottom: -1.3 * reach, near: 0.5 * reach, far: 5.5 * reach });
-    this.scene.add(this.sun, this.sun.target);
+    // A weak light from where the camera is: what faces the viewer is never dark.
+    const beside = new THREE.DirectionalLight(0xffffff, 0.24);
+    this.camera.add(beside, beside.target);
+    beside.position.set(0, 0, 0);
+    beside.target.position.set(0, 0, -1);
+    this.scene.add(this.sun, this.sun.target, this.camera);
   }
 
   addGround() {

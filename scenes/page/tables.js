@@ -19,6 +19,9 @@ function tiles(entries) {
 
 function folded(title, content, open) { return make('details', { open: Boolean(open) }, make('summary', {}, title), content); }
 
+/** A key of which a narrow column may break off parts. */
+const breakable = text => String(text).split(/(?<=[_.])/).flatMap((part, i) => i > 0 ? [make('wbr'), part] : [part]);
+
 // Units of what [expect] judges.
 const measureUnits = { deepest_penetration: metres, smallest_distance: metres, lowest_vertex: metres, matches: metres,
   largest_strain: percent, speed_at_end: value => withUnit(value, 'm/s'), rms_speed_at_end: value => withUnit(value, 'm/s'),
@@ -55,7 +58,7 @@ function expectations(report) {
   if (all.length === 0) return card('Expectations', make('p', { class: 'quiet' }, 'The scene expects nothing.'));
   return card('Expectations', table(
     [{ title: 'measure' }, { title: 'value', number: true }, { title: 'limit', number: true }, { title: '' }],
-    all.map(one => [String(one.measure), measureText(one.measure, one.value), String(one.limit),
+    all.map(one => [breakable(one.measure), measureText(one.measure, one.value), String(one.limit),
       one.passed === true ? badge('passed', 'good') : badge('failed', 'bad')])));
 }
 
@@ -82,9 +85,6 @@ function warnings(report) {
   const texts = listOf(report.warnings);
   return texts.length === 0 ? null : card('Warnings', make('ul', { class: 'plain' }, texts.map(text => make('li', {}, String(text)))));
 }
-
-const stageWords = { refresh: 'contact search', evaluate: 'contact and state of a stage', force: 'forces and matrix', setup: 'preconditioner or factor',
-  solve: 'linear solves', cut: 'cutting moves short of crossing', measure: 'measuring' };
 
 function costs(report) {
   if (!isObject(report.stages)) return null;
@@ -158,7 +158,7 @@ function settingRows(value, key) {
   if (Array.isArray(value) && value.some(isObject))
     return [].concat(...value.map((part, i) => settingRows(part, key + '.' + (isObject(part) && typeof part.name === 'string' ? part.name : i))));
   const text = JSON.stringify(value);
-  return [[key, text.length > 160 ? text.slice(0, 160) + ' … (' + listOf(value).length + ' entries)' : text]];
+  return [[breakable(key), text.length > 160 ? text.slice(0, 160) + ' … (' + listOf(value).length + ' entries)' : text]];
 }
 
 function settings(report) {
