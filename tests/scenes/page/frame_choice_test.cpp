@@ -1,0 +1,48 @@
+#include "scenes/page/frame_choice.h"
+
+#include <algorithm>
+
+#include "tests/support/catch.h"
+
+namespace percale::scenes::test {
+
+TEST_CASE("All frames are shown where they fit to the byte") {
+    const FrameChoice choice = choose_frames(5, -1, 100, 10, 150);
+    CHECK(choice.every == 1);
+    CHECK(choice.shown == std::vector<int>{0, 1, 2, 3, 4});
+    CHECK(choose_frames(5, -1, 100, 10, 149).every == 2);
+}
+
+TEST_CASE("Of more frames every nth is shown, and the last and the worst") {
+    const FrameChoice choice = choose_frames(11, 5, 0, 10, 60);
+    CHECK(choice.every == 3);
+    CHECK(choice.shown == std::vector<int>{0, 3, 5, 6, 9, 10});
+}
+
+TEST_CASE("No smaller n would have fitted, whatever the sizes") {
+    for (int frames = 1; frames < 40; ++frames) {
+        for (std::size_t most = 20; most < 500; most += 7) {
+            const FrameChoice choice = choose_frames(frames, frames / 3, 3, 10, most);
+            if (choice.shown.empty()) {
+                CHECK(3 + 10 * std::min(frames, 2) > static_cast<int>(most) - 10);
+                continue;
+            }
+            CHECK(3 + 10 * choice.shown.size() <= most);
+            CHECK(choice.shown.front() == 0);
+            CHECK(choice.shown.back() == frames - 1);
+            CHECK(std::ranges::count(choice.shown, frames / 3) == 1);
+            if (choice.every > 1) {
+                int before = 0;
+                for (int i = 0; i < frames; ++i) before += i % (choice.every - 1) == 0 || i == frames - 1 || i == frames / 3;
+                CHECK(3 + 10 * before > static_cast<int>(most));
+            }
+        }
+    }
+}
+
+TEST_CASE("Where not even the first and the last frame fit none is shown") {
+    CHECK(choose_frames(100, -1, 50, 30, 100).shown.empty());
+    CHECK(choose_frames(100, -1, 50, 25, 100).shown == std::vector<int>{0, 99});
+}
+
+}  // namespace percale::scenes::test
