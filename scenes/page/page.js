@@ -55,10 +55,12 @@ function foot(data, view) {
   byId('foot').textContent = parts.join(' ');
 }
 
-/** For tests: two frames differ, and playing moves time. */
+/** For tests: whether two frames differ, whether playing moves time, and by how many pixels the page is too wide. */
 function tellTests(view, clock) {
   const facts = document.body.dataset;
   facts.errors = '0';
+  facts.width = String(document.documentElement.clientWidth);
+  facts.overflow = String(Math.max(0, document.documentElement.scrollWidth - document.documentElement.clientWidth));
   window.addEventListener('error', () => { facts.errors = String(Number(facts.errors) + 1); });
   if (!view) {
     facts.done = 'no view';
@@ -78,6 +80,8 @@ function tellTests(view, clock) {
     clock.pause();
     facts.playedTo = String(clock.place);
     facts.done = 'yes';
+    // A page in a frame tells whoever put it there.
+    if (parent !== window) parent.postMessage({ ...facts }, '*');
   }, 20);
 }
 

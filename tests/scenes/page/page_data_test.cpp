@@ -10,7 +10,9 @@ namespace percale::scenes::test {
 using nlohmann::json;
 
 TEST_CASE("Meshes have the names of the settings, or of their files where the settings do not tell") {
-    const FrameRecord first{.cloths = {"frames/a_00000.obj", "frames/b_00000.obj"}, .obstacles = {"obstacles/c_00000.obj"}};
+    FrameRecord first;
+    first.cloths = {"frames/a_00000.obj", "frames/b_00000.obj"};
+    first.obstacles = {"obstacles/c_00000.obj"};
     const RunCast told =
         cast_of_report(R"({"settings": {"cloth": [{"name": "A"}, {"name": "B"}], "obstacle": [{"name": "C"}]}})", first);
     CHECK(told.cloths == std::vector<std::string>{"A", "B"});
@@ -44,15 +46,16 @@ TEST_CASE("The data of a page holds the report without files and stitches, and n
     data.records[1].index = 1;
     data.records[1].time = 0.5;
     data.records[1].check.smallest_distance = 0.25;
-    data.steps = {.steps = 4,
-                  .every = 2,
-                  .time = {0.1, 0.2},
-                  .columns = {{"newton", {1, 2}, {3, std::numeric_limits<double>::quiet_NaN()}}}};
+    data.steps.steps = 4;
+    data.steps.every = 2;
+    data.steps.time = {0.1, 0.2};
+    data.steps.columns = {{"newton", {1, 2}, {3, std::numeric_limits<double>::quiet_NaN()}}};
     data.playback.choice = {.every = 1, .shown = {0, 1}};
     PlaybackMesh mesh;
     mesh.name = "<script>";
     mesh.vertices = 3;
-    mesh.fields.push_back({.name = "pressure", .values = "AAAA"});
+    mesh.fields.resize(1);
+    mesh.fields[0].values = "AAAA";
     data.playback.meshes = {mesh};
     const json page = json::parse(page_json(data));
     CHECK(page["report"] == json::parse(R"({"status": "finished", "seams": [{"name": "s", "stitches": 2}]})"));
