@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-// The files that a page is made of, as the build puts them into the library (embed.cmake).
+// The files that a page is made of, as the build puts them into the library (browser/embed.cmake).
 namespace percale::scenes {
 
 std::string_view page_template();

@@ -27,7 +27,7 @@ struct StepTableText {
     std::string file;
 };
 
-std::size_t place_of(const std::vector<std::string>& header, const std::string& name, const std::string& file) {
+std::size_t place_of_column(const std::vector<std::string>& header, const std::string& name, const std::string& file) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end()) throw SceneError(file + ":1: is no table of steps: it has no column '" + name + "'");
     return static_cast<std::size_t>(found - header.begin());
@@ -39,8 +39,8 @@ StepTableText read_step_table(const std::string& file) {
     std::string line;
     if (!in || !std::getline(in, line)) throw SceneError(file + ": cannot be read; a folder written by `percale run` holds it");
     const std::vector<std::string> header = csv_cells(line);
-    table.places = {header.size(), place_of(header, "time", file), place_of(header, "status", file), {}};
-    for (const char* name : shown_columns) table.places.shown.push_back(place_of(header, name, file));
+    table.places = {header.size(), place_of_column(header, "time", file), place_of_column(header, "status", file), {}};
+    for (const char* name : shown_columns) table.places.shown.push_back(place_of_column(header, name, file));
     while (std::getline(in, line)) {
         table.lines.push_back(csv_cells(line));
         if (table.lines.back().size() != header.size())

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Opens the page of a run in a browser: report_page.py PERCALE SCENE [-o FOLDER] [--browser PROGRAM]
 
-Runs SCENE for a short while with --report and opens the page in headless Chromium, whose WebGL is computed by the CPU. Wide and narrow,
-light and dark, no line on the console is allowed, nothing may be wider than the window, the picture must show something, two frames
-must differ, and playing must move time. Then a page without frames whose title is markup, and a browser without WebGL: both must show
-their tables. A page that was broken on purpose must be found out. Without Chromium nothing is tested (exit code 77). -o keeps pages
-and screenshots. Exit code 1 if anything was not as it should be.
+Runs SCENE (its cloth a poncho, its obstacle a mannequin) for a short while with --report and opens the page in headless Chromium, whose
+WebGL is computed by the CPU. Wide and narrow, light and dark, no line on the console is allowed, nothing may be wider than the window,
+the picture must show something, two frames must differ, and playing must move time. Keys, slider, diagrams, the worst frame and colours
+must do what they say. A page without frames whose title is markup and a browser without WebGL must show their tables. A page that was
+broken on purpose must be found out. Without Chromium or pages nothing is tested (exit code 77). -o keeps pages and screenshots. Exit
+code 1 if anything was not as it should be.
 """
 import argparse
 import html.parser
+import json
 import os
 import re
 import shutil
@@ -29,6 +31,39 @@ MARKUP = '<img src=x onerror=document.body.dataset.ran=1><script>document.body.d
 FRAME = '''<!DOCTYPE html><body><script>
 addEventListener('message', event => Object.assign(document.body.dataset, event.data));
 </script><iframe src="%s#test" style="border:0;width:%dpx;height:%dpx"></iframe>'''
+
+# What a visitor does, and where the page is after it; the last frame is 9.
+USE = r'''<script>
+setTimeout(() => {
+  const find = words => [...document.querySelectorAll('button, label')].find(one => one.textContent.trim() === words);
+  const told = {}, clock = () => Number(document.getElementById('clock').textContent.match(/frame (\d+)/)[1]);
+  const press = (key, more) => document.body.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true, ...more }));
+  told.start = clock();
+  press('ArrowLeft'); told.left = clock();
+  press('Home'); told.home = clock();
+  press('ArrowRight'); told.right = clock();
+  const slider = document.querySelector('input[type=range]');
+  slider.value = 6; slider.dispatchEvent(new Event('input')); told.slider = clock();
+  const svg = document.querySelector('.diagram svg'), box = svg.getBoundingClientRect();
+  svg.dispatchEvent(new MouseEvent('click', { clientX: box.right, clientY: box.top + 20 })); told.diagram = clock();
+  find('frame WORST').click(); told.worst = clock();
+  const choice = document.getElementById('colour-choice'), ramps = [];
+  for (const option of choice.options) {
+    choice.value = option.value; choice.dispatchEvent(new Event('change'));
+    const bar = document.getElementById('colour-bar');
+    ramps.push(bar.hidden ? '' : bar.querySelector('input').value + ' ' + bar.querySelector('input:last-child').value);
+  }
+  told.ramps = ramps;
+  for (const words of ['wireframe', 'shadows', 'grid', 'poncho', 'mannequin']) find(words).querySelector('input').click();
+  for (const words of ['back', 'side', 'top']) find(words).click();
+  for (const one of document.querySelectorAll('details')) one.open = true;
+  const canvas = document.getElementById('canvas');
+  canvas.focus();
+  for (const key of ['ArrowLeft', 'ArrowUp', '+']) canvas.dispatchEvent(new KeyboardEvent('keydown', { key, shiftKey: true, bubbles: true, cancelable: true }));
+  told.still = clock();
+  document.body.dataset.use = JSON.stringify(told);
+}, 500);
+</script>'''
 
 
 class Body(html.parser.HTMLParser):
@@ -133,6 +168,22 @@ def check_without_view(faults, browser, page, what, words, *options):
     return console
 
 
+def check_use(faults, browser, page):
+    worst = json.loads((page.parent / 'report.json').read_text())['worst_frame']
+    used = page.with_name('used.html')
+    used.write_text(page.read_text().replace('</body>', USE.replace('WORST', str(worst)) + '</body>'))
+    text, console = browser.call(used.as_uri(), WIDE, '--dump-dom')
+    used.unlink()
+    told = json.loads(Body(text).facts.get('use', '{}'))
+    ramps = told.pop('ramps', [])
+    wanted = {'start': 9, 'left': 8, 'home': 0, 'right': 1, 'slider': 6, 'diagram': 9, 'worst': worst, 'still': worst}
+    faults.expect(not console, f'used: the console says {console[:3]}')
+    faults.expect(told == wanted, f'used: {told}, not {wanted}')
+    faults.expect(len(ramps) == 3 and ramps[0] == '' and all(float(ramp.split()[0]) < float(ramp.split()[1]) for ramp in ramps[1:]),
+                  f'used: colours from {ramps}')
+    print(f'used: {told}, colours {ramps}')
+
+
 def check_broken(faults, browser, page):
     """What looks for faults must see one."""
     broken = page.with_name('broken.html')
@@ -157,6 +208,7 @@ def check(percale, scene, browser, folder):
     console = check_without_view(faults, browser, titled, 'markup as title', MARKUP.replace('  ', ' '))
     faults.expect(not console, f'markup as title: the console says {console[:3]}')
     check_without_view(faults, browser, page, 'without WebGL', 'offers no WebGL', '--disable-3d-apis')
+    check_use(faults, browser, page)
     check_broken(faults, browser, page)
     return faults
 

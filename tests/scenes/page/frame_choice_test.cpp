@@ -19,25 +19,35 @@ TEST_CASE("Of more frames every nth is shown, and the last and the worst") {
     CHECK(choice.shown == std::vector<int>{0, 3, 5, 6, 9, 10});
 }
 
-TEST_CASE("No smaller n would have fitted, whatever the sizes") {
-    for (int frames = 1; frames < 40; ++frames) {
-        for (std::size_t most = 20; most < 500; most += 7) {
-            const FrameChoice choice = choose_frames(frames, frames / 3, 3, 10, most);
-            if (choice.shown.empty()) {
-                CHECK(3 + 10 * std::min(frames, 2) > static_cast<int>(most) - 10);
-                continue;
-            }
-            CHECK(3 + 10 * choice.shown.size() <= most);
-            CHECK(choice.shown.front() == 0);
-            CHECK(choice.shown.back() == frames - 1);
-            CHECK(std::ranges::count(choice.shown, frames / 3) == 1);
-            if (choice.every > 1) {
-                int before = 0;
-                for (int i = 0; i < frames; ++i) before += i % (choice.every - 1) == 0 || i == frames - 1 || i == frames / 3;
-                CHECK(3 + 10 * before > static_cast<int>(most));
-            }
-        }
+namespace {
+
+/// How many frames a smaller n would have shown.
+std::size_t shown_with(int frames, int worst, int every) {
+    std::size_t count = 0;
+    for (int i = 0; i < frames; ++i) count += i % every == 0 || i == frames - 1 || i == worst ? 1 : 0;
+    return count;
+}
+
+void check_choice(int frames, std::size_t most) {
+    const int worst = frames / 3;
+    const FrameChoice choice = choose_frames(frames, worst, 3, 10, most);
+    if (choice.shown.empty()) {
+        CHECK(3 + 10 * shown_with(frames, worst, frames) > most);
+        return;
     }
+    CHECK(3 + 10 * choice.shown.size() <= most);
+    CHECK(choice.shown.size() == shown_with(frames, worst, choice.every));
+    CHECK(choice.shown.front() == 0);
+    CHECK(choice.shown.back() == frames - 1);
+    CHECK(std::ranges::count(choice.shown, worst) == 1);
+    if (choice.every > 1) CHECK(3 + 10 * shown_with(frames, worst, choice.every - 1) > most);
+}
+
+}  // namespace
+
+TEST_CASE("No smaller n would have fitted, whatever the sizes") {
+    for (int frames = 1; frames < 40; ++frames)
+        for (std::size_t most = 20; most < 500; most += 7) check_choice(frames, most);
 }
 
 TEST_CASE("Where not even the first and the last frame fit none is shown") {

@@ -1,4 +1,4 @@
-# Writes a source that holds files as text: cmake -D OUT=x.cpp -D ROOM=scenes/page "-DTHREE=THREE.JS;CONTROLS.JS" -P embed.cmake
+# Writes a source that holds files as text: cmake -D OUT=x.cpp -D FOLDER=scenes/page/browser "-DTHREE=THREE.JS;CONTROLS.JS" -P embed.cmake
 # THREE may be empty. A raw string keeps every byte; no file may hold its end.
 set(scripts format.js scene_view.js playback.js diagrams.js tables.js page.js)
 
@@ -25,11 +25,11 @@ if(THREE)
   list(GET THREE 1 controls)
 endif()
 file(WRITE "${OUT}" "#include \"page/page_parts.h\"\n\nnamespace percale::scenes {\n")
-append_file(page_template "${ROOM}/page.html")
-append_file(page_style "${ROOM}/page.css")
+append_file(page_template "${FOLDER}/page.html")
+append_file(page_style "${FOLDER}/page.css")
 set(all "")
 foreach(script ${scripts})
-  file(READ "${ROOM}/${script}" content)
+  file(READ "${FOLDER}/${script}" content)
   string(APPEND all "${content}")
 endforeach()
 append_text(page_script "${all}")
