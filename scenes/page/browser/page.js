@@ -9,7 +9,7 @@ function noteOf(data, view) {
   }
   if (data.every > 1)
     notes.push('Every ' + data.every + ordinal(data.every) + ' frame of ' + data.frames.length + ' is shown, and the last and the worst, to keep this file small.');
-  if (data.rounding > 0) notes.push('Shown positions are rounded to ' + withUnit(1e6 * data.rounding, 'µm', 2) + '.');
+  if (data.rounding > 0) notes.push('Shown positions are rounded to ' + (data.rounding < 1e-4 ? withUnit(1e6 * data.rounding, 'µm', 2) : metres(data.rounding)) + '.');
   return notes.join(' ');
 }
 

@@ -71,7 +71,7 @@ class ShownMesh {
       if (material.vertexColors !== wanted) material.needsUpdate = true;
       material.vertexColors = wanted;
       material.color.set(field ? '#dedede' : this.colour);
-      if (part === this.back) material.color.multiplyScalar(field ? 0.86 : 0.62);
+      if (part === this.back) material.color.multiplyScalar(field ? 0.86 : 0.72);
     }
     if (field && this.place >= 0) this.paintVertices(field, colouring);
   }

@@ -34,10 +34,18 @@ function headBadges(report) {
   const all = listOf(report.expectations), passed = all.filter(one => one.passed === true).length;
   const badges = [badge(atRest ? status + ', at rest' : status, status === 'finished' ? 'good' : status === 'failed' ? 'bad' : 'warn')];
   if (all.length > 0) badges.push(badge(passed + ' of ' + all.length + ' expectations passed', passed === all.length ? 'good' : 'bad'));
-  badges.push(isClean(report) ? badge('no crossing', 'good') : badge('certificate not clean', 'bad'));
+  if (!isClean(report)) badges.push(badge('certificate not clean', 'bad'));
+  else if (hasContact(report)) badges.push(badge('no crossing', 'good'));
   const warnings = listOf(report.warnings).length;
   if (warnings > 0) badges.push(badge(counted(warnings, 'warning'), 'warn'));
   return badges;
+}
+
+/** Whether there was anything that cloth could have crossed. */
+function hasContact(report) {
+  const { fabric, pair } = isObject(report.settings) ? report.settings : {};
+  const meets = isObject(fabric) && Object.values(fabric).some(one => isObject(one) && one.self_contact === true);
+  return listOf(report.obstacles).length > 0 || listOf(pair).length > 0 || meets;
 }
 
 const isClean = report => report.intersections === 0 && report.deepest_penetration === 0;
@@ -64,6 +72,8 @@ function expectations(report) {
 
 function certificate(data, goToFrame) {
   const report = data.report, worst = report.worst_frame, every = report.step_certificate;
+  if (isClean(report) && !hasContact(report))
+    return card('Certificate', make('p', { class: 'quiet' }, 'There is nothing to test against: no obstacle, and no cloth that meets cloth.'));
   const link = isNumber(worst) ? make('button', { type: 'button', class: 'link', onclick: () => goToFrame(worst) }, 'frame ' + worst) : 'none was near';
   const result = make('section', { class: 'card certificate' }, make('h2', {}, 'Certificate'),
     make('p', {}, isClean(report) ? badge('clean', 'good') : badge('not clean', 'bad'),
@@ -169,7 +179,9 @@ function settings(report) {
 function makeTables(data, goToFrame) {
   const report = data.report;
   byId('title').textContent = report.title || document.title;
-  byId('scene').textContent = [report.scene, report.reason].filter(text => typeof text === 'string' && text !== '').join(' — ');
+  byId('scene').textContent = typeof report.scene === 'string' ? report.scene : '';
+  if (typeof report.reason === 'string' && report.reason !== '')
+    document.querySelector('.name').append(make('p', { class: 'reason' + (report.status === 'failed' ? ' failed' : '') }, report.reason));
   byId('badges').append(...headBadges(report));
   byId('side').append(figures(report), expectations(report), certificate(data, goToFrame));
   const clothNames = isObject(report.settings) ? listOf(report.settings.cloth).map(cloth => cloth.name) : [];
