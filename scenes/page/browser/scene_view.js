@@ -117,7 +117,7 @@ function addNormals(x, corners, normals) {
     }
   }
   for (let i = 0; i < normals.length; i += 3) {
-    const length = Math.hypot(normals[i], normals[i + 1], normals[i + 2]) || 1;
+    const length = Math.sqrt(normals[i] ** 2 + normals[i + 1] ** 2 + normals[i + 2] ** 2) || 1;
     for (let k = 0; k < 3; ++k) normals[i + k] /= length;
   }
 }
