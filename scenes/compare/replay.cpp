@@ -6,21 +6,11 @@
 
 #include "common/whole_file.h"
 #include "percale/error.h"
+#include "report/csv.h"
 
 namespace percale::scenes {
 
 namespace {
-
-std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells(1);
-    for (const char letter : line) {
-        if (letter == ',')
-            cells.emplace_back();
-        else
-            cells.back() += letter;
-    }
-    return cells;
-}
 
 /// Where a column stands.
 std::size_t column(const std::vector<std::string>& header, const std::string& name, const std::string& file) {
@@ -43,14 +33,14 @@ std::vector<StepHashes> read_step_hashes(const std::string& run) {
     std::ifstream in(file);
     std::string line;
     if (!in || !std::getline(in, line)) throw SceneError(file + ": cannot be read; `percale run --replay-hash` writes it");
-    const std::vector<std::string> header = cells_of(line);
+    const std::vector<std::string> header = csv_cells(line);
     const std::size_t time = column(header, "time", file), status = column(header, "status", file),
                       contacts = column(header, "contact_hash", file), state = column(header, "state_hash", file);
     std::vector<StepHashes> steps;
     while (std::getline(in, line)) {
         // The last line of a run that was killed may be cut off.
         if (in.eof()) break;
-        const std::vector<std::string> cells = cells_of(line);
+        const std::vector<std::string> cells = csv_cells(line);
         const std::string place = file + ":" + std::to_string(steps.size() + 2);
         if (cells.size() != header.size())
             throw SceneError(place + ": has " + std::to_string(cells.size()) + " columns, not " + std::to_string(header.size()));

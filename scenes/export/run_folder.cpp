@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "percale/error.h"
@@ -16,6 +17,13 @@ void remove_file(const fs::path& path) {
     std::error_code error;
     fs::remove(path, error);
     if (error) throw SceneError(path.string() + ": cannot be replaced: " + error.message());
+}
+
+/// The page of an earlier run, which would tell of frames that are gone; not what somebody else put there under its name.
+void remove_page(const std::string& folder) {
+    std::string start(page_mark.size(), ' ');
+    std::ifstream in(page_in(folder), std::ios::binary);
+    if (in.read(start.data(), static_cast<std::streamsize>(start.size())) && start == page_mark) remove_file(page_in(folder));
 }
 
 std::vector<std::string> listed_files(const std::vector<FrameRecord>& frames) {
@@ -35,6 +43,7 @@ void remove_earlier_run(const std::string& folder, const FrameWriter& writer) {
     } catch (const SceneError& error) {
         throw SceneError(std::string(error.what()) + "; name another folder with -o");
     }
+    remove_page(folder);
     remove_file(report);
     remove_file(fs::path(folder) / "steps.csv");
     for (const std::string& file : listed_files(frames))
@@ -75,6 +84,8 @@ std::vector<std::string> files_of(const FolderState& state, const std::string& f
 
 }  // namespace
 
+std::string page_in(const std::string& folder) { return folder + "/report.html"; }
+
 RunFolder::RunFolder(const std::string& folder, const Scene& scene, bool with_state_hash, std::span<const FrameFormat> formats)
     : folder_(folder), with_state_hash_(with_state_hash), writer_(folder, scene, formats) {}
 
@@ -104,6 +115,7 @@ void RunFolder::begin_from(const FolderState& state, const std::string& other) {
         if (!here) writer_.files().copy(other, file);
     }
     for (const GrownFile& file : state.grown) writer_.files().go_on(other, file, here);
+    remove_page(folder_);
     for (const char* name : {"report.json", "steps.csv"}) remove_file(fs::path(folder_) / name);
     for (const char* name : {"report.json", checkpoint_name}) remove_leftover(folder_, name);
     writer_.remove_from(static_cast<int>(state.frames.size()));

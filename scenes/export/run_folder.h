@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/whole_file.h"
@@ -22,6 +23,10 @@ struct FolderState {
 /// The name of the checkpoint in a run's folder.
 constexpr const char* checkpoint_name = "checkpoint.percale";
 
+/// The page of a run where nothing else is asked for, and what pages begin with.
+std::string page_in(const std::string& folder);
+constexpr std::string_view page_mark = "<!DOCTYPE html><!-- the page of a run, by percale -->";
+
 /// What a run leaves in its folder: frames, steps.csv, report.json. Without `finish` (a file could not be written) none of these
 /// files stays, but for what a checkpoint needs (`keep`), nor a new folder with nothing in it.
 class RunFolder {
@@ -35,7 +40,7 @@ public:
     RunFolder& operator=(const RunFolder&) = delete;
 
     /// Makes the folder, or takes what an earlier run's report lists out of it (report.json first: until `finish` there is
-    /// none). Throws SceneError if that is not possible.
+    /// none), and its page. Throws SceneError if that is not possible.
     void begin();
     /// Goes on where another run left its folder, which may be this one; frames and steps are copied from others. Throws
     /// SceneError if what belongs to the state is not there.

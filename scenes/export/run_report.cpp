@@ -330,4 +330,11 @@ std::vector<ClothStitches> read_seam_records(const std::string& folder) {
     });
 }
 
+std::string read_report_text(const std::string& folder) {
+    return read_report(folder, [](const ordered_json& json) {
+        for (const ordered_json& frame : json.at("frames")) frame_record(frame);
+        return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    });
+}
+
 }  // namespace percale::scenes

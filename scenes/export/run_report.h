@@ -20,5 +20,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
 std::vector<FrameRecord> read_frame_records(const std::string& folder);
 /// The seams that it lists, likewise.
 std::vector<ClothStitches> read_seam_records(const std::string& folder);
+/// All of it, in a line. Throws likewise.
+std::string read_report_text(const std::string& folder);
 
 }  // namespace percale::scenes

@@ -41,15 +41,6 @@ void add_strain(const DressedCloth& cloth, MeshFields& fields) {
     for (MeshField* field : {&warp, &weft, &shear}) fields.triangle.push_back(std::move(*field));
 }
 
-std::vector<double> nearest_obstacle(const DressedCloth& cloth) {
-    std::vector<double> nearest(cloth.now.vertices.size(), std::numeric_limits<double>::infinity());
-    for (const TriangleMesh& obstacle : cloth.obstacles) {
-        const std::vector<double> distances = surface_distances(obstacle, cloth.now.vertices);
-        for (std::size_t v = 0; v < nearest.size(); ++v) nearest[v] = std::min(nearest[v], distances[v]);
-    }
-    return nearest;
-}
-
 }  // namespace
 
 std::string fit_words_meaning() {
@@ -67,12 +58,21 @@ std::vector<double> contact_pressure(const TriangleMesh& now, std::span<const Co
     return pressure;
 }
 
+std::vector<double> obstacle_distances(std::span<const Vec3> points, std::span<const TriangleMesh> obstacles) {
+    std::vector<double> nearest(points.size(), std::numeric_limits<double>::infinity());
+    for (const TriangleMesh& obstacle : obstacles) {
+        const std::vector<double> distances = surface_distances(obstacle, points);
+        for (std::size_t v = 0; v < nearest.size(); ++v) nearest[v] = std::min(nearest[v], distances[v]);
+    }
+    return nearest;
+}
+
 MeshFields fit_fields(const DressedCloth& cloth, std::span<const std::string> words) {
     MeshFields fields;
     for (const std::string& word : words) {
         if (word == "strain") add_strain(cloth, fields);
         if (word == "pressure") fields.vertex.push_back({word, contact_pressure(cloth.now, cloth.loads)});
-        if (word == "distance") fields.vertex.push_back({word, nearest_obstacle(cloth)});
+        if (word == "distance") fields.vertex.push_back({word, obstacle_distances(cloth.now.vertices, cloth.obstacles)});
     }
     return fields;
 }

@@ -31,9 +31,11 @@ struct DressedCloth {
 /// (vertex_areas).
 std::vector<double> contact_pressure(const TriangleMesh& now, std::span<const ContactLoad> loads);
 
+/// m, of each point, to the nearest obstacle, with a minus inside a closed one; infinity without obstacles. World coordinates.
+std::vector<double> obstacle_distances(std::span<const Vec3> points, std::span<const TriangleMesh> obstacles);
+
 /// The fields of these words. strain: strain_warp, strain_weft, strain_shear (TriangleStrain) of triangles, and of vertices as
-/// their mean by rest area; pressure: Pa, of vertices; distance: m, of vertices, to the nearest obstacle, with a minus inside a
-/// closed one, infinity without obstacles.
+/// their mean by rest area; pressure: Pa, of vertices; distance: of vertices, obstacle_distances.
 MeshFields fit_fields(const DressedCloth& cloth, std::span<const std::string> words);
 
 /// Where the values of a field lie, sorted.

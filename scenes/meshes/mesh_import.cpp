@@ -72,7 +72,7 @@ std::optional<TriangleMesh> read_own(const std::string& format, const std::strin
     const bool has_parts = format != ".off" && format != ".ply" && format != ".stl";
     if (!part.empty() && !has_parts) throw SceneError(file, "has no objects or groups, so none named '" + part + "'");
     if (format == ".off") return read_with(read_off, file);
-    if (format == ".ply") return read_with(read_ply, file);
+    if (format == ".ply") return read_with([](std::istream& in, const std::string& name) { return read_ply(in, name); }, file);
     return std::nullopt;
 }
 
@@ -109,6 +109,19 @@ TriangleMesh import_mesh(const std::string& file, double unit, std::vector<std::
     TriangleMesh mesh = own ? std::move(*own) : read_with_assimp(file, warnings, part);
     if (mesh.triangles.empty()) throw SceneError(file, "no triangles");
     for (std::size_t k = 0; k < mesh.vertices.size(); ++k) check_finite(mesh.vertices[k] *= unit, k, file);
+    return mesh;
+}
+
+TriangleMesh import_mesh_with_fields(const std::string& file, std::vector<MeshField>& fields) {
+    fields.clear();
+    check_mesh_file(file);
+    const std::string format = format_of(file);
+    if (format != ".ply") {
+        if (format != ".obj") throw SceneError(file, "is neither PLY nor OBJ");
+        return import_mesh(file);
+    }
+    TriangleMesh mesh = read_with([&](std::istream& in, const std::string& name) { return read_ply(in, name, &fields); }, file);
+    if (mesh.triangles.empty()) throw SceneError(file, "no triangles");
     return mesh;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "meshes/mesh_fields.h"
 #include "meshes/obj_file.h"
 #include "percale/mesh.h"
 
@@ -24,6 +26,10 @@ bool is_mesh_file(const std::string& file);
 /// its own vertices; "": all.
 TriangleMesh import_mesh(const std::string& file, double unit = 1.0, std::vector<std::string>* warnings = nullptr,
                          const std::string& part = {});
+
+/// A mesh and what its file says of its vertices besides where they are: the real properties of a PLY file, of an OBJ file none.
+/// Throws SceneError as import_mesh does, and for another format.
+TriangleMesh import_mesh_with_fields(const std::string& file, std::vector<MeshField>& fields);
 
 /// A mesh with its texture coordinates, which OBJ files have (vt); vertices times `unit`. Throws SceneError as import_mesh does,
 /// and for another format.

@@ -1,6 +1,7 @@
 #include "meshes/ply_file.h"
 
 #include <bit>
+#include <charconv>
 #include <cstdint>
 #include <istream>
 #include <iterator>
@@ -26,8 +27,11 @@ struct PlyProperty {
     PlyType item;
     PlyType length;      // of a list; 0 bytes: no list
     int role = no_role;  // 0, 1, 2: x, y, z of a vertex; 0: the corners of a face
+    std::string_view name = {};
 
     bool is_list() const { return length.bytes > 0; }
+    /// Whether it is a field of vertices, where it is no coordinate.
+    bool is_real() const { return !is_list() && item.kind == PlyType::Kind::real; }
 };
 
 struct PlyElement {
@@ -100,6 +104,7 @@ void read_property(std::string_view line, const TextPlace& place, PlyHeader& hea
     property.item = type_of(type, place);
     const std::string_view name = read_name(line, place, "property");
     check_end(line, place);
+    property.name = name;
     property.role = role_of(element.name, name);
     if (property.role != no_role) {
         if (element.has_role[property.role]) fail_at_line(place, "a second property " + shown(name));
@@ -218,6 +223,8 @@ public:
     void begin(const PlyElement& element, std::size_t number);
     void end() const;
     double coordinate(PlyType type, const char* what);
+    /// Of a real type; infinite or no number, too.
+    double any_number(PlyType type);
     long long whole(PlyType type, const char* what);
     void skip(const PlyProperty& property);
     [[noreturn]] void fail(const std::string& message) const;
@@ -274,12 +281,23 @@ long long PlyBody::whole(PlyType type, const char* what) {
     return static_cast<std::int64_t>(value << unused) >> unused;
 }
 
+double PlyBody::any_number(PlyType type) {
+    if (is_text_) {
+        const std::string_view word = next_word(words_);
+        double number = 0.0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (word.empty() || error != std::errc() || end != word.data() + word.size())
+            fail("the value of a field is not a number: " + shown(word));
+        return number;
+    }
+    const std::uint64_t value = bits(type.bytes);
+    return type.bytes == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(value)) : std::bit_cast<double>(value);
+}
+
 double PlyBody::coordinate(PlyType type, const char* what) {
     if (is_text_) return to_double(next_word(words_), text_.place(), what);
     if (type.kind != PlyType::Kind::real) return static_cast<double>(whole(type, what));
-    const std::uint64_t value = bits(type.bytes);
-    const double number =
-        type.bytes == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(value)) : std::bit_cast<double>(value);
+    const double number = any_number(type);
     if (!std::isfinite(number)) fail(std::string(what) + " is not finite");
     return number;
 }
@@ -296,16 +314,26 @@ void PlyBody::skip(const PlyProperty& property) {
         if (next_word(words_).empty()) fail("a number is missing");
 }
 
-Vec3 read_vertex(PlyBody& body, const PlyElement& element) {
+/// `fields`: null, or one for each real property that is no coordinate, in their order.
+Vec3 read_vertex(PlyBody& body, const PlyElement& element, std::vector<MeshField>* fields) {
     constexpr const char* names[] = {"coordinate x", "coordinate y", "coordinate z"};
     Vec3 x;
+    std::size_t field = 0;
     for (const PlyProperty& property : element.properties) {
-        if (property.role == no_role)
-            body.skip(property);
-        else
+        if (property.role != no_role)
             x[property.role] = body.coordinate(property.item, names[property.role]);
+        else if (fields != nullptr && property.is_real())
+            (*fields)[field++].values.push_back(body.any_number(property.item));
+        else
+            body.skip(property);
     }
     return x;
+}
+
+void name_fields(const PlyElement& vertex, std::vector<MeshField>& fields) {
+    fields.clear();
+    for (const PlyProperty& property : vertex.properties)
+        if (property.role == no_role && property.is_real()) fields.push_back({std::string(property.name), {}});
 }
 
 void read_corners(PlyBody& body, const PlyProperty& list, std::size_t vertex_count, PolygonList& polygons) {
@@ -324,13 +352,14 @@ void read_corners(PlyBody& body, const PlyProperty& list, std::size_t vertex_cou
 struct PlyContent {
     std::vector<Vec3> vertices;
     PolygonList faces;
+    std::vector<MeshField>* fields = nullptr;
 };
 
 void read_elements(PlyBody& body, const PlyElement& element, std::size_t vertex_count, PlyContent& read) {
     for (std::size_t k = 0; k < element.count; ++k) {
         body.begin(element, k);
         if (element.name == "vertex") {
-            read.vertices.push_back(read_vertex(body, element));
+            read.vertices.push_back(read_vertex(body, element, read.fields));
         } else {
             for (const PlyProperty& property : element.properties)
                 property.role == no_role ? body.skip(property) : read_corners(body, property, vertex_count, read.faces);
@@ -341,13 +370,15 @@ void read_elements(PlyBody& body, const PlyElement& element, std::size_t vertex_
 
 }  // namespace
 
-TriangleMesh read_ply(std::istream& in, const std::string& name) {
+TriangleMesh read_ply(std::istream& in, const std::string& name, std::vector<MeshField>* fields) {
     const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     if (in.bad()) throw SceneError(name, "cannot be read");
     PlyText text{name, content};
     const PlyHeader header = read_header(text);
     const std::size_t vertex_count = find_element(header, "vertex")->count;
     PlyContent read;
+    read.fields = fields;
+    if (fields != nullptr) name_fields(*find_element(header, "vertex"), *fields);
     read.vertices.reserve(vertex_count);
     read.faces.reserve(find_element(header, "face")->count);
     PlyBody body(text, header.format);

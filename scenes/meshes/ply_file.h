@@ -2,7 +2,9 @@
 
 #include <iosfwd>
 #include <string>
+#include <vector>
 
+#include "meshes/mesh_fields.h"
 #include "percale/mesh.h"
 
 namespace percale::scenes {
@@ -12,7 +14,8 @@ namespace percale::scenes {
 /// polygons by polygon_triangles. Other elements and properties are passed over, wherever they stand. Vertices are
 /// exactly the file's, in its order; coordinates in text and of type double keep their full precision. Throws SceneError with
 /// name:line, behind a binary file's header with the name and the element. Counts that the file is too short to hold are refused
-/// before memory is taken for them; what is taken is at most some 40 times the file.
-TriangleMesh read_ply(std::istream& in, const std::string& name);
+/// before memory is taken for them; what is taken is at most some 40 times the file. `fields`, where not null, becomes what the
+/// vertices' other properties of a real type (float, double) say, infinite values and NaN included.
+TriangleMesh read_ply(std::istream& in, const std::string& name, std::vector<MeshField>* fields = nullptr);
 
 }  // namespace percale::scenes

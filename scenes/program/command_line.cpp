@@ -18,7 +18,7 @@ namespace percale::program {
 namespace {
 
 const std::vector<std::string> commands = {"run",     "plan",   "check",  "explain", "certify", "drape",
-                                           "compare", "doctor", "replay", "sew",     "stress"};
+                                           "compare", "doctor", "replay", "report",  "sew",     "stress"};
 
 /// Says what is wrong with a command name better than the parser, which takes it for a stray argument.
 void check_command_name(const std::string& word) {
@@ -61,6 +61,7 @@ int parse_and_act(int argc, char** argv) {
     add_compare_command(program, action);
     add_doctor_command(program, action);
     add_replay_command(program, action);
+    add_report_command(program, action);
     add_sew_command(program, action);
     add_stress_command(program, action);
     if (argc > 1) check_command_name(argv[1]);

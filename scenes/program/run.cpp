@@ -14,6 +14,7 @@
 #include "export/run_settings.h"
 #include "format/expectations.h"
 #include "meshes/obj_file.h"
+#include "page/run_page.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/common_options.h"
@@ -36,6 +37,7 @@ struct RunOptions {
     std::string checkpoint;  // s of simulated time between two checkpoints; "" = none are written
     std::string resume;      // checkpoint to go on from; "" = from the start
     bool verbose = false;
+    bool report = false;  // the page, too
 };
 
 /// s; 0 where no checkpoints are asked for.
@@ -144,7 +146,14 @@ void save(const RunOptions& options, const Scene& scene, const RunState& state, 
     folder.keep();
 }
 
+void leave_page(const RunOptions& options) {
+    const std::string file = page_in(options.folder);
+    const PageSummary page = write_run_page(options.folder, file);
+    if (!options.common.quiet) std::printf("%s\n", page_summary_text(file, page).c_str());
+}
+
 int run(RunOptions options) {
+    if (options.report) check_pages("--report");
     const double interval = checkpoint_interval(options);
     std::optional<Checkpoint> from;
     if (!options.resume.empty()) from = read_checkpoint(options.resume);
@@ -178,6 +187,7 @@ int run(RunOptions options) {
         judge(expected_of(built.scene, options.common), measure_values(result.measures), result.timed);
     folder.finish(built, result, expectations);
     if (!options.common.quiet) print_summary(options, built, result, expectations);
+    if (options.report) leave_page(options);
     return verdict(options, result, expectations);
 }
 
@@ -194,6 +204,7 @@ void add_run_command(CLI::App& program, Action& action) {
         ->add_flag("--verbose", options->verbose,
                    "Print a line for every step: its figures, and why spans of it were redone shorter")
         ->excludes("--quiet");
+    command->add_flag("--report", options->report, "Write the run as an HTML page, too: DIR/report.html (see percale report)");
     command
         ->add_option("--checkpoint", options->checkpoint,
                      "Every so many simulated seconds, and when stopped, write DIR/checkpoint.percale to resume from")

@@ -18,4 +18,15 @@ std::string csv_text(const std::string& text) {
     return quoted + "\"";
 }
 
+std::vector<std::string> csv_cells(const std::string& line) {
+    std::vector<std::string> cells(1);
+    for (const char letter : line) {
+        if (letter == ',')
+            cells.emplace_back();
+        else
+            cells.back() += letter;
+    }
+    return cells;
+}
+
 }  // namespace percale::scenes

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 // Fields of a CSV file (RFC 4180).
 namespace percale::scenes {
@@ -10,5 +11,8 @@ std::string csv_number(double value);
 
 /// In quotes where the text needs them.
 std::string csv_text(const std::string& text);
+
+/// The cells of a line in which nothing is in quotes.
+std::vector<std::string> csv_cells(const std::string& line);
 
 }  // namespace percale::scenes

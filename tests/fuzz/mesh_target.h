@@ -28,6 +28,19 @@ inline void require_round_trip(const TriangleMesh& mesh, const std::string& file
     require(again.vertices == mesh.vertices && again.triangles == mesh.triangles, "a mesh survives write_obj");
 }
 
+/// The same mesh comes with its fields, one value for each vertex; or one of their values is refused.
+inline void require_fields(const TriangleMesh& mesh, const std::string& file) {
+    std::vector<scenes::MeshField> fields;
+    try {
+        const TriangleMesh again = scenes::import_mesh_with_fields(file, fields);
+        require(again.vertices == mesh.vertices && again.triangles == mesh.triangles, "fields change no mesh");
+    } catch (const SceneError& error) {
+        return require(std::string(error.what()).starts_with(file), "a refusal names the file");
+    }
+    for (const scenes::MeshField& field : fields)
+        require(field.values.size() == mesh.vertices.size(), "a field has a value for each vertex");
+}
+
 /// Imports the bytes as a file of this extension. A refusal has to name the file.
 inline void try_mesh(const std::uint8_t* data, std::size_t size, const std::string& extension) {
     static const scenes::test::TestFolder folder;
@@ -40,6 +53,7 @@ inline void try_mesh(const std::uint8_t* data, std::size_t size, const std::stri
     }
     require_sound(mesh);
     require_round_trip(mesh, folder.path("again.obj"));
+    if (extension == ".ply") require_fields(mesh, file);
     try {
         check_mesh(mesh, "mesh", true);
     } catch (const SceneError&) {

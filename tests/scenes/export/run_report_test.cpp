@@ -306,5 +306,13 @@ TEST_CASE("a report that is missing, cut off or of another shape is refused by n
         INFO(text);
         folder.write("report.json", text);
         CHECK_THROWS_AS(read_frame_records(folder.path()), SceneError);
+        CHECK_THROWS_AS(read_report_text(folder.path()), SceneError);
     }
+}
+
+TEST_CASE("a report read back as text says what it said, in every bit of its numbers") {
+    const TestFolder folder;
+    const std::string text = run_report_text(built(falling_sheet()), RunResult{}, {}, {});
+    folder.write("report.json", text);
+    CHECK(nlohmann::json::parse(read_report_text(folder.path())) == nlohmann::json::parse(text));
 }

@@ -1,5 +1,6 @@
 #include "scenes/meshes/mesh_import.h"
 
+#include <cmath>
 #include <cstring>
 
 #include "tests/scenes/collada_text.h"
@@ -245,4 +246,30 @@ TEST_CASE("points and lines alone are no mesh") {
         "0\n0 1 0\n";
     CHECK(refusal(folder, "points.ply", points).find(": no triangles") == 0);
     CHECK(refusal(folder, "lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n") == ": no triangles");
+}
+
+TEST_CASE("a mesh with its fields is that without them, and only PLY has any") {
+    const TestFolder folder;
+    const std::string lines =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty double heat\nproperty uchar red\n"
+        "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::string file = folder.write("a.ply", lines + "0 0.5 255 0 0\n1 inf 0 0 0\n0 -nan 7 1 0\n3 0 1 2\n");
+    std::vector<MeshField> fields;
+    const TriangleMesh mesh = import_mesh_with_fields(file, fields);
+    CHECK(mesh.vertices == import_mesh(file).vertices);
+    REQUIRE(fields.size() == 1);
+    CHECK(fields[0].name == "heat");
+    REQUIRE(fields[0].values.size() == 3);
+    CHECK(fields[0].values[0] == 0.5);
+    CHECK(std::isinf(fields[0].values[1]));
+    CHECK(std::isnan(fields[0].values[2]));
+    const auto refused = [&](const std::string& path) {
+        return message_of([&] { import_mesh_with_fields(path, fields); }).substr(folder.path().size() + 1);
+    };
+    CHECK(refused(folder.write("b.ply", lines + "0 warm 255 0 0\n1 0 0 0 0\n0 0 7 1 0\n3 0 1 2\n")) ==
+          "b.ply:12: the value of a field is not a number: \"warm\"");
+    CHECK(refused(folder.write("a.off", "OFF\n" + tetra_points)) == "a.off: is neither PLY nor OBJ");
+    CHECK(refused(folder.path("absent.ply")) == "absent.ply: no such file");
+    import_mesh_with_fields(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), fields);
+    CHECK(fields.empty());
 }

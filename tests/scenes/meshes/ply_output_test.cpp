@@ -1,5 +1,6 @@
 #include "scenes/meshes/ply_output.h"
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -67,4 +68,25 @@ TEST_CASE("a field of another number of values is refused, and nothing is writte
                       Catch::Contains("field pressure has 1 values for 42 places"));
     CHECK_THROWS_AS(write_ply(folder.path("a.ply"), mesh, {.vertex = {}, .triangle = {{"x", {}}}}), SceneError);
     CHECK(folder.file_count() == 0);
+}
+
+TEST_CASE("fields of vertices read back as the floats that were written, what is infinite included") {
+    const TestFolder folder;
+    const TriangleMesh mesh = odd_sphere();
+    std::vector<double> distance(mesh.vertices.size()), pressure(mesh.vertices.size(), 0.1);
+    for (std::size_t v = 0; v < distance.size(); ++v) distance[v] = 1.0 / (static_cast<double>(v) - 3.0);
+    write_ply(folder.path("a.ply"), mesh,
+              {.vertex = {{"distance", distance}, {"pressure", pressure}},
+               .triangle = {{"strain_warp", std::vector<double>(mesh.triangles.size(), 0.1)}}});
+    std::ifstream in(folder.path("a.ply"), std::ios::binary);
+    std::vector<MeshField> fields{{"left over", {1.0}}};
+    CHECK(read_ply(in, "a.ply", &fields).vertices == mesh.vertices);
+    REQUIRE(fields.size() == 2);
+    CHECK(fields[0].name == "distance");
+    CHECK(fields[1].name == "pressure");
+    for (std::size_t v = 0; v < distance.size(); ++v) {
+        CHECK(fields[0].values[v] == static_cast<double>(static_cast<float>(distance[v])));
+        CHECK(fields[1].values[v] == static_cast<double>(0.1f));
+    }
+    CHECK(std::isinf(fields[0].values[3]));
 }

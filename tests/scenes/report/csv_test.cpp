@@ -19,4 +19,9 @@ TEST_CASE("Text is quoted where a comma, a quote or a line end would break the l
     CHECK(csv_text("a\nb") == "\"a\nb\"");
 }
 
+TEST_CASE("The cells of a line are what its commas part, empty ones included") {
+    CHECK(csv_cells("a,,b c,") == std::vector<std::string>{"a", "", "b c", ""});
+    CHECK(csv_cells("") == std::vector<std::string>{""});
+}
+
 }  // namespace percale::scenes::test
