@@ -65,10 +65,10 @@ FrameCast cast_of(const Scene& scene) {
     return cast;
 }
 
-/// Throws SceneError for a word that no format has. Exact formats come first.
-std::vector<const FrameFormat*> formats_of(const std::vector<std::string>& words, std::span<const FrameFormat> formats) {
+/// Throws SceneError for a word that no format has. Exact formats come first, of these, with fields, what holds them.
+std::vector<const FrameFormat*> formats_of(const OutputSpec& output, std::span<const FrameFormat> formats) {
     std::vector<const FrameFormat*> chosen;
-    for (const std::string& word : words) {
+    for (const std::string& word : output.frames) {
         const auto found = std::ranges::find(formats, word, &FrameFormat::word);
         if (found != formats.end()) chosen.push_back(&*found);
         if (found != formats.end() || word == no_frames) continue;
@@ -76,7 +76,8 @@ std::vector<const FrameFormat*> formats_of(const std::vector<std::string>& words
         for (const FrameFormat& format : formats) valid.push_back(format.word);
         throw SceneError("output.frames: no such frame format: '" + word + "'; valid: " + joined(valid));
     }
-    std::ranges::stable_partition(chosen, [](const FrameFormat* format) { return format->exact; });
+    if (!output.fields.empty()) std::ranges::stable_partition(chosen, &FrameFormat::holds_fields);
+    std::ranges::stable_partition(chosen, &FrameFormat::exact);
     return chosen;
 }
 
@@ -91,7 +92,7 @@ void append_new(std::vector<std::string>& names, const std::vector<std::string>&
 FrameWriter::FrameWriter(const std::string& folder, const Scene& scene, std::span<const FrameFormat> formats)
     : folder_(folder), formats_(formats), cast_(cast_of(scene)), files_(folder) {
     bool holds_fields = false;
-    for (const FrameFormat* format : formats_of(scene.output.frames, formats)) {
+    for (const FrameFormat* format : formats_of(scene.output, formats)) {
         encoders_.push_back(format->make(cast_));
         holds_fields = holds_fields || format->holds_fields;
     }

@@ -61,12 +61,19 @@ function figures(report) {
     ['Linear solver', typeof report.linear_solver === 'string' ? report.linear_solver : null]]));
 }
 
+/** ' at 1.5 s', ' during 1 … 2 s', or nothing where it is of the whole run. */
+function whenText(one) {
+  if (typeof one.at === 'number') return ' at ' + digits(one.at, 4) + ' s';
+  const during = listOf(one.during);
+  return during.length === 2 ? ' during ' + digits(during[0], 4) + ' … ' + digits(during[1], 4) + ' s' : '';
+}
+
 function expectations(report) {
   const all = listOf(report.expectations);
   if (all.length === 0) return card('Expectations', make('p', { class: 'quiet' }, 'The scene expects nothing.'));
   return card('Expectations', table(
     [{ title: 'measure' }, { title: 'value', number: true }, { title: 'limit', number: true }, { title: '' }],
-    all.map(one => [breakable(one.measure), measureText(one.measure, one.value), String(one.limit),
+    all.map(one => [breakable(one.measure + whenText(one)), measureText(one.measure, one.value), String(one.limit),
       one.passed === true ? badge('passed', 'good') : badge('failed', 'bad')])));
 }
 

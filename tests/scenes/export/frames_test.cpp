@@ -134,3 +134,24 @@ TEST_CASE("frames of a scene are told from other files by name and number, whole
     writer.remove_from(0);
     CHECK(folder.file_count() == 4);
 }
+
+TEST_CASE("a record names the files of a format that certify reads, with fields of one that holds them, and all others beside") {
+    const TestFolder folder;
+    const auto record_of = [&](const std::vector<std::string>& words, const std::vector<std::string>& fields) {
+        Scene scene = scene_with({cloth("sheet")}, {});
+        scene.output.frames = words;
+        scene.output.fields = fields;
+        FrameWriter writer(folder.path(), scene);
+        Frame frame;
+        frame.cloths = {crooked(0.0)};
+        const FrameRecord record = writer.write(frame);
+        writer.finish(std::vector<double>{0.0});
+        return record;
+    };
+    const FrameRecord plain = record_of({"pc2", "obj", "ply"}, {});
+    CHECK(plain.cloths == std::vector<std::string>{"frames/sheet_00000.obj"});
+    CHECK(plain.others == std::vector<std::string>{"frames/sheet_00000.ply", "frames/sheet.mesh.obj", "frames/sheet.pc2"});
+    CHECK(record_of({"pc2", "obj", "ply"}, {"strain"}).cloths == std::vector<std::string>{"frames/sheet_00000.ply"});
+    CHECK(record_of({"pc2"}, {}).cloths == std::vector<std::string>{"frames/sheet.pc2"});
+    CHECK(record_of({"none"}, {}).cloths.empty());
+}
