@@ -17,8 +17,8 @@ namespace percale::program {
 
 namespace {
 
-const std::vector<std::string> commands = {"run",     "plan",   "check",  "explain", "certify", "drape",
-                                           "compare", "doctor", "replay", "report",  "sew",     "stress"};
+const std::vector<std::string> commands = {"run",    "plan",   "check",  "explain", "certify", "drape", "compare",
+                                           "doctor", "replay", "report", "sew",     "stress",  "sweep"};
 
 /// Says what is wrong with a command name better than the parser, which takes it for a stray argument.
 void check_command_name(const std::string& word) {
@@ -64,6 +64,7 @@ int parse_and_act(int argc, char** argv) {
     add_report_command(program, action);
     add_sew_command(program, action);
     add_stress_command(program, action);
+    add_sweep_command(program, action);
     if (argc > 1) check_command_name(argv[1]);
     try {
         program.parse(argc, argv);

@@ -24,5 +24,6 @@ void add_replay_command(CLI::App& program, Action& action);
 void add_report_command(CLI::App& program, Action& action);
 void add_sew_command(CLI::App& program, Action& action);
 void add_stress_command(CLI::App& program, Action& action);
+void add_sweep_command(CLI::App& program, Action& action);
 
 }  // namespace percale::program

@@ -1,0 +1,178 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "common/text.h"
+#include "common/whole_file.h"
+#include "percale/error.h"
+#include "program/commands.h"
+#include "program/exit_codes.h"
+#include "program/progress_bar.h"
+#include "program/stop_signals.h"
+#include "sweep/batch_files.h"
+#include "sweep/study_table.h"
+#include "sweep/study_workers.h"
+
+namespace percale::program {
+
+namespace {
+
+using namespace percale::scenes;
+
+constexpr std::size_t told_runs = 10;
+
+struct SweepOptions {
+    std::string study, folder, range;
+    int jobs = 1;
+    bool slurm = false, collect = false, quiet = false;
+};
+
+std::string own_path() {
+    std::error_code error;
+    const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (error) throw SceneError("percale sweep: the program's own path cannot be read: " + error.message());
+    return path.string();
+}
+
+/// A study file, or the folder of a study that was begun.
+struct OpenStudy {
+    Study study;
+    StudyFolder folder;
+};
+
+OpenStudy opened(const SweepOptions& options) {
+    if (std::filesystem::is_directory(options.study)) {
+        if (!options.folder.empty()) throw SceneError("-o " + options.folder + ": the study's folder is named already");
+        const StudyFolder folder(options.study);
+        return {stored_study(folder.file("study.json")), folder};
+    }
+    Study study = read_study(options.study);
+    const std::string name = std::filesystem::path(options.study).stem().string();
+    const StudyFolder folder(options.folder.empty() ? name : options.folder);
+    folder.begin(study);
+    return {std::move(study), folder};
+}
+
+/// The runs that are left, of FIRST-LAST where that is given.
+std::vector<std::size_t> wanted_runs(const SweepOptions& options, const OpenStudy& open) {
+    std::vector<std::size_t> runs = open.folder.left(open.study);
+    if (options.range.empty()) return runs;
+    std::size_t first = 0, last = 0;
+    const char *begin = options.range.data(), *end = begin + options.range.size();
+    const auto [dash, error] = std::from_chars(begin, end, first);
+    const bool whole = error == std::errc() && dash != end && *dash == '-';
+    const auto [stop, second] =
+        whole ? std::from_chars(dash + 1, end, last) : std::from_chars_result{begin, std::errc::invalid_argument};
+    if (second != std::errc() || stop != end || first > last || last >= open.study.runs.size())
+        throw SceneError("--run " + options.range + ": must be FIRST-LAST, 0 ... " + std::to_string(open.study.runs.size() - 1));
+    std::erase_if(runs, [&](std::size_t run) { return run < first || run > last; });
+    return runs;
+}
+
+void write_batch_files(const OpenStudy& open) {
+    const BatchFiles files = batch_files(open.study, open.folder, own_path());
+    write_whole_file(open.folder.file("slurm.sh"), files.slurm);
+    write_whole_file(open.folder.file("Makefile"), files.makefile);
+    write_whole_file(open.folder.file("commands.txt"), files.commands);
+}
+
+/// What a command prints; throws SceneError with that where it fails.
+std::string output_of(const std::string& command) {
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) throw SceneError(command + ": cannot be started");
+    std::string text;
+    char part[256];
+    while (std::fgets(part, sizeof part, pipe) != nullptr) text += part;
+    while (text.ends_with('\n')) text.pop_back();
+    if (pclose(pipe) != 0) throw SceneError(command + ": " + (text.empty() ? "failed" : text));
+    return text;
+}
+
+/// Submits the array, and behind it a job that gathers the tables.
+int submit(const SweepOptions& options, const OpenStudy& open) {
+    const std::string script = open.folder.file("slurm.sh");
+    const std::string job = output_of("sbatch --parsable " + shell_word(script));
+    const std::string collect = shell_word(own_path()) + " sweep " +
+                                shell_word(std::filesystem::absolute(open.folder.path()).string()) + " --collect --quiet";
+    const std::string after =
+        output_of("sbatch --parsable --output=/dev/null --dependency=afterany:" + job + " --wrap " + shell_word(collect));
+    if (!options.quiet)
+        std::printf(
+            "%zu runs as Slurm job %s, gathered into %s/study.csv by job %s; the same command without --slurm does here what is "
+            "left\n",
+            open.study.runs.size(), job.c_str(), open.folder.path().c_str(), after.c_str());
+    return all_well;
+}
+
+void print_failures(const OpenStudy& open, const std::vector<std::size_t>& failed) {
+    if (failed.empty()) return;
+    std::string text = counted(static_cast<long>(failed.size()), "run") + " came to no end; the same command does them again:\n";
+    for (std::size_t i = 0; i < std::min(failed.size(), told_runs); ++i)
+        text += "  " + open.folder.folder_of(failed[i]) + ": " + open.folder.complaint_of(failed[i]) + "\n";
+    if (failed.size() > told_runs) text += "  and " + std::to_string(failed.size() - told_runs) + " more\n";
+    std::fprintf(stderr, "percale: %s", text.c_str());
+}
+
+/// Writes what there is; the exit code.
+int gather(const SweepOptions& options, const OpenStudy& open) {
+    const StudyTables tables = study_tables(open.study, open.folder);
+    write_whole_file(open.folder.file("study.csv"), tables.csv);
+    write_whole_file(open.folder.file("costs.csv"), tables.costs);
+    write_whole_file(open.folder.file("study.svg"), tables.svg);
+    const std::size_t all = open.study.runs.size();
+    if (!options.quiet)
+        std::printf("%zu of %zu runs done, %zu failed, %zu not as expected; %s/study.csv, study.svg\n", tables.done, all,
+                    tables.failed, tables.not_as_expected, open.folder.path().c_str());
+    return tables.done == all && tables.failed == 0 && tables.not_as_expected == 0 ? all_well : not_as_expected;
+}
+
+int sweep(const SweepOptions& options) {
+    if (options.jobs < 1 || options.jobs > 1024)
+        throw SceneError("--jobs " + std::to_string(options.jobs) + " is outside the allowed range 1 ... 1024");
+    const OpenStudy open = opened(options);
+    if (options.collect) return gather(options, open);
+    const std::vector<std::size_t> runs = wanted_runs(options, open);
+    if (options.range.empty()) write_batch_files(open);
+    if (options.slurm) return submit(options, open);
+    const StopSignals signals;
+    ProgressBar bar(!options.quiet, static_cast<double>(runs.size()), {"runs", 0});
+    std::vector<std::size_t> failed;
+    double ended = 0.0;
+    StudyWork work{.program = own_path(), .jobs = options.jobs, .ended = {}, .stop_asked = {}};
+    work.ended = [&](const WorkerEnd& end) {
+        if (!open.folder.is_done(end.run) && !signals.asked()) failed.push_back(end.run);
+        bar.show(++ended);
+    };
+    work.stop_asked = [&] { return signals.asked(); };
+    do_runs(open.study, open.folder, runs, work);
+    bar.clear();
+    print_failures(open, failed);
+    if (!options.range.empty()) return failed.empty() ? all_well : not_as_expected;  // the tables are of all runs
+    const int code = gather(options, open);
+    if (!signals.asked()) return code;
+    std::fprintf(stderr, "percale: %s: stopped; the same command goes on\n", options.study.c_str());
+    return stopped_by_signal;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& program, Action& action) {
+    auto options = std::make_shared<SweepOptions>();
+    CLI::App* command = program.add_subcommand("sweep", "Run a scene with many values of its keys; one table of what comes out");
+    command->footer("Examples: percale sweep study.toml -o study --jobs 8\n          percale sweep study.toml -o study --slurm");
+    command->add_option("STUDY", options->study, "Study file (TOML), or the folder of one that was begun")->required();
+    command->add_option("-o", options->folder, "Folder of the runs and tables (default: the study's name)")->type_name("DIR");
+    command->add_option("--jobs", options->jobs, "Runs at a time (default 1)")->type_name("N");
+    command->add_flag("--slurm", options->slurm, "Submit the runs as a Slurm job array instead of doing them here");
+    command->add_option("--run", options->range, "Only these runs, and no tables")->type_name("FIRST-LAST");
+    command->add_flag("--collect", options->collect, "Only gather the tables of what is done");
+    command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+    command->callback([options, &action] { action = [options] { return sweep(*options); }; });
+}
+
+}  // namespace percale::program

@@ -1,0 +1,55 @@
+#include "sweep/study_folder.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "common/whole_file.h"
+#include "percale/error.h"
+
+namespace percale::scenes {
+
+namespace fs = std::filesystem;
+
+std::string StudyFolder::folder_of(std::size_t run) const {
+    char number[24];
+    std::snprintf(number, sizeof number, "%05zu", run);
+    return path_ + "/runs/" + number;
+}
+
+void StudyFolder::begin(const Study& study) const {
+    std::error_code error;
+    fs::create_directories(path_ + "/runs", error);
+    if (error) throw SceneError(path_ + ": cannot be made: " + error.message());
+    const std::string text = study_text(study), stored = file("study.json");
+    if (!fs::exists(stored)) return write_whole_file(stored, text);
+    const std::vector<std::byte> bytes = read_bytes(stored);
+    if (std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()) != text)
+        throw SceneError(
+            path_ + ": holds another study, or this one before its file or its scene was changed; name another folder with -o");
+}
+
+bool StudyFolder::is_done(std::size_t run) const {
+    std::ifstream in(folder_of(run) + "/report.json");
+    if (!in) return false;
+    const auto json = nlohmann::json::parse(in, nullptr, false);
+    return json.is_object() && json.value("status", "") != "stopped";
+}
+
+std::vector<std::size_t> StudyFolder::left(const Study& study) const {
+    std::vector<std::size_t> runs;
+    for (std::size_t run = 0; run < study.runs.size(); ++run)
+        if (!is_done(run)) runs.push_back(run);
+    return runs;
+}
+
+std::string StudyFolder::complaint_of(std::size_t run) const {
+    std::ifstream in(log_of(run));
+    std::string line;
+    std::getline(in, line);
+    return line;
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,38 @@
+#include "tests/scenes/program/run_program.h"
+#include "tests/scenes/sweep/study_files.h"
+#include "tests/support/catch.h"
+
+using namespace percale::program::test;
+using percale::scenes::test::write_study;
+
+TEST_CASE("sweep makes all runs and one table, and does what is left when it is called again") {
+    const TestFolder folder;
+    write_study(folder, "\"step.time_step\" = [0.01, 0.005, 0.002]\n");
+    const ProgramRun run = run_program({"sweep", "study.toml", "-o", "out", "--jobs", "2"}, folder.path());
+    CHECK(run.exit_code == 0);
+    CHECK(run.out.find("3 of 3 runs done, 0 failed, 0 not as expected; out/study.csv") != std::string::npos);
+    const std::string table = folder.read("out/study.csv");
+    for (const char* name :
+         {"costs.csv", "study.svg", "slurm.sh", "Makefile", "commands.txt", "study.json", "runs/00002/report.json"})
+        CHECK(folder.holds(std::string("out/") + name));
+    std::filesystem::remove_all(folder.path("out/runs/00001"));
+    CHECK(run_program({"sweep", "out", "--collect", "--quiet"}, folder.path()).exit_code == 1);
+    CHECK(folder.read("out/study.csv") != table);
+    CHECK(run_program({"sweep", "out", "--run", "0-1", "--quiet"}, folder.path()).exit_code == 0);
+    CHECK(run_program({"sweep", "out", "--quiet"}, folder.path()).exit_code == 0);
+    CHECK(folder.read("out/study.csv") == table);
+}
+
+TEST_CASE("runs that are not as expected are exit code 1, wrong words exit code 2 with nothing written") {
+    const TestFolder folder;
+    write_study(folder, "\"duration\" = [0.1, 0.5]\n");
+    CHECK(run_program({"sweep", "study.toml", "-o", "out", "--quiet"}, folder.path()).exit_code == 1);
+    CHECK(refused(run_program({"sweep", "study.toml", "-o", "new", "--jobs", "0"}, folder.path()), "1 ... 1024"));
+    CHECK(refused(run_program({"sweep", "absent.toml", "-o", "new"}, folder.path()), "absent.toml"));
+    CHECK(refused(run_program({"sweep", "out", "-o", "new"}, folder.path()), "is named already"));
+    for (const char* range : {"1", "2-1", "0-2", "a-b", "0-1x"})
+        CHECK(refused(run_program({"sweep", "out", "--run", range}, folder.path()), "must be FIRST-LAST, 0 ... 1"));
+    CHECK_FALSE(folder.holds("new"));
+    write_study(folder, "\"duration\" = [0.1, 0.6]\n");
+    CHECK(refused(run_program({"sweep", "study.toml", "-o", "out"}, folder.path()), "holds another study"));
+}
