@@ -22,7 +22,7 @@
 /// being the stiffness with which that cloth holds it (N/m).
 class BulletBodies {
 public:
-    /// World and simulation must outlive this; `cloths`: all that the bodies may touch, none of them moved by pins beside a body.
+    /// World and simulation must outlive this; `cloths`: all that the bodies may touch.
     BulletBodies(btDynamicsWorld& world, percale::Simulation& simulation, std::vector<percale::ClothId> cloths)
         : world_(world), simulation_(simulation), cloths_(std::move(cloths)) {}
 
@@ -35,9 +35,10 @@ public:
         return obstacle;
     }
 
-    /// Advances both by dt (s). Throws std::runtime_error where the cloth cannot follow; the bodies have then moved.
+    /// Advances both by dt (s). Throws percale::SceneError before anything moves where the scheme is another one, and
+    /// std::runtime_error where the cloth cannot follow; the bodies have then moved.
     void step(double dt) {
-        if (simulation_.time() == 0.0) simulation_.prepare();  // a repair of the start is no motion
+        if (!started_) start();
         for (Body& body : bodies_) {
             body.body->applyCentralImpulse(vector_of(body.impulse));
             body.body->applyTorqueImpulse(vector_of(body.turn));
@@ -80,6 +81,15 @@ private:
         const btVector3& x = body.getCenterOfMassPosition();
         const btQuaternion q = body.getOrientation().normalized();
         return {.translation = {x.x(), x.y(), x.z()}, .rotation = {q.w(), q.x(), q.y(), q.z()}};
+    }
+
+    void start() {
+        const percale::ScenePlan plan = simulation_.plan();
+        if (plan.scheme != percale::Scheme::backward_euler) {
+            throw percale::SceneError("BulletBodies", "scheme " + plan.scheme_word + ", bodies need backward_euler");
+        }
+        simulation_.prepare();  // a repair of the start is no motion
+        started_ = true;
     }
 
     /// The part of the step between two shares of it. Percale divides what it cannot solve at once, and then tells the force at
@@ -134,6 +144,7 @@ private:
     std::vector<percale::ClothId> cloths_;
     std::vector<Body> bodies_;
     int inexact_steps_ = 0, halved_steps_ = 0;
+    bool started_ = false;
 };
 
 /// A Bullet world with gravity and what it needs, in the order in which it is destroyed.

@@ -1,6 +1,9 @@
-#include <Eigen/Geometry>
+#include <bullet_bodies.h>
 
-#include "data/examples/bullet_bodies.h"
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+
 #include "percale/certify.h"
 #include "percale/detectors.h"
 #include "tests/support/catch.h"
@@ -140,4 +143,24 @@ TEST_CASE("A box dropped askew on a trampoline comes to rest level, carried by i
     CHECK((simulation.force_on(number) - Vec3(0.0, 2.0 * g, 0.0)).norm() < 1e-6 * 2.0 * g);
     CHECK((pins / dt - Vec3(0.0, (2.0 + sheet_mass) * g, 0.0)).norm() < 1e-6 * 2.3 * g);
     CHECK(box->getWorldTransform().getBasis()[1][1] > 0.99);
+}
+
+TEST_CASE("Steps of another scheme than backward Euler are refused before anything moves") {
+    BulletWorld world({0.0, -g, 0.0});
+    btSphereShape shape(0.1);
+    BulletBody ball(world, shape, 1.0, {0.0, 0.3, 0.0});
+    Simulation simulation({.scheme = Scheme::tr_bdf2}, make_bullet_detector());
+    const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 5, 5), {});
+    BulletBodies bodies(world.world, simulation, {cloth});
+    bodies.add(*ball, make_sphere(0.1, 1), 0.3, "ball");
+    std::string error;
+    try {
+        bodies.step(dt);
+    } catch (const SceneError& refused) {
+        error = refused.what();
+    }
+    CHECK(error.find("tr_bdf2") != std::string::npos);
+    CHECK(error.find("backward_euler") != std::string::npos);
+    CHECK(ball->getCenterOfMassPosition().y() == 0.3);
+    CHECK(simulation.time() == 0.0);
 }
