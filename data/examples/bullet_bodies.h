@@ -14,12 +14,14 @@
 // Rigid bodies of a Bullet world (double precision) as obstacles of a Percale simulation. Copy it into your host.
 
 /// Both are stepped here, and only here. Bullet moves the bodies along a step, the cloth meets them there, and what contact gave
-/// the cloth is taken from the bodies as the next step begins: momentum is kept. It is known of steps of backward Euler, which is
-/// required, without kinetic damping. There m (v - v0) = dt f(x1) with v = (x1 - x0)/dt, so that the force on a vertex at the
-/// end, ContactLoad, times dt is the impulse of the whole step; impacts then change v to v1, which is m (v1 - v) more. Between
-/// cloths with self_contact impacts do so, too: that of a vertex that touches a body at the same time goes to the body. Bodies
-/// feel contact a step late. That is stable while a body is heavier than the cloth it touches, and dt^2 k less than its mass, k
-/// being the stiffness with which that cloth holds it (N/m).
+/// the cloth is taken from the bodies as the next step begins: momentum is kept, as far as the cloth's solver goes (5 % of what
+/// is exchanged may be missing at the default tolerance; 1e-10 of it at newton_tolerance = 1e-10). Needs backward Euler without
+/// kinetic damping. There m (v - v0) = dt f(x1) with v = (x1 - x0)/dt, so that the force on a vertex at the end, ContactLoad,
+/// times dt is the impulse of the whole step; impacts then change v to v1, which is m (v1 - v) more. Between cloths with
+/// self_contact impacts do so, too: that of a vertex that touches a body at the same time goes to the body.
+/// Bodies feel contact a step late. That is stable while a body is not much lighter than the cloth it touches, and dt^2 k is less
+/// than its mass, k being the stiffness with which that cloth holds it (N/m). Measured: a box on 0.012 kg of a trampoline comes
+/// to rest at 0.01 kg, and is thrown off at 0.003 kg.
 class BulletBodies {
 public:
     /// World and simulation must outlive this; `cloths`: all that the bodies may touch.
