@@ -50,7 +50,7 @@ COLLISION_FOLDERS = {
 OTHERS = [
     (r'fcl/', ('collision/fcl/', 'tests/collision/')),
     (r'ccd/', ('collision/', 'tests/collision/')),
-    (r'bullet/|bt[A-Z]|Bullet|LinearMath/', ('collision/bullet/', 'tests/collision/', 'tests/bench/')),
+    (r'bullet/|bt[A-Z]|Bullet|LinearMath/', ('collision/bullet/', 'tests/collision/', 'tests/bench/', 'data/examples/')),
     (r'assimp/|toml\+\+/|nlohmann/|CLI/|fmt/|spdlog/|tiny_gltf|stb_|pybind11/', ('scenes/', 'tests/scenes/', 'tests/validation/',
                                                                        'tests/properties/', 'tests/misuse/', 'tests/bench/')),
     (r'catch2/', ('tests/support/',)),

@@ -100,3 +100,24 @@ percale_status percale_set_pair(percale_simulation* simulation, int first, int s
 percale_status percale_set_layer(percale_simulation* simulation, int cloth, int layer) {
     return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.set_layer({cloth}, layer); });
 }
+
+percale_status percale_remove_cloth(percale_simulation* simulation, int cloth) {
+    return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.remove_cloth({cloth}); });
+}
+
+percale_status percale_remove_obstacle(percale_simulation* simulation, int obstacle) {
+    return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.remove_obstacle({obstacle}); });
+}
+
+percale_status percale_set_fabric(percale_simulation* simulation, int cloth, const percale_fabric* fabric) {
+    return call_on(__func__, simulation,
+                   [&](percale_simulation& of) { of.simulation.set_fabric({cloth}, demanded(fabric, "fabric").value); });
+}
+
+percale_status percale_set_friction(percale_simulation* simulation, int obstacle, double friction) {
+    return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.set_friction({obstacle}, friction); });
+}
+
+percale_status percale_set_restitution(percale_simulation* simulation, int obstacle, double restitution) {
+    return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.set_restitution({obstacle}, restitution); });
+}

@@ -70,6 +70,10 @@ percale_status percale_set_velocities(percale_simulation* simulation, int cloth,
     });
 }
 
+percale_status percale_reset(percale_simulation* simulation, int cloth) {
+    return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.reset({cloth}); });
+}
+
 percale_status percale_teleport(percale_simulation* simulation, const int* cloths, const int* obstacles, const size_t counts[2],
                                 const percale_pose* motion, int keep_velocities) {
     return call_on(__func__, simulation, [&](percale_simulation& of) {

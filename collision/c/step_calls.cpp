@@ -65,6 +65,10 @@ const char* percale_explanation(const percale_simulation* simulation) {
     return text;
 }
 
+percale_status percale_keep_previous_positions(percale_simulation* simulation, int keep) {
+    return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.keep_previous_positions(keep != 0); });
+}
+
 percale_status percale_plan_text(const percale_simulation* simulation, const percale_scripted_changes* changes, char* text,
                                  size_t capacity, size_t* count) {
     return call_on(__func__, simulation, [&](const percale_simulation& of) {

@@ -32,6 +32,8 @@ percale_contact_load c_load(const percale::ContactLoad& load) {
     told.obstacle = load.obstacle;
     write_vector(load.normal, told.normal);
     write_vector(load.friction, told.friction);
+    write_vector(load.cloth_point, told.cloth_point);
+    write_vector(load.obstacle_point, told.obstacle_point);
     return told;
 }
 
@@ -66,6 +68,21 @@ percale_status percale_velocities(const percale_simulation* simulation, int clot
 percale_status percale_masses(const percale_simulation* simulation, int cloth, double* masses, size_t capacity, size_t* count) {
     return call_on(__func__, simulation, [&](const percale_simulation& of) {
         give_items<double>(of.simulation.masses({cloth}), {masses, capacity, count});
+    });
+}
+
+percale_status percale_normals(const percale_simulation* simulation, int cloth, double* normals, size_t capacity, size_t* count) {
+    return call_on(__func__, simulation, [&](const percale_simulation& of) {
+        give_vectors(of.simulation.normals({cloth}), {normals, capacity, count});
+    });
+}
+
+percale_status percale_interpolate(const percale_simulation* simulation, double fraction, int cloth, double* positions,
+                                   size_t capacity, size_t* count) {
+    return call_on(__func__, simulation, [&](const percale_simulation& of) {
+        std::vector<percale::Vec3> between(of.simulation.masses({cloth}).size());
+        of.simulation.interpolate(fraction, {cloth}, between);
+        give_vectors(between, {positions, capacity, count});
     });
 }
 
@@ -118,6 +135,13 @@ percale_status percale_contact_loads(const percale_simulation* simulation, int c
 percale_status percale_force_on(const percale_simulation* simulation, int obstacle, double* force) {
     return call_on(__func__, simulation, [&](const percale_simulation& of) {
         write_vector(of.simulation.force_on({obstacle}), &demanded(force, "force"));
+    });
+}
+
+percale_status percale_torque_on(const percale_simulation* simulation, int obstacle, const double* about, double* torque) {
+    return call_on(__func__, simulation, [&](const percale_simulation& of) {
+        const percale::Vec3 told = of.simulation.torque_on({obstacle}, vector_of(about, "about"));
+        write_vector(told, &demanded(torque, "torque"));
     });
 }
 

@@ -18,7 +18,7 @@
  * without an object may be called from any thread.
  *
  * Units. m, kg, s, N, J; y is up; triangles counter-clockwise seen from outside. Numbers of cloths, obstacles and seams are 0, 1,
- * ... in the order in which they were added. */
+ * ... in the order in which they were added; those of what was removed are not given again. */
 
 #include "percale/c_types.h"
 
@@ -163,6 +163,19 @@ percale_status percale_add_seam(percale_simulation* simulation, const int cloths
 percale_status percale_set_pair(percale_simulation* simulation, int first, int second, int contact, const double* thickness);
 /* Where a cloth with self_contact is worn, from the inside out, -1000 ... 1000. */
 percale_status percale_set_layer(percale_simulation* simulation, int cloth, int layer);
+/* Takes a cloth out, with its seams, pairs and layer. All other numbers stay good; its own, and those of its seams, are errors
+ * from then on. What is left keeps its state and wakes up. States saved before are refused. */
+percale_status percale_remove_cloth(percale_simulation* simulation, int cloth);
+/* The same of an obstacle; cloth wakes up only if it touched some. */
+percale_status percale_remove_obstacle(percale_simulation* simulation, int obstacle);
+/* Another fabric, copied, for a cloth whose mesh, rest shape, positions, velocities and pins stay. Contacts are forgotten where
+ * thickness, friction, self_contact or the order of the springs changes: the next step then checks the start as percale_prepare
+ * does. Costs as much as adding a cloth. States saved before are refused. */
+percale_status percale_set_fabric(percale_simulation* simulation, int cloth, const percale_fabric* fabric);
+/* Coulomb coefficient of an obstacle against cloth from the next step on, 0 ... 10. */
+percale_status percale_set_friction(percale_simulation* simulation, int obstacle, double friction);
+/* Share of its normal speed with which cloth that hits the obstacle leaves, from the next step on, 0 ... 1. */
+percale_status percale_set_restitution(percale_simulation* simulation, int obstacle, double restitution);
 
 /* ---- Simulation: what moves ---- */
 
@@ -186,6 +199,9 @@ percale_status percale_set_work_limit(percale_simulation* simulation, int iterat
 /* m, and m/s, of all vertices of a cloth. For starts that are not at rest. */
 percale_status percale_set_positions(percale_simulation* simulation, int cloth, const double* positions, size_t vertex_count);
 percale_status percale_set_velocities(percale_simulation* simulation, int cloth, const double* velocities, size_t vertex_count);
+/* Puts a cloth back to where it was added, at rest; its contacts are forgotten. Pins stay, where it was added, and so do time,
+ * seams, fabric and layers. The next step checks the start as percale_prepare does. */
+percale_status percale_reset(percale_simulation* simulation, int cloth);
 /* Moves cloths and obstacles together by a rigid motion of the world (scale 1), in no time. counts: of cloths, of obstacles; a
  * list of none may be NULL. keep_velocities: 0 clears them, else they turn along. */
 percale_status percale_teleport(percale_simulation* simulation, const int* cloths, const int* obstacles, const size_t counts[2],
@@ -222,7 +238,7 @@ percale_status percale_restore(percale_simulation* simulation, const void* bytes
 
 /* s of simulated time. */
 percale_status percale_time(const percale_simulation* simulation, double* time);
-/* How many cloths were added. */
+/* How many cloths there are, without those that were removed. */
 percale_status percale_cloth_count(const percale_simulation* simulation, int* count);
 /* Of one cloth. */
 percale_status percale_vertex_count(const percale_simulation* simulation, int cloth, size_t* count);
@@ -233,6 +249,17 @@ percale_status percale_velocities(const percale_simulation* simulation, int clot
                                   size_t* count);
 /* Lumped masses, kg, one number a vertex. */
 percale_status percale_masses(const percale_simulation* simulation, int cloth, double* masses, size_t capacity, size_t* count);
+/* Unit normals of the vertices, world, three numbers each: of the triangles around each the mean by area, on the side from which
+ * they run counter-clockwise. 0 0 0 where there is none: no triangles, none with an area, or they cancel. */
+percale_status percale_normals(const percale_simulation* simulation, int cloth, double* normals, size_t capacity, size_t* count);
+/* keep: 0 or not 0. From now on each step first notes where the cloth is, 24 bytes a vertex, for percale_interpolate; not part of
+ * saved states. */
+percale_status percale_keep_previous_positions(percale_simulation* simulation, int keep);
+/* Where the cloth is, m, at a fraction, 0 ... 1, of the last step, on straight lines from before it to now; an error unless
+ * positions are kept. Present positions where nothing lies between: before the first step since they are kept, after a step that
+ * failed, and for cloth that was placed meanwhile. */
+percale_status percale_interpolate(const percale_simulation* simulation, double fraction, int cloth, double* positions,
+                                   size_t capacity, size_t* count);
 /* Views; NULL on an error. count: of vertices; may be NULL. */
 const double* percale_positions_view(const percale_simulation* simulation, int cloth, size_t* count);
 const double* percale_velocities_view(const percale_simulation* simulation, int cloth, size_t* count);
@@ -252,6 +279,9 @@ percale_status percale_contact_loads(const percale_simulation* simulation, int c
                                      size_t capacity, size_t* count);
 /* What all cloth does to an obstacle, N, x y z. Cloth at rest that nothing else holds presses with its weight. */
 percale_status percale_force_on(const percale_simulation* simulation, int obstacle, double* force);
+/* Torque of the same forces about a point (m, world), N m, x y z: the sum of (cloth_point - about) x force, so that body and
+ * cloth keep their angular momentum. */
+percale_status percale_torque_on(const percale_simulation* simulation, int obstacle, const double* about, double* torque);
 /* *meet: 1 where the two cloths, or the cloth with itself, meet now, else 0. */
 percale_status percale_meets(const percale_simulation* simulation, int first, int second, int* meet);
 /* m, how far apart the sides of each stitch are. */

@@ -54,8 +54,10 @@ typedef struct percale_stitch {
 /* Force of an obstacle on a vertex of a cloth, N. Never changes in size. */
 typedef struct percale_contact_load {
     int vertex, obstacle;
-    double normal[3];   /* what pushes the vertex off */
-    double friction[3]; /* along the surface */
+    double normal[3];         /* what pushes the vertex off */
+    double friction[3];       /* along the surface */
+    double cloth_point[3];    /* m, world, where the force acts: the vertex, on the cloth's middle surface */
+    double obstacle_point[3]; /* m, world, on the obstacle: the mean of what presses, by normal force */
 } percale_contact_load;
 
 /* What was done to a cloth that started through, inside or touching something. Never changes in size. */

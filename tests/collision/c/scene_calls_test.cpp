@@ -132,6 +132,18 @@ const BadScene bad_scenes[] = {
     {"percale_set_layer", "1001", [](auto* s, int*) { return percale_set_layer(s, 0, 1001); }},
     {"percale_set_layer", "self_contact", [](auto* s, int*) { return percale_set_layer(s, 0, 1); }},
     {"percale_set_layer", "-1", [](auto* s, int*) { return percale_set_layer(s, -1, 1); }},
+    {"percale_remove_cloth", "1", [](auto* s, int*) { return percale_remove_cloth(s, 1); }},
+    {"percale_remove_obstacle", "-1", [](auto* s, int*) { return percale_remove_obstacle(s, -1); }},
+    {"percale_set_fabric", "fabric", [](auto* s, int*) { return percale_set_fabric(s, 0, nullptr); }},
+    {"percale_set_fabric", "2", [](auto* s, int*) { return percale_set_fabric(s, 2, cotton().get()); }},
+    {"percale_set_fabric", "exclude",
+     [](auto* s, int*) {
+         return percale_set_fabric(s, 0, c_fabric({{"pressure", "10"}, {"gas_volume", "1"}}).get());
+     }},
+    {"percale_set_friction", "0 ... 10", [](auto* s, int*) { return percale_set_friction(s, 0, 11.0); }},
+    {"percale_set_friction", "4", [](auto* s, int*) { return percale_set_friction(s, 4, 0.5); }},
+    {"percale_set_restitution", "0 ... 1", [](auto* s, int*) { return percale_set_restitution(s, 0, std::nan("")); }},
+    {"percale_set_restitution", "3", [](auto* s, int*) { return percale_set_restitution(s, 3, 0.5); }},
 };
 
 }  // namespace
@@ -206,4 +218,23 @@ TEST_CASE("Numbers of cloths and obstacles count up, and meshes and fabrics may 
     int cloths = 0;
     well(percale_cloth_count(simulation.get(), &cloths));
     CHECK(cloths == 3);
+}
+
+TEST_CASE("Numbers of what was removed are refused and not given again, all others stay good") {
+    const CSimulation simulation = c_sheet_over_ball();
+    CHECK(c_add_cloth(simulation.get(), sheet().get(), cotton().get(), 2.0) == 1);
+    well(percale_step(simulation.get(), nullptr));
+    well(percale_remove_cloth(simulation.get(), 0));
+    well(percale_remove_obstacle(simulation.get(), 0));
+    int cloths = 0;
+    well(percale_cloth_count(simulation.get(), &cloths));
+    CHECK(cloths == 1);
+    std::size_t count = 0;
+    fails(percale_vertex_count(simulation.get(), 0, &count), PERCALE_INVALID_ARGUMENT, "percale_vertex_count", "0");
+    fails(percale_set_friction(simulation.get(), 0, 0.1), PERCALE_INVALID_ARGUMENT, "percale_set_friction", "0");
+    fails(percale_remove_cloth(simulation.get(), 0), PERCALE_INVALID_ARGUMENT, "percale_remove_cloth", "0");
+    well(percale_vertex_count(simulation.get(), 1, &count));
+    CHECK(count == 16);
+    CHECK(c_add_cloth(simulation.get(), sheet().get(), cotton().get(), 3.0) == 2);
+    well(percale_step(simulation.get(), nullptr));
 }

@@ -82,6 +82,7 @@ const BadMove bad_moves[] = {
      }},
     {"percale_set_velocities", "1 velocities for 81", [](auto* s) { return percale_set_velocities(s, 0, zero_vector, 1); }},
     {"percale_set_velocities", "velocities", [](auto* s) { return percale_set_velocities(s, 0, nullptr, 81); }},
+    {"percale_reset", "1", [](auto* s) { return percale_reset(s, 1); }},
     {"percale_teleport", "scale", [](auto* s) { return teleport_with(s, pose_with(2.0)); }},
     {"percale_teleport", "teleport", [](auto* s) { return teleport_with(s, pose_with(1.0, std::nan(""))); }},
     {"percale_teleport", "motion",

@@ -135,6 +135,48 @@ void throw_cloth(Twin& twin, int step) {
     well(percale_set_velocities(twin.c(), 0, speeds[0].data(), speeds.size()));
 }
 
+void change_what_it_is_made_of(Twin& twin, int step) {
+    const Fabric silk{.thickness = 0.01, .springs = {.structural = 400.0, .shear = 100.0, .bend = 1.0}};
+    const Options silk_options{
+        {"thickness", "0.01"}, {"springs.structural", "400"}, {"springs.shear", "100"}, {"springs.bend", "1"}};
+    if (step == 8) {
+        twin.cpp().set_fabric({0}, silk);
+        well(percale_set_fabric(twin.c(), 0, c_fabric(silk_options).get()));
+    }
+    if (step != 4) return;
+    twin.cpp().set_friction({0}, 0.05);
+    well(percale_set_friction(twin.c(), 0, 0.05));
+    twin.cpp().set_restitution({0}, 0.8);
+    well(percale_set_restitution(twin.c(), 0, 0.8));
+}
+
+void start_again(Twin& twin, int step) {
+    if (step == 10) {
+        twin.cpp().reset({0});
+        well(percale_reset(twin.c(), 0));
+    }
+    twin.cpp().keep_previous_positions(step < 12);
+    well(percale_keep_previous_positions(twin.c(), step < 12));
+}
+
+void drape_two(Twin& twin) {
+    drape(twin);
+    twin.add_cloth(make_grid(0.3, 0.3, 6, 6), towel, towel_options, {0.0, 0.38, 0.0});
+    twin.add_obstacle(make_plane(1.0));
+}
+
+void take_out(Twin& twin, int step) {
+    if (step == 6) {
+        twin.cpp().remove_cloth({0});
+        well(percale_remove_cloth(twin.c(), 0));
+    }
+    if (step == 14) {
+        twin.cpp().remove_obstacle({0});
+        well(percale_remove_obstacle(twin.c(), 0));
+    }
+    if (step == 16) twin.pin(1, 5);
+}
+
 /// A free mesh of a measured fabric, cut along x, that is a tenth too wide where it starts.
 void wear(Twin& twin) {
     TriangleMesh mesh = make_grid(0.5, 0.5, 8, 8);
@@ -209,6 +251,9 @@ const TwinScene twin_scenes[] = {
     {"gravity, wind and time step that change", "none", 15, hang, change_weather},
     {"teleported, velocities cleared", "brute_force", 20, drape, teleport_all},
     {"thrown", "none", 10, hang, throw_cloth},
+    {"another fabric, friction and restitution", "brute_force", 20, drape, change_what_it_is_made_of},
+    {"put back to where it was added", "brute_force", 20, drape, start_again},
+    {"a cloth and an obstacle that are taken out", "brute_force", 25, drape_two, take_out},
     {"a rest shape of its own, by mesh and by corners", "none", 15, wear},
     {"projected contact",
      "brute_force",

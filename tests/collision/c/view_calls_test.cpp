@@ -57,6 +57,18 @@ const BadLook bad_looks[] = {
     {"percale_contact_loads", "2", [](auto* s) { return percale_contact_loads(s, 2, &load, 1, &items); }},
     {"percale_force_on", "1", [](auto* s) { return percale_force_on(s, 1, out); }},
     {"percale_force_on", "force", [](auto* s) { return percale_force_on(s, 0, nullptr); }},
+    {"percale_normals", "4", [](auto* s) { return percale_normals(s, 4, out, 1, &items); }},
+    {"percale_normals", "buffer", [](auto* s) { return percale_normals(s, 0, nullptr, 81, &items); }},
+    {"percale_interpolate", "keep_previous_positions", [](auto* s) { return percale_interpolate(s, 0.5, 0, out, 1, &items); }},
+    {"percale_interpolate", "2", [](auto* s) { return percale_interpolate(s, 0.5, 2, out, 1, &items); }},
+    {"percale_torque_on", "1", [](auto* s) { return percale_torque_on(s, 1, out, out); }},
+    {"percale_torque_on", "about", [](auto* s) { return percale_torque_on(s, 0, nullptr, out); }},
+    {"percale_torque_on", "torque", [](auto* s) { return percale_torque_on(s, 0, out, nullptr); }},
+    {"percale_torque_on", "about",
+     [](auto* s) {
+         const double nowhere[3] = {0.0, std::nan(""), 0.0};
+         return percale_torque_on(s, 0, nowhere, out);
+     }},
     {"percale_meets", "9", [](auto* s) { return percale_meets(s, 0, 9, &whole); }},
     {"percale_meets", "NULL", [](auto* s) { return percale_meets(s, 0, 0, nullptr); }},
     {"percale_seam_gaps", "seam", [](auto* s) { return percale_seam_gaps(s, 0, out, 3, &items); }},
@@ -113,6 +125,38 @@ TEST_CASE("Copies and views of a cloth are the numbers of C++") {
     CHECK(copy == std::vector<double>(copy.size(), -7.0));
 }
 
+TEST_CASE("Normals and places between two steps are the numbers of C++, and neither is told in part") {
+    Twin twin("brute_force", {}, {});
+    twin.add_cloth(make_grid(0.6, 0.6, 9, 9), {.thickness = 0.02}, {{"thickness", "0.02"}}, {0.0, 0.33, 0.0});
+    twin.add_obstacle(make_sphere(0.3, 2));
+    twin.cpp().keep_previous_positions();
+    well(percale_keep_previous_positions(twin.c(), 1));
+    for (int step = 0; step < 10; ++step) twin.step();
+    std::vector<Vec3> expected(81), told(81, Vec3::Constant(-7.0));
+    std::size_t count = 0;
+    well(percale_normals(twin.c(), 0, told[0].data(), 81, &count));
+    CHECK(count == 81);
+    CHECK(told == twin.cpp().normals({0}));
+    CHECK(told[40].y() > 0.9);
+    for (const double fraction : {0.0, 0.3, 1.0}) {
+        twin.cpp().interpolate(fraction, {0}, expected);
+        well(percale_interpolate(twin.c(), fraction, 0, told[0].data(), 81, nullptr));
+        CHECK(told == expected);
+    }
+    CHECK(std::equal(told.begin(), told.end(), twin.cpp().positions({0}).begin()));
+
+    told.assign(81, Vec3::Constant(-7.0));
+    fails(percale_normals(twin.c(), 0, told[0].data(), 80, nullptr), PERCALE_BUFFER_TOO_SMALL, "percale_normals", "80");
+    fails(percale_interpolate(twin.c(), 0.5, 0, told[0].data(), 80, nullptr), PERCALE_BUFFER_TOO_SMALL, "percale_interpolate",
+          "80");
+    fails(percale_interpolate(twin.c(), 1.5, 0, told[0].data(), 81, nullptr), PERCALE_INVALID_ARGUMENT, "percale_interpolate",
+          "0 ... 1");
+    CHECK(told == std::vector<Vec3>(81, Vec3::Constant(-7.0)));
+    well(percale_keep_previous_positions(twin.c(), 0));
+    fails(percale_interpolate(twin.c(), 0.5, 0, told[0].data(), 81, nullptr), PERCALE_INVALID_ARGUMENT, "percale_interpolate",
+          "keep_previous_positions");
+}
+
 TEST_CASE("Energy, strain, speed, forces, loads and meetings are those of C++") {
     Twin twin("brute_force", {}, {});
     twin.add_cloth(make_grid(0.6, 0.6, 9, 9), {.thickness = 0.02}, {{"thickness", "0.02"}}, {0.0, 0.33, 0.0});
@@ -134,6 +178,9 @@ TEST_CASE("Energy, strain, speed, forces, loads and meetings are those of C++") 
     CHECK(value == twin.cpp().largest_speed());
     well(percale_force_on(twin.c(), 0, force));
     CHECK(Vec3(force[0], force[1], force[2]) == twin.cpp().force_on({0}));
+    const Vec3 about(0.1, 0.2, 0.3);
+    well(percale_torque_on(twin.c(), 0, about.data(), force));
+    CHECK(Vec3(force[0], force[1], force[2]) == twin.cpp().torque_on({0}, about));
     const auto loads = twin.cpp().contact_loads({0});
     REQUIRE(!loads.empty());
     std::vector<percale_contact_load> same(loads.size());
@@ -145,6 +192,9 @@ TEST_CASE("Energy, strain, speed, forces, loads and meetings are those of C++") 
         CHECK(same[i].obstacle == loads[i].obstacle);
         CHECK(Vec3(same[i].normal[0], same[i].normal[1], same[i].normal[2]) == loads[i].normal);
         CHECK(Vec3(same[i].friction[0], same[i].friction[1], same[i].friction[2]) == loads[i].friction);
+        CHECK(Vec3::Map(same[i].cloth_point) == loads[i].cloth_point);
+        CHECK(Vec3::Map(same[i].obstacle_point) == loads[i].obstacle_point);
+        CHECK((loads[i].cloth_point - loads[i].obstacle_point).norm() > 0.0);
     }
     int meet = 7;
     well(percale_meets(twin.c(), 0, 0, &meet));
