@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <fstream>
 #include <istream>
 #include <iterator>
 #include <limits>
@@ -26,6 +27,7 @@ struct PlyProperty {
     PlyType item;
     PlyType length;      // of a list; 0 bytes: no list
     int role = no_role;  // 0, 1, 2: x, y, z of a vertex; 0: the corners of a face
+    std::string_view name = {};
 
     bool is_list() const { return length.bytes > 0; }
 };
@@ -100,6 +102,7 @@ void read_property(std::string_view line, const TextPlace& place, PlyHeader& hea
     property.item = type_of(type, place);
     const std::string_view name = read_name(line, place, "property");
     check_end(line, place);
+    property.name = name;
     property.role = role_of(element.name, name);
     if (property.role != no_role) {
         if (element.has_role[property.role]) fail_at_line(place, "a second property " + shown(name));
@@ -218,6 +221,8 @@ public:
     void begin(const PlyElement& element, std::size_t number);
     void end() const;
     double coordinate(PlyType type, const char* what);
+    /// A number of any type, in binary also infinite or none.
+    double number(PlyType type, const char* what);
     long long whole(PlyType type, const char* what);
     void skip(const PlyProperty& property);
     [[noreturn]] void fail(const std::string& message) const;
@@ -274,14 +279,17 @@ long long PlyBody::whole(PlyType type, const char* what) {
     return static_cast<std::int64_t>(value << unused) >> unused;
 }
 
-double PlyBody::coordinate(PlyType type, const char* what) {
+double PlyBody::number(PlyType type, const char* what) {
     if (is_text_) return to_double(next_word(words_), text_.place(), what);
     if (type.kind != PlyType::Kind::real) return static_cast<double>(whole(type, what));
     const std::uint64_t value = bits(type.bytes);
-    const double number =
-        type.bytes == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(value)) : std::bit_cast<double>(value);
-    if (!std::isfinite(number)) fail(std::string(what) + " is not finite");
-    return number;
+    return type.bytes == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(value)) : std::bit_cast<double>(value);
+}
+
+double PlyBody::coordinate(PlyType type, const char* what) {
+    const double value = number(type, what);
+    if (!std::isfinite(value)) fail(std::string(what) + " is not finite");
+    return value;
 }
 
 void PlyBody::skip(const PlyProperty& property) {
@@ -296,14 +304,21 @@ void PlyBody::skip(const PlyProperty& property) {
         if (next_word(words_).empty()) fail("a number is missing");
 }
 
-Vec3 read_vertex(PlyBody& body, const PlyElement& element) {
+/// Whether a property of vertices is a number that the mesh does not need.
+bool is_field(const PlyProperty& property) { return property.role == no_role && !property.is_list(); }
+
+/// `fields`: of is_field, in their order; null: not wanted.
+Vec3 read_vertex(PlyBody& body, const PlyElement& element, std::vector<MeshField>* fields) {
     constexpr const char* names[] = {"coordinate x", "coordinate y", "coordinate z"};
     Vec3 x;
+    std::size_t field = 0;
     for (const PlyProperty& property : element.properties) {
-        if (property.role == no_role)
-            body.skip(property);
-        else
+        if (property.role != no_role)
             x[property.role] = body.coordinate(property.item, names[property.role]);
+        else if (fields != nullptr && is_field(property))
+            (*fields)[field++].values.push_back(body.number(property.item, "a property"));
+        else
+            body.skip(property);
     }
     return x;
 }
@@ -324,13 +339,14 @@ void read_corners(PlyBody& body, const PlyProperty& list, std::size_t vertex_cou
 struct PlyContent {
     std::vector<Vec3> vertices;
     PolygonList faces;
+    std::vector<MeshField>* fields = nullptr;  // of vertices, where they are wanted
 };
 
 void read_elements(PlyBody& body, const PlyElement& element, std::size_t vertex_count, PlyContent& read) {
     for (std::size_t k = 0; k < element.count; ++k) {
         body.begin(element, k);
         if (element.name == "vertex") {
-            read.vertices.push_back(read_vertex(body, element));
+            read.vertices.push_back(read_vertex(body, element, read.fields));
         } else {
             for (const PlyProperty& property : element.properties)
                 property.role == no_role ? body.skip(property) : read_corners(body, property, vertex_count, read.faces);
@@ -339,24 +355,37 @@ void read_elements(PlyBody& body, const PlyElement& element, std::size_t vertex_
     }
 }
 
-}  // namespace
-
-TriangleMesh read_ply(std::istream& in, const std::string& name) {
+TriangleMesh read_ply_content(std::istream& in, const std::string& name, std::vector<MeshField>* fields) {
     const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     if (in.bad()) throw SceneError(name, "cannot be read");
     PlyText text{name, content};
     const PlyHeader header = read_header(text);
-    const std::size_t vertex_count = find_element(header, "vertex")->count;
+    const PlyElement& vertex = *find_element(header, "vertex");
     PlyContent read;
-    read.vertices.reserve(vertex_count);
+    read.fields = fields;
+    read.vertices.reserve(vertex.count);
     read.faces.reserve(find_element(header, "face")->count);
+    for (const PlyProperty& property : vertex.properties)
+        if (fields != nullptr && is_field(property)) fields->push_back({std::string(property.name), {}});
     PlyBody body(text, header.format);
     for (const PlyElement& element : header.elements)
-        if (!element.properties.empty()) read_elements(body, element, vertex_count, read);
+        if (!element.properties.empty()) read_elements(body, element, vertex.count, read);
     TriangleMesh mesh;
     mesh.triangles = triangles_of(read.faces, read.vertices);
     mesh.vertices = std::move(read.vertices);
     return mesh;
+}
+
+}  // namespace
+
+TriangleMesh read_ply(std::istream& in, const std::string& name) { return read_ply_content(in, name, nullptr); }
+
+MeshFields read_ply_fields(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw SceneError(file, "cannot be read");
+    MeshFields fields;
+    read_ply_content(in, file, &fields.vertex);
+    return fields;
 }
 
 }  // namespace percale::scenes

@@ -3,6 +3,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "meshes/mesh_fields.h"
 #include "percale/mesh.h"
 
 namespace percale::scenes {
@@ -14,5 +15,9 @@ namespace percale::scenes {
 /// name:line, behind a binary file's header with the name and the element. Counts that the file is too short to hold are refused
 /// before memory is taken for them; what is taken is at most some 40 times the file.
 TriangleMesh read_ply(std::istream& in, const std::string& name);
+
+/// The numbers that the vertices of a PLY file have besides x, y and z (write_ply), in the order of the file; in binary files
+/// they may be infinite or no numbers. Throws SceneError as read_ply does.
+MeshFields read_ply_fields(const std::string& file);
 
 }  // namespace percale::scenes
