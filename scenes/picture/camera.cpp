@@ -48,13 +48,13 @@ CameraAim aim_of_view(const std::string& view) {
 }
 
 Vec3 Camera::direction(double x, double y) const {
-    return ((x - 0.5 * width) * right - (y - 0.5 * height) * up - focal * height * back).normalized();
+    return ((x - middle) * right - (y - 0.5 * height) * up - focal * height * back).normalized();
 }
 
 Vec3 Camera::project(const Vec3& point) const {
     const Vec3 offset = point - eye;
     const double depth = -offset.dot(back), scale = focal * height / depth;
-    return {0.5 * width + scale * offset.dot(right), 0.5 * height - scale * offset.dot(up), depth};
+    return {middle + scale * offset.dot(right), 0.5 * height - scale * offset.dot(up), depth};
 }
 
 ViewFit::ViewFit(const CameraAim& aim, int width, int height) : aim_(aim) {
@@ -65,6 +65,7 @@ ViewFit::ViewFit(const CameraAim& aim, int width, int height) : aim_(aim) {
     frame_.up = frame_.back.cross(frame_.right);
     frame_.width = width;
     frame_.height = height;
+    frame_.middle = 0.5 * width;
     upwards_.tangent = (0.5 - free_margin) / frame_.focal;
     across_.tangent = (0.5 - free_margin) / frame_.focal * width / height;
 }
@@ -98,6 +99,12 @@ Camera ViewFit::camera() const {
     camera.eye += back_off * camera.back;
     camera.focal *= aim_.zoom;
     return camera;
+}
+
+Camera ViewFit::camera_of_wider(int width) const {
+    Camera wider = camera();
+    wider.width = width;
+    return wider;
 }
 
 }  // namespace percale::scenes

@@ -26,6 +26,7 @@ struct Camera {
     Vec3 right = Vec3::UnitX(), up = Vec3::UnitY(), back = Vec3::UnitZ();  // back: from what is looked at to the eye
     double focal = 2.0;                                                    // in heights of the picture
     int width = 0, height = 0;                                             // pixels
+    double middle = 0.0;  // pixels from the left, where the axis meets the picture; halfway down
 
     /// Through a place of the picture, unit length.
     Vec3 direction(double x, double y) const;
@@ -41,7 +42,10 @@ public:
     /// Throws SceneError for an elevation outside -90 ... 90, a zoom that is not above 0, what is not finite.
     ViewFit(const CameraAim& aim, int width, int height);
     void add(std::span<const Vec3> points);
+    /// Throws SceneError where no point was added.
     Camera camera() const;
+    /// The same in a picture that goes on to the right of what the points are fitted to, `width` pixels in all.
+    Camera camera_of_wider(int width) const;
 
 private:
     /// Of the points in the camera's frame: along an axis a and the axis b to the eye, with the tangent t of half the angle that

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <sstream>
 
 #include "common/text.h"
 #include "picture/stroke_font.h"
@@ -66,14 +68,14 @@ void draw_colour_bar(Image& picture, const PictureField& field, const FieldRange
         pen.y = y + 0.5 * capital;
         draw_text(picture, number.text, pen);
     }
-    // The name in two lines where it has two words, so that it fits the strip.
-    const std::size_t gap = field.word.find('_');
-    const std::string unit = " [" + field.unit + "]";
+    // A line for each word of the name and one for the unit, so that they fit the strip.
+    std::string words = field.word;
+    std::ranges::replace(words, '_', ' ');
+    std::istringstream lines(words + " [" + field.unit + "]");
+    const auto count = std::ranges::count(words, ' ') + 2;
     pen.x = left;
-    pen.y = top - 1.6 * capital;
-    draw_text(picture, gap == std::string::npos ? field.word + unit : field.word.substr(gap + 1) + unit, pen);
-    pen.y -= 1.9 * capital;
-    if (gap != std::string::npos) draw_text(picture, field.word.substr(0, gap), pen);
+    pen.y = top - 1.6 * capital - 1.9 * capital * static_cast<double>(count - 1);
+    for (std::string line; lines >> line; pen.y += 1.9 * capital) draw_text(picture, line, pen);
 }
 
 }  // namespace percale::scenes

@@ -11,11 +11,13 @@ namespace percale::scenes {
 namespace {
 
 // Directions to the lamp and to the sky in each part.
-constexpr int lamp_rays = 4, sky_rays = 6;
+constexpr int lamp_rays = 8, sky_rays = 6;
 // Radius of the lamp seen from the picture, as a tangent. Larger: softer shadows.
 constexpr double lamp_radius = 0.11;
 // Brightness: lamp, sky straight above and below, from the viewer, sheen of what is seen at a grazing angle.
-constexpr float lamp_light = 0.74f, sky_above = 0.42f, sky_below = 0.27f, eye_light = 0.10f, sheen_light = 0.05f;
+constexpr float lamp_light = 0.88f, sky_above = 0.34f, sky_below = 0.20f, eye_light = 0.07f, sheen_light = 0.05f;
+// Of the sky's light, what reaches the deepest fold.
+constexpr float hidden_light = 0.10f;
 // Above it brightness is bent so that 1 is never passed.
 constexpr float bright_shoulder = 0.8f;
 // Of the light that a shadow on the ground takes.
@@ -57,7 +59,7 @@ float bent(float light) {
 }  // namespace
 
 Lights::Lights(const Camera& camera, double sky_reach) : sky_reach_(sky_reach) {
-    const Vec3 lamp = (0.55 * camera.back - 0.60 * camera.right + 0.80 * Vec3::UnitY()).normalized();
+    const Vec3 lamp = (0.45 * camera.back - 0.72 * camera.right + 0.80 * Vec3::UnitY()).normalized();
     lamp_ = lamp.cast<float>();
     const auto [s, t] = across(lamp);
     for (const Eigen::Vector2d& p : disc_points(lamp_rays * parts))
@@ -91,13 +93,15 @@ LightShare Lights::measure(const Surfaces& surfaces, const SurfacePoint& point, 
 Colour Lights::shade(const Colour& colour, const SurfacePoint& point, const Eigen::Vector3f& to_eye,
                      const LightShare& share) const {
     const float up = 0.5f + 0.5f * point.normal.y(), facing = std::max(0.0f, point.normal.dot(to_eye));
+    // Some light comes everywhere.
+    const float shown_sky = hidden_light + (1.0f - hidden_light) * share.sky;
     const float lamp = lamp_light * share.key * std::max(0.0f, point.normal.dot(lamp_));
     const float sky = sky_below + (sky_above - sky_below) * up;
     const float grazing = (1.0f - facing) * (1.0f - facing) * (1.0f - facing);
     Colour light;
     for (int k = 0; k < 3; ++k) {
         // What of the sky is hidden shows surfaces of the same colour, which show some sky again: s + (1 - s) c s + ...
-        const float sky_seen = share.sky / (1.0f - colour[k] * (1.0f - share.sky));
+        const float sky_seen = shown_sky / (1.0f - colour[k] * (1.0f - shown_sky));
         light[k] = bent(colour[k] * (sky * sky_seen + lamp + eye_light * facing * (0.4f + 0.6f * share.sky)) +
                         sheen_light * grazing * share.sky);
     }

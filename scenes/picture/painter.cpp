@@ -111,13 +111,14 @@ LightShare FramePainter::smoothed(int column, int row, int before, int behind, i
     return {sum.sky * share, sum.key * share};
 }
 
-/// Any square of four by four pixels holds all parts. Where some lie on other surfaces, a larger one is taken.
+/// Any square of four by four pixels holds all parts. Where some lie on other surfaces, and for the wide shadows
+/// on the ground, a larger one is taken.
 void FramePainter::smooth_row(int row) {
     for (int column = 0; column < camera_.width; ++column) {
         const std::size_t k = number(column, row);
         if (points_[k].shape == SurfacePoint::nothing) continue;
         int count = 0;
-        lit_[k] = smoothed(column, row, 2, 1, &count);
+        if (points_[k].is_shape()) lit_[k] = smoothed(column, row, 2, 1, &count);
         if (count < Lights::parts) lit_[k] = smoothed(column, row, 4, 3, &count);
         if (count < Lights::parts / 2) lit_[k] = lights_.measure(surfaces_, points_[k], Lights::all_parts);
     }

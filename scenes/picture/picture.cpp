@@ -49,6 +49,7 @@ struct Scenery {
 struct SheetLayout {
     int columns = 1, strip = 0;           // strip: for labels, below each cell
     int cell_width = 0, cell_height = 0;  // without strip
+    int drawing_width = 0;                // of the cell and, where there is one column, of what is left of the bar's strip
     int gap = 0;
 };
 
@@ -61,6 +62,7 @@ SheetLayout layout_of(const std::vector<PictureCell>& cells, const CellGrid& gri
     layout.strip = has_labels ? static_cast<int>(std::max(least_label, label_share * whole)) : 0;
     layout.cell_width = (style.width - bar - (grid.columns - 1) * layout.gap) / grid.columns;
     layout.cell_height = whole - layout.strip;
+    layout.drawing_width = grid.columns == 1 ? style.width : layout.cell_width;
     if (layout.cell_width < least_cell || layout.cell_height < least_cell)
         throw SceneError("a picture of " + std::to_string(style.width) + "x" + std::to_string(style.height) +
                          " pixels has no room for " + std::to_string(grid.columns) + "x" + std::to_string(grid.rows) +
@@ -91,6 +93,7 @@ std::optional<FieldRange> range_of(const PictureStyle& style, const FieldSpread&
 }
 
 void draw_label(Image& picture, const std::string& label, const SheetLayout& layout, int left, int top) {
+    if (label.empty()) return;
     TextPen pen;
     pen.capital = label_capital * layout.strip;
     const double room = 0.94 * layout.cell_width, width = text_width(label, pen.capital);
@@ -178,8 +181,8 @@ Image draw_picture(const std::vector<PictureCell>& cells, const CellGrid& grid, 
         const int column = static_cast<int>(k) % layout.columns, row = static_cast<int>(k) / layout.columns;
         const int left = column * (layout.cell_width + layout.gap);
         const int top = row * (layout.cell_height + layout.strip + layout.gap);
-        const Image drawing =
-            paint(cells[k].source->load(cells[k].frame), scenery.fit.camera(), paint_settings(style, scenery, range), workers);
+        const Image drawing = paint(cells[k].source->load(cells[k].frame), scenery.fit.camera_of_wider(layout.drawing_width),
+                                    paint_settings(style, scenery, range), workers);
         paste(picture, drawing, left, top);
         draw_label(picture, cells[k].label, layout, left, top);
     }
@@ -202,7 +205,8 @@ void write_movie(const std::string& folder, FrameSource& source, const std::vect
     const OutputFolder made(folder);
     WrittenFiles written;
     for (std::size_t k = 0; k < frames.size(); ++k) {
-        const Image drawing = paint(source.load(frames[k]), scenery.fit.camera(), paint_settings(style, scenery, range), workers);
+        const Image drawing = paint(source.load(frames[k]), scenery.fit.camera_of_wider(layout.drawing_width),
+                                    paint_settings(style, scenery, range), workers);
         Image picture = empty_picture(style.width, style.height, style.background);
         paste(picture, drawing, 0, 0);
         if (range) draw_colour_bar(picture, *style.field, *range);

@@ -40,7 +40,7 @@ double round_step(double least) {
 
 FieldRange widened(double low, double high) {
     if (low < 0.0 && high > 0.0) high = std::max(-low, high), low = -high;
-    const double size = std::max({std::abs(low), std::abs(high), 1e-12});
+    const double largest = std::max(std::abs(low), std::abs(high)), size = largest > 0.0 ? largest : 1.0;
     if (high - low < 1e-6 * size) low -= 0.5 * size, high += 0.5 * size;
     FieldRange range;
     range.step = round_step((high - low) / wanted_numbers);

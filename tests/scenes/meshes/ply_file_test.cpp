@@ -300,3 +300,26 @@ TEST_CASE("a PLY cut off anywhere is refused or, behind its last number, whole")
         CHECK(parse(text).triangles.size() == 1);
     }
 }
+
+TEST_CASE("the numbers at vertices are read beside their places, infinite ones, too, and lists are left out") {
+    const TestFolder folder;
+    const double infinity = std::numeric_limits<double>::infinity();
+    const TriangleMesh mesh = make_grid(1, 1, 2, 2);
+    write_ply(folder.path("fields.ply"), mesh, {{{"pressure", {1.0, 2.5, 0.0, -4.0}}, {"distance", {infinity, 0.5, 0.25, 0.125}}}, {{"area", {1, 2}}}});
+    const MeshFields fields = read_ply_fields(folder.path("fields.ply"));
+    REQUIRE(fields.vertex.size() == 2);
+    CHECK(fields.triangle.empty());
+    CHECK(fields.vertex[0].name == "pressure");
+    CHECK(fields.vertex[0].values == std::vector<double>{1.0, 2.5, 0.0, -4.0});
+    CHECK(fields.vertex[1].values == std::vector<double>{infinity, 0.5, 0.25, 0.125});
+    folder.write("text.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float a\nproperty float x\nproperty list uchar int near\n"
+                 "property float y\nproperty float z\nproperty uchar red\nelement face 1\nproperty list uchar int vertex_indices\n"
+                 "end_header\n7.5 0 2 1 2 0 0 9\n8.5 1 0 0 0 10\n9.5 0 0 1 0 11\n3 0 1 2\n");
+    const MeshFields text = read_ply_fields(folder.path("text.ply"));
+    REQUIRE(text.vertex.size() == 2);
+    CHECK(text.vertex[0].values == std::vector<double>{7.5, 8.5, 9.5});
+    CHECK(text.vertex[1].name == "red");
+    CHECK(text.vertex[1].values == std::vector<double>{9, 10, 11});
+    CHECK(message_of([&] { read_ply_fields(folder.path("absent.ply")); }).find("absent.ply") != std::string::npos);
+}
