@@ -90,8 +90,8 @@ SurfacePoint Surfaces::look(const Vec3& eye, const Vec3& direction) const {
     return point;
 }
 
-/// With the corners x_i, their normals n_i and weights w_i, x is moved by - sum w_i min(0, (x - x_i) n_i) n_i: onto the tangent
-/// planes that it lies under.
+/// With the corners x_i, their normals n_i and weights w_i, x is moved by -1/2 sum w_i min(0, (x - x_i) n_i) n_i: half as far as
+/// to the tangent planes that it lies under, which is where a surface that bends evenly lies.
 Vec3 Surfaces::lifted(const SurfacePoint& point) const {
     const Vec3 place = point.place.cast<double>() + lift_share * radius_ * point.facet.cast<double>();
     if (!point.is_shape()) return place;
@@ -102,7 +102,7 @@ Vec3 Surfaces::lifted(const SurfacePoint& point) const {
     for (std::size_t k = 0; k < 3; ++k) {
         const Eigen::Vector3f corner = mesh.vertices[static_cast<std::size_t>(mesh.triangles[triangle][k])].cast<float>();
         const Eigen::Vector3f normal = side * normals_[shape][triangle][k];
-        moved -= weights[k] * std::min(0.0f, (point.place - corner).dot(normal)) * normal;
+        moved -= 0.5f * weights[k] * std::min(0.0f, (point.place - corner).dot(normal)) * normal;
     }
     return place + moved.cast<double>();
 }

@@ -5,12 +5,15 @@
 #include <limits>
 #include <sstream>
 
+#include "meshes/ply_output.h"
 #include "tests/scenes/message_of.h"
+#include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
 using namespace percale;
 using namespace percale::scenes;
 using percale::scenes::test::message_of;
+using percale::scenes::test::TestFolder;
 
 namespace {
 
@@ -305,17 +308,19 @@ TEST_CASE("the numbers at vertices are read beside their places, infinite ones, 
     const TestFolder folder;
     const double infinity = std::numeric_limits<double>::infinity();
     const TriangleMesh mesh = make_grid(1, 1, 2, 2);
-    write_ply(folder.path("fields.ply"), mesh, {{{"pressure", {1.0, 2.5, 0.0, -4.0}}, {"distance", {infinity, 0.5, 0.25, 0.125}}}, {{"area", {1, 2}}}});
+    write_ply(folder.path("fields.ply"), mesh,
+              {{{"pressure", {1.0, 2.5, 0.0, -4.0}}, {"distance", {infinity, 0.5, 0.25, 0.125}}}, {{"area", {1, 2}}}});
     const MeshFields fields = read_ply_fields(folder.path("fields.ply"));
     REQUIRE(fields.vertex.size() == 2);
     CHECK(fields.triangle.empty());
     CHECK(fields.vertex[0].name == "pressure");
     CHECK(fields.vertex[0].values == std::vector<double>{1.0, 2.5, 0.0, -4.0});
     CHECK(fields.vertex[1].values == std::vector<double>{infinity, 0.5, 0.25, 0.125});
-    folder.write("text.ply",
-                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float a\nproperty float x\nproperty list uchar int near\n"
-                 "property float y\nproperty float z\nproperty uchar red\nelement face 1\nproperty list uchar int vertex_indices\n"
-                 "end_header\n7.5 0 2 1 2 0 0 9\n8.5 1 0 0 0 10\n9.5 0 0 1 0 11\n3 0 1 2\n");
+    folder.write(
+        "text.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float a\nproperty float x\nproperty list uchar int near\n"
+        "property float y\nproperty float z\nproperty uchar red\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "end_header\n7.5 0 2 1 2 0 0 9\n8.5 1 0 0 0 10\n9.5 0 0 1 0 11\n3 0 1 2\n");
     const MeshFields text = read_ply_fields(folder.path("text.ply"));
     REQUIRE(text.vertex.size() == 2);
     CHECK(text.vertex[0].values == std::vector<double>{7.5, 8.5, 9.5});

@@ -23,7 +23,7 @@ TEST_CASE("colours blend over what is there by their cover, and nothing happens 
         blend(image, outside, 0, {1, 2, 3}, 1.0f);
         blend(image, 0, outside, {1, 2, 3}, 1.0f);
     }
-    CHECK(image.rgba == before);
+    CHECK((image.rgba == before));
 }
 
 TEST_CASE("a part is pasted where it belongs and refused where it does not fit") {
@@ -50,9 +50,9 @@ TEST_CASE("a PNG holds its pixels, with transparency only where there is some") 
     CHECK(opaque.channels == 3);
     CHECK(clear.channels == 4);
     REQUIRE((opaque.width == 7 && opaque.height == 5));
-    CHECK(clear.bytes == image.rgba);
+    CHECK((clear.bytes == image.rgba));
     for (std::size_t k = 0; k < 35; ++k)
-        for (std::size_t c = 0; c < 3; ++c) CHECK(opaque.bytes[3 * k + c] == image.rgba[4 * k + c]);
+        for (std::size_t c = 0; c < 3; ++c) CHECK((opaque.bytes[3 * k + c] == image.rgba[4 * k + c]));
     CHECK(folder.file_count() == 2);
 }
 

@@ -47,9 +47,9 @@ TEST_CASE("all printable characters are different, and blank is blank") {
     for (std::size_t a = 0; a < drawn.size(); ++a)
         for (std::size_t b = 0; b < a; ++b) {
             CAPTURE(a, b);
-            CHECK(drawn[a] != drawn[b]);
+            CHECK((drawn[a] != drawn[b]));
         }
-    CHECK(drawn[0] == Image(200, 200).rgba);
+    CHECK((drawn[0] == Image(200, 200).rgba));
 }
 
 TEST_CASE("a text is as wide as it says, at any size, and letters of other alphabets are one box each") {
@@ -69,5 +69,5 @@ TEST_CASE("a text is as wide as it says, at any size, and letters of other alpha
 TEST_CASE("text beyond an image is cut off") {
     Image image(20, 10);
     draw_text(image, "far too long", {-30.0, 5.0, 40.0, {0, 0, 0}});
-    CHECK(image.rgba.size() == 800);
+    CHECK((image.rgba.size() == 800));
 }
