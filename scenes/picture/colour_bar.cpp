@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "common/text.h"
-#include "picture/stroke_font.h"
+#include "report/stroke_font.h"
 
 namespace percale::scenes {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "picture/image.h"
 #include "picture/picture_field.h"
+#include "report/image.h"
 
 namespace percale::scenes {
 

@@ -4,9 +4,9 @@
 
 #include "percale/workers.h"
 #include "picture/camera.h"
-#include "picture/image.h"
 #include "picture/picture_field.h"
 #include "picture/surfaces.h"
+#include "report/image.h"
 
 namespace percale::scenes {
 

@@ -9,7 +9,7 @@
 #include "common/whole_file.h"
 #include "percale/error.h"
 #include "picture/colour_bar.h"
-#include "picture/stroke_font.h"
+#include "report/stroke_font.h"
 
 namespace percale::scenes {
 
@@ -85,10 +85,10 @@ PaintSettings paint_settings(const PictureStyle& style, const Scenery& scenery, 
     return settings;
 }
 
-std::optional<FieldRange> range_of(const PictureStyle& style, const FieldSpread& spread, const TellRange& tell) {
+std::optional<FieldRange> range_of(const PictureStyle& style, const FieldSpread& spread, const PictureNews& news) {
     if (style.field == nullptr) return {};
     const FieldRange range = style.range ? spread.range(style.range->first, style.range->second) : spread.range();
-    if (tell) tell(range);
+    if (news.range) news.range(range);
     return range;
 }
 
@@ -160,7 +160,7 @@ std::vector<Vec3> fitted_points(const ShownFrame& frame) {
 }
 
 Image draw_picture(const std::vector<PictureCell>& cells, const CellGrid& grid, const PictureStyle& style, Workers* workers,
-                   const TellRange& tell) {
+                   const PictureNews& news) {
     check_picture_size(style.width, style.height);
     if (cells.size() > static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows))
         throw SceneError(counted(static_cast<long>(cells.size()), "frame") + " do not fit a sheet of " +
@@ -174,7 +174,7 @@ Image draw_picture(const std::vector<PictureCell>& cells, const CellGrid& grid, 
         sceneries.try_emplace(cell.source, empty).first->second.add(frame);
         spread.add(frame);
     }
-    const std::optional<FieldRange> range = range_of(style, spread, tell);
+    const std::optional<FieldRange> range = range_of(style, spread, news);
     Image picture = empty_picture(style.width, style.height, style.background);
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const Scenery& scenery = sceneries.at(cells[k].source);
@@ -191,7 +191,7 @@ Image draw_picture(const std::vector<PictureCell>& cells, const CellGrid& grid, 
 }
 
 void write_movie(const std::string& folder, FrameSource& source, const std::vector<int>& frames, const PictureStyle& style,
-                 Workers* workers, const TellRange& tell, const std::function<void(int)>& done) {
+                 Workers* workers, const PictureNews& news) {
     check_picture_size(style.width, style.height);
     const SheetLayout layout = layout_of({}, {}, style);
     Scenery scenery{ViewFit(style.aim, layout.cell_width, layout.cell_height)};
@@ -201,7 +201,7 @@ void write_movie(const std::string& folder, FrameSource& source, const std::vect
         scenery.add(frame);
         spread.add(frame);
     }
-    const std::optional<FieldRange> range = range_of(style, spread, tell);
+    const std::optional<FieldRange> range = range_of(style, spread, news);
     const OutputFolder made(folder);
     WrittenFiles written;
     for (std::size_t k = 0; k < frames.size(); ++k) {
@@ -213,7 +213,7 @@ void write_movie(const std::string& folder, FrameSource& source, const std::vect
         const std::string file = movie_file(folder, static_cast<int>(k));
         write_png(file, picture);
         written.files.push_back(file);
-        if (done) done(static_cast<int>(k) + 1);
+        if (news.done) news.done(static_cast<int>(k) + 1);
     }
     written.files.clear();
 }

@@ -42,17 +42,20 @@ CellGrid grid_for(int cells, int width, int height);
 /// The points that the camera is fitted to: all cloth, and bodies as far as they are near it; all bodies where there is no cloth.
 std::vector<Vec3> fitted_points(const ShownFrame& frame);
 
-/// What was shown of a field.
-using TellRange = std::function<void(const FieldRange&)>;
+/// What is told while pictures are made; each may be empty.
+struct PictureNews {
+    std::function<void(const FieldRange&)> range = {};  // of the field, before the first is drawn
+    std::function<void(int)> done = {};                 // how many pictures of a movie are written
+};
 
 /// One picture of one frame, or a contact sheet of several cells, each with its label below. The cells of one source have the
 /// same camera, all the same colours for values. Throws SceneError for more cells than the grid has, or no room for them.
 Image draw_picture(const std::vector<PictureCell>& cells, const CellGrid& grid, const PictureStyle& style, Workers* workers,
-                   const TellRange& tell = {});
+                   const PictureNews& news = {});
 
 /// Pictures FOLDER/frame_00000.png, ... of these frames of one source, with one camera and one range. Where one cannot be made or
-/// written those before it go again, too. `done` is called after each.
+/// written those before it go again, too.
 void write_movie(const std::string& folder, FrameSource& source, const std::vector<int>& frames, const PictureStyle& style,
-                 Workers* workers, const TellRange& tell = {}, const std::function<void(int)>& done = {});
+                 Workers* workers, const PictureNews& news = {});
 
 }  // namespace percale::scenes

@@ -5,7 +5,7 @@
 #endif
 
 #include "percale/error.h"
-#include "picture/missing.h"
+#include "report/image.h"
 
 namespace percale::scenes {
 

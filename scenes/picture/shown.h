@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "percale/mesh.h"
-#include "picture/colour.h"
+#include "report/colour.h"
 
 namespace percale::scenes {
 

@@ -30,24 +30,22 @@ double shown_radius(std::span<const ShownShape> shapes) {
 }  // namespace
 
 std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(const TriangleMesh& mesh) {
-    std::vector<std::vector<int>> around(mesh.vertices.size());
+    std::vector<std::vector<std::size_t>> around(mesh.vertices.size());
     std::vector<Eigen::Vector3f> whole, unit;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         whole.push_back(area_normal(mesh, mesh.triangles[i]));
         unit.push_back(whole.back().normalized());
-        for (const int vertex : mesh.triangles[i]) around[static_cast<std::size_t>(vertex)].push_back(static_cast<int>(i));
+        for (const int vertex : mesh.triangles[i]) around[static_cast<std::size_t>(vertex)].push_back(i);
     }
+    const auto corner = [&](std::size_t i, int vertex) {
+        Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+        for (const std::size_t j : around[static_cast<std::size_t>(vertex)])
+            if (j == i || unit[i].dot(unit[j]) > crease_cosine) sum += whole[j];
+        return Eigen::Vector3f(sum.normalized());
+    };
     std::vector<std::array<Eigen::Vector3f, 3>> normals(mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-            for (const int other : around[static_cast<std::size_t>(mesh.triangles[i][k])]) {
-                const auto j = static_cast<std::size_t>(other);
-                if (j == i || unit[i].dot(unit[j]) > crease_cosine) sum += whole[j];
-            }
-            normals[i][k] = sum.normalized();
-        }
-    }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) normals[i][k] = corner(i, mesh.triangles[i][k]);
     return normals;
 }
 

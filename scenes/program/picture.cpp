@@ -11,9 +11,9 @@
 
 #include "common/text.h"
 #include "percale/error.h"
-#include "picture/missing.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
+#include "report/image.h"
 
 namespace percale::program {
 
@@ -197,13 +197,13 @@ void check_together(const PictureOptions& options) {
         throw SceneError("-o " + options.out + ": its name must end in .png, which is what is written");
 }
 
-TellRange range_teller(const PictureOptions& options, const PictureStyle& style) {
+PictureNews news_of(const PictureOptions& options, const PictureStyle& style) {
     if (options.quiet) return {};
-    return [&style](const FieldRange& range) {
+    return {.range = [&style](const FieldRange& range) {
         std::printf("%s: %s ... %s %s%s%s\n", style.field->word.c_str(), short_number(range.low).c_str(),
                     short_number(range.high).c_str(), style.field->unit.c_str(), range.some_below ? ", some below" : "",
                     range.some_above ? ", some above" : "");
-    };
+    }};
 }
 
 int make_pictures(const PictureOptions& options) {
@@ -212,11 +212,11 @@ int make_pictures(const PictureOptions& options) {
     const PictureStyle style = style_of(options);
     std::vector<FrameSource> sources = sources_of(options.paths, choice_of(options, style));
     const std::shared_ptr<Workers> workers = make_workers(options.threads);
-    const TellRange tell = range_teller(options, style);
+    const PictureNews news = news_of(options, style);
     if (!options.movie.empty()) {
         if (sources.size() > 1) throw SceneError("--movie: is of one run");
         const std::vector<int> frames = several_frames(options, sources[0], 0);
-        write_movie(options.movie, sources[0], frames, style, workers.get(), tell);
+        write_movie(options.movie, sources[0], frames, style, workers.get(), news);
         if (!options.quiet)
             std::printf("%s: %s\n", options.movie.c_str(), counted(static_cast<long>(frames.size()), "picture").c_str());
         return all_well;
@@ -224,7 +224,7 @@ int make_pictures(const PictureOptions& options) {
     CellGrid grid;
     const std::vector<PictureCell> cells = cells_of(options, sources, grid);
     if (options.sheet.empty()) grid = grid_for(static_cast<int>(cells.size()), style.width, style.height);
-    write_png(options.out, draw_picture(cells, grid, style, workers.get(), tell));
+    write_png(options.out, draw_picture(cells, grid, style, workers.get(), news));
     if (!options.quiet) std::printf("%s: %dx%d pixels\n", options.out.c_str(), style.width, style.height);
     return all_well;
 }

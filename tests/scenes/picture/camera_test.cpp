@@ -30,21 +30,20 @@ Camera fitted(const CameraAim& aim, int width, int height, const std::vector<Vec
 }  // namespace
 
 TEST_CASE("a fitted camera sees every vertex from everywhere, and touches its margin") {
-    for (const auto& [width, height] : {std::pair(1200, 900), std::pair(300, 900), std::pair(900, 200)}) {
-        for (double azimuth = -180.0; azimuth < 180.0; azimuth += 33.0) {
-            for (const double elevation : {-90.0, -20.0, 0.0, 12.0, 90.0}) {
-                const std::vector<Vec3> points = cloud(7);
-                const Camera camera = fitted({azimuth, elevation}, width, height, points);
-                double widest = 0.0;
-                for (const Vec3& point : points) {
-                    const Vec3 seen = camera.project(point);
-                    CHECK(seen.z() > 0.0);
-                    widest = std::max({widest, std::abs(seen.x() / width - 0.5), std::abs(seen.y() / height - 0.5)});
-                }
-                CHECK(widest <= 0.4401);
-                CHECK(widest > 0.43);
-            }
+    const std::vector<Vec3> points = cloud(7);
+    const std::pair<int, int> sizes[] = {{1200, 900}, {300, 900}, {900, 200}};
+    const double elevations[] = {-90.0, -20.0, 0.0, 12.0, 90.0};
+    for (int k = 0; k < 165; ++k) {
+        const auto [width, height] = sizes[k % 3];
+        const Camera camera = fitted({33.0 * (k / 15) - 180.0, elevations[k % 5]}, width, height, points);
+        double widest = 0.0;
+        for (const Vec3& point : points) {
+            const Vec3 seen = camera.project(point);
+            CHECK(seen.z() > 0.0);
+            widest = std::max({widest, std::abs(seen.x() / width - 0.5), std::abs(seen.y() / height - 0.5)});
         }
+        CHECK(widest <= 0.4401);
+        CHECK(widest > 0.43);
     }
 }
 

@@ -94,7 +94,7 @@ TEST_CASE("names that no shape has, and frames that cannot be drawn, are refused
     CHECK(message_of([&] { FrameSource::of_run(empty.path(), {}); }).find("lists no frames") != std::string::npos);
 }
 
-TEST_CASE("meshes are one frame; closed ones are bodies unless there are several and all are") {
+TEST_CASE("meshes are one frame, of which closed ones are bodies unless there are several and all are") {
     const TestFolder folder;
     const TriangleMesh ball = make_sphere(0.3, 1), sheet = make_grid(1, 1, 3, 3);
     write_obj(folder.path("ball.obj"), ball.vertices, ball.triangles);

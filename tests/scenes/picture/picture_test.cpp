@@ -61,12 +61,12 @@ TEST_CASE("a picture has its size, its bar at the right, and tells the range") {
     choice.field = style.field;
     FrameSource source = sheet_source(folder, choice);
     double low = -1.0, high = -1.0;
-    const Image picture =
-        draw_picture({{&source, 0}}, {}, style, nullptr, [&](const FieldRange& range) { low = range.low, high = range.high; });
+    const auto keep = [&](const FieldRange& range) { low = range.low, high = range.high; };
+    const Image picture = draw_picture({{&source, 0}}, {}, style, nullptr, {.range = keep});
     CHECK((picture.width == 160 && picture.height == 120));
     CHECK((low <= 100.0 && low > 0.0 && high > 300.0));
     style.range = {0.0, 1000.0};
-    draw_picture({{&source, 0}}, {}, style, nullptr, [&](const FieldRange& range) { low = range.low, high = range.high; });
+    draw_picture({{&source, 0}}, {}, style, nullptr, {.range = keep});
     CHECK((low == 0.0 && high == 1000.0));
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("a movie is one picture a frame, numbered, and all or nothing") {
     PictureStyle style;
     style.width = style.height = 64;
     int last = 0;
-    write_movie(folder.path("movie"), source, {0, 0, 0}, style, nullptr, {}, [&](int done) { last = done; });
+    write_movie(folder.path("movie"), source, {0, 0, 0}, style, nullptr, {.done = [&](int done) { last = done; }});
     CHECK(last == 3);
     for (const char* name : {"movie/frame_00000.png", "movie/frame_00002.png"}) {
         const auto png = percale::scenes::test::read_png(folder.read(name));

@@ -9,7 +9,7 @@
 #include <stb/stb_image.h>
 #endif
 
-#include "picture/missing.h"
+#include "report/image.h"
 #include "tests/support/catch.h"
 
 namespace percale::scenes::test {

@@ -24,6 +24,19 @@ double ray_distance(const TriangleMesh& mesh, const Triangle& t, const Vec3& ori
     return hit ? solved.z() : std::numeric_limits<double>::infinity();
 }
 
+/// The shape that a ray meets first, -1: none, and how far off.
+std::pair<int, double> nearest_shape(const std::vector<ShownShape>& shapes, const Vec3& origin, const Vec3& direction) {
+    std::pair<int, double> found{-1, std::numeric_limits<double>::infinity()};
+    for (int s = 0; s < static_cast<int>(shapes.size()); ++s) {
+        const TriangleMesh& mesh = shapes[static_cast<std::size_t>(s)].mesh;
+        for (const Triangle& t : mesh.triangles) {
+            const double distance = ray_distance(mesh, t, origin, direction);
+            if (distance < found.second) found = {s, distance};
+        }
+    }
+    return found;
+}
+
 }  // namespace
 
 TEST_CASE("rays meet what a search of all triangles finds, far from the origin, too") {
@@ -36,14 +49,7 @@ TEST_CASE("rays meet what a search of all triangles finds, far from the origin, 
     for (int k = 0; k < 400; ++k) {
         const Vec3 origin = far + Vec3(2.0, 0.1, -1.5);
         const Vec3 direction = (far + Vec3(0, 0.05 * (k / 20 - 10), 0.05 * (k % 20 - 10)) - origin).normalized();
-        double nearest = std::numeric_limits<double>::infinity();
-        int owner = -1;
-        for (int s = 0; s < 2; ++s) {
-            for (const Triangle& t : shapes[static_cast<std::size_t>(s)].mesh.triangles) {
-                const double distance = ray_distance(shapes[static_cast<std::size_t>(s)].mesh, t, origin, direction);
-                if (distance < nearest) nearest = distance, owner = s;
-            }
-        }
+        const auto [owner, nearest] = nearest_shape(shapes, origin, direction);
         const RayHit hit = tree.first_hit(origin, direction);
         CHECK(tree.blocked(origin, direction, 100.0) == (hit.shape >= 0));
         if (hit.shape != owner) ++odd;

@@ -1,4 +1,4 @@
-#include "picture/image.h"
+#include "report/image.h"
 
 #include "tests/scenes/message_of.h"
 #include "tests/scenes/picture/png_reader.h"

@@ -1,4 +1,4 @@
-#include "picture/stroke_font.h"
+#include "report/stroke_font.h"
 
 #include <algorithm>
 #include <array>
@@ -119,12 +119,12 @@ struct PenStroke {
 };
 
 /// The strokes of a character, each a line between two points; gives its width.
-double add_glyph(std::string_view strokes, double left, std::vector<PenStroke>& lines) {
+double add_glyph(std::string_view strokes, double start, std::vector<PenStroke>& lines) {
     double width = 0.0, x = 0.0, y = 0.0;
     bool goes_on = false;
     for (std::size_t k = 0; k + 1 < strokes.size(); k += 3) {
         const double next_x = strokes[k] - '0', next_y = strokes[k + 1] - '0';
-        if (goes_on) lines.push_back({left + x, y, left + next_x, next_y});
+        if (goes_on) lines.push_back({start + x, y, start + next_x, next_y});
         x = next_x;
         y = next_y;
         width = std::max(width, x);
@@ -135,16 +135,16 @@ double add_glyph(std::string_view strokes, double left, std::vector<PenStroke>& 
 
 /// All strokes of a text in units of the grid; gives its width.
 double add_strokes(const std::string& text, std::vector<PenStroke>& lines) {
-    double left = 0.0, right = 0.0;
+    double start = 0.0, end = 0.0;
     for (const char letter : text) {
         const auto code = static_cast<unsigned char>(letter);
         if ((code & 0xc0u) == 0x80u) continue;  // goes on with a character of UTF-8
         const bool known = code >= ' ' && code <= '~';
-        const double width = add_glyph(known ? glyph_strokes[code - std::size_t{' '}] : glyph_box, left, lines);
-        right = left + (letter == ' ' ? space_width : width);
-        left = right + (letter == ' ' ? 0.0 : glyph_gap);
+        const double width = add_glyph(known ? glyph_strokes[code - std::size_t{' '}] : glyph_box, start, lines);
+        end = start + (letter == ' ' ? space_width : width);
+        start = end + (letter == ' ' ? 0.0 : glyph_gap);
     }
-    return right;
+    return end;
 }
 
 double distance_to(const PenStroke& line, double x, double y) {
@@ -164,12 +164,12 @@ void draw_text(Image& image, const std::string& text, const TextPen& pen) {
     std::vector<PenStroke> lines;
     const double unit = pen.capital / grid_capital, radius = std::max(pen_radius * unit, 0.5);
     const double width = add_strokes(text, lines) * unit;
-    const int reach = static_cast<int>(std::ceil(radius)) + 1, left = static_cast<int>(std::floor(pen.x)) - reach,
-              top = static_cast<int>(std::floor(pen.y - pen.capital)) - reach;
-    const int right = static_cast<int>(std::ceil(pen.x + width)) + reach,
-              bottom = static_cast<int>(std::ceil(pen.y + 2.0 * unit)) + reach;
-    for (int row = std::max(top, 0); row < std::min(bottom, image.height); ++row) {
-        for (int column = std::max(left, 0); column < std::min(right, image.width); ++column) {
+    const int reach = static_cast<int>(std::ceil(radius)) + 1, start = static_cast<int>(std::floor(pen.x)) - reach,
+              first_row = static_cast<int>(std::floor(pen.y - pen.capital)) - reach;
+    const int end = static_cast<int>(std::ceil(pen.x + width)) + reach,
+              last_row = static_cast<int>(std::ceil(pen.y + 2.0 * unit)) + reach;
+    for (int row = std::max(first_row, 0); row < std::min(last_row, image.height); ++row) {
+        for (int column = std::max(start, 0); column < std::min(end, image.width); ++column) {
             const double x = (column + 0.5 - pen.x) / unit, y = (row + 0.5 - pen.y) / unit + grid_capital;
             double nearest = 1e30;
             for (const PenStroke& line : lines) nearest = std::min(nearest, distance_to(line, x, y));

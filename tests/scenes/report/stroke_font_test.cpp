@@ -1,4 +1,4 @@
-#include "picture/stroke_font.h"
+#include "report/stroke_font.h"
 
 #include "tests/support/catch.h"
 

@@ -1,4 +1,4 @@
-#include "picture/image.h"
+#include "report/image.h"
 
 #ifdef PERCALE_HAS_PICTURES
 #include <stb/stb_image_write.h>
@@ -9,7 +9,6 @@
 
 #include "common/whole_file.h"
 #include "percale/error.h"
-#include "picture/missing.h"
 
 namespace percale::scenes {
 

@@ -1,4 +1,4 @@
-#include "picture/colour.h"
+#include "report/colour.h"
 
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"

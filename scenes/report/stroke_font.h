@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "picture/image.h"
+#include "report/image.h"
 
 // Letters as strokes of a pen, of any size: what a picture says about itself.
 namespace percale::scenes {

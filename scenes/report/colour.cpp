@@ -1,4 +1,4 @@
-#include "picture/colour.h"
+#include "report/colour.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ Colour colour_of_number(std::uint32_t number) {
 
 constexpr std::uint32_t cloth_colours[] = {0xb23a34, 0x3a6ea5, 0xe0a83a, 0x5a9a68, 0x8459a0, 0xd9703a, 0x3a9ea0, 0xb05a80};
 constexpr std::uint32_t body_colours[] = {0xcbbbac, 0xa9b4be, 0xb8bfa6, 0xbfaebd};
-constexpr std::uint32_t rising_colours[] = {0x2d1e5f, 0x33508f, 0x2f7f93, 0x37a783, 0x8fc95a, 0xf4e24a};
+constexpr std::uint32_t rising_colours[] = {0x3f3f98, 0x3f6bb2, 0x3a96a8, 0x4bb488, 0xa2d062, 0xf7e75c};
 constexpr std::uint32_t diverging_colours[] = {0x1f4e9c, 0x6d9fd0, 0xf2f0eb, 0xe08a68, 0xa3202c};
 
 /// Full colours around the circle; the golden section keeps neighbours in the list apart.

@@ -7,6 +7,15 @@
 
 namespace percale::scenes {
 
+/// Why this build makes no pictures, as a message; "" if it does.
+inline std::string pictures_missing() {
+#ifdef PERCALE_HAS_PICTURES
+    return {};
+#else
+    return "this build has no pictures: libembree-dev or libstb-dev was not found when it was configured";
+#endif
+}
+
 /// Red, green, blue as sRGB encodes them.
 using Bytes3 = std::array<std::uint8_t, 3>;
 
