@@ -22,7 +22,7 @@ constexpr double near_cloth = 1.5;
 // Of the radius of all that is fitted: how far the ground shows shadows.
 constexpr double ground_radius_share = 3.2;
 // Of a cell's height: its label.
-constexpr double label_share = 0.055, least_label = 12.0, label_capital = 0.5;
+constexpr double label_share = 0.07, least_label = 14.0, label_capital = 0.5;
 
 /// What all drawings of one source have in common.
 struct Scenery {

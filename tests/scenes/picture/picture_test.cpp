@@ -79,7 +79,7 @@ TEST_CASE("a sheet has a drawing and a label for each cell, each as if drawn alo
     style.height = 100;
     style.background = Background::transparent;
     const Image sheet = draw_picture({{&source, 0, "0.00 s"}, {&source, 0, "0.50 s"}}, {2, 1}, style, nullptr);
-    const int strip = 12, width = 100, height = 100 - strip;
+    const int strip = 14, width = 100, height = 100 - strip;
     PictureStyle single = style;
     single.width = width;
     single.height = height;
