@@ -66,7 +66,7 @@ FrameSource FrameSource::of_meshes(const std::vector<std::string>& files, const 
     Frame frame;
     bool all_closed = true;
     for (const std::string& file : files) {
-        const TriangleMesh& mesh = source.bodies_.emplace(file, import_mesh(file)).first->second;
+        const TriangleMesh& mesh = source.bodies_.emplace(file, import_mesh(file, 1.0, &source.warnings_)).first->second;
         const bool closed = is_closed(mesh);
         all_closed = all_closed && closed;
         const std::string ply = extension_of(file) == ".ply" ? file : std::string();

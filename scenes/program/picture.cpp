@@ -135,7 +135,8 @@ int single_frame(const PictureOptions& options, const FrameSource& source) {
     }
     if (options.time.empty()) return source.count() - 1;
     const double time = number_of_text("--time", options.time), last = source.time(source.count() - 1);
-    if (time < 0.0 || time > last)
+    // A time as people write it may be above a sum of steps by rounding.
+    if (time < 0.0 || time > last * (1.0 + 1e-9))
         throw SceneError("--time " + options.time + ": '" + source.name() + "' has frames from 0 to " + number_text(last) + " s");
     return source.nearest_frame(time);
 }
@@ -211,6 +212,8 @@ int make_pictures(const PictureOptions& options) {
     check_together(options);
     const PictureStyle style = style_of(options);
     std::vector<FrameSource> sources = sources_of(options.paths, choice_of(options, style));
+    for (const std::string& warning : sources[0].warnings())
+        if (!options.quiet) std::printf("warning: %s\n", warning.c_str());
     const std::shared_ptr<Workers> workers = make_workers(options.threads);
     const PictureNews news = news_of(options, style);
     if (!options.movie.empty()) {

@@ -94,6 +94,12 @@ TEST_CASE("names that no shape has, and frames that cannot be drawn, are refused
     CHECK(message_of([&] { FrameSource::of_run(empty.path(), {}); }).find("lists no frames") != std::string::npos);
 }
 
+TEST_CASE("a mesh that moves by itself is drawn as it stands, and that is said") {
+    const FrameSource source = FrameSource::of_meshes({PERCALE_DATA_DIR "/meshes/mannequin.glb"}, {});
+    REQUIRE(source.warnings().size() == 1);
+    CHECK(source.warnings()[0].find("it is animated, which is left out") != std::string::npos);
+}
+
 TEST_CASE("meshes are one frame, of which closed ones are bodies unless there are several and all are") {
     const TestFolder folder;
     const TriangleMesh ball = make_sphere(0.3, 1), sheet = make_grid(1, 1, 3, 3);

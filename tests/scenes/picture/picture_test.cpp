@@ -28,8 +28,8 @@ FrameSource sheet_source(const TestFolder& folder, const ShownChoice& choice = {
 }  // namespace
 
 TEST_CASE("sizes are in their range, and grids make their cells large") {
-    for (const auto& [width, height] : {std::pair(15, 100), std::pair(100, 8193), std::pair(8192, 4096)})
-        CHECK(message_of([&] { check_picture_size(width, height); }).find("16 ... 8192") != std::string::npos);
+    for (const auto& size : {std::pair(15, 100), std::pair(100, 8193), std::pair(8192, 4096)})
+        CHECK(message_of([&] { check_picture_size(size.first, size.second); }).find("16 ... 8192") != std::string::npos);
     check_picture_size(4096, 4096);
     for (int cells = 1; cells < 50; ++cells) {
         const CellGrid grid = grid_for(cells, 1200, 900);
