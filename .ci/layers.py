@@ -37,7 +37,7 @@ MAY_INCLUDE = {
     'outside': PUBLIC | {'outside'},
 }
 # The rooms of scenes/, each of which may include itself and the rooms before it.
-SCENES_ROOMS = ['common', 'report', 'shapes', 'meshes', 'frames', 'fields', 'pattern', 'format', 'garment', 'bodies', 'measures', 'run', 'export', 'page', 'doctor', 'drape', 'compare', 'stress', 'sweep', 'program']
+SCENES_ROOMS = ['common', 'report', 'shapes', 'meshes', 'frames', 'fields', 'pattern', 'format', 'garment', 'bodies', 'measures', 'run', 'export', 'picture', 'page', 'doctor', 'drape', 'compare', 'stress', 'sweep', 'program']
 # Which folder of collision may include which other ones; tolerances.h all of them. What stands on top (detector.*) sees all, a
 # backend sees the top and what a tree is.
 COLLISION_FOLDERS = {
@@ -53,6 +53,7 @@ OTHERS = [
     (r'bullet/|bt[A-Z]|Bullet|LinearMath/', ('collision/bullet/', 'tests/collision/', 'tests/bench/', 'data/examples/')),
     (r'assimp/|toml\+\+/|nlohmann/|CLI/|fmt/|spdlog/|tiny_gltf|stb_|pybind11/', ('scenes/', 'tests/scenes/', 'tests/validation/',
                                                                        'tests/properties/', 'tests/misuse/', 'tests/bench/')),
+    (r'embree3/|stb/', ('scenes/', 'tests/scenes/')),
     (r'catch2/', ('tests/support/',)),
 ]
 # Anything else outside the standard library that engine/ may see.
@@ -74,6 +75,7 @@ LONG_FILES = {
 MOST_FOLDER_FILES = 25
 # Folders that may hold more files of their own, and why.
 LARGE_FOLDERS = {
+    'scenes/program': 'one file a subcommand, by the name that users type',
     'tests/fuzz/corpus/*': 'inputs that the fuzzers found and nobody reads',
     'data/scenes': 'each stands for itself: users pick one by its name, and programs run all',
 }

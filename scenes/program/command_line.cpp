@@ -17,8 +17,8 @@ namespace percale::program {
 
 namespace {
 
-const std::vector<std::string> commands = {"run",    "plan",   "check",  "explain", "certify", "drape", "compare",
-                                           "doctor", "replay", "report", "sew",     "stress",  "sweep"};
+const std::vector<std::string> commands = {"run",     "plan",   "check",  "explain", "certify", "drape",  "compare", "doctor",
+                                           "picture", "render", "replay", "report",  "sew",     "stress", "sweep"};
 
 /// Says what is wrong with a command name better than the parser, which takes it for a stray argument.
 void check_command_name(const std::string& word) {
@@ -60,6 +60,7 @@ int parse_and_act(int argc, char** argv) {
     add_drape_command(program, action);
     add_compare_command(program, action);
     add_doctor_command(program, action);
+    add_picture_command(program, action);
     add_replay_command(program, action);
     add_report_command(program, action);
     add_sew_command(program, action);

@@ -20,6 +20,7 @@ void add_certify_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
 void add_doctor_command(CLI::App& program, Action& action);
 void add_drape_command(CLI::App& program, Action& action);
+void add_picture_command(CLI::App& program, Action& action);
 void add_replay_command(CLI::App& program, Action& action);
 void add_report_command(CLI::App& program, Action& action);
 void add_sew_command(CLI::App& program, Action& action);

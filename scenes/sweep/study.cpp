@@ -108,7 +108,7 @@ Variation variation_of(const TomlNode& node) {
 }
 
 /// One run for each combination and draw.
-void expand(Study& study, const std::vector<Variation>& variations, long draws, std::uint64_t seed) {
+void expand(Study& study, const std::vector<Variation>& variations, long draws, std::uint64_t first) {
     std::size_t count = static_cast<std::size_t>(draws);
     for (const Variation& variation : variations) {
         if (variation.draw) continue;
@@ -117,7 +117,7 @@ void expand(Study& study, const std::vector<Variation>& variations, long draws, 
             throw SceneError(study.file + ": more than " + std::to_string(most_runs) +
                              " runs, which is the most that a study may have");
     }
-    Draws random(seed);
+    Draws random(first);
     for (std::size_t run = 0; run < count; ++run) {
         std::vector<std::string>& values = study.runs.emplace_back(variations.size());
         std::size_t left = run / static_cast<std::size_t>(draws);
@@ -191,12 +191,12 @@ Study read_study(const std::string& file) {
         study.keys.push_back(node.key);
         variations.push_back(variation_of(node));
     }
-    const TomlNode *draws = document.find("draws"), *seed = document.find("seed");
+    const TomlNode *draws = document.find("draws"), *first = document.find("seed");
     const bool random = std::ranges::any_of(variations, [](const Variation& variation) { return bool(variation.draw); });
-    for (const TomlNode* node : {draws, seed})
+    for (const TomlNode* node : {draws, first})
         if (node != nullptr && !random) fail_at(node->key_place, node->key + " is for random values, and [vary] has none");
     expand(study, variations, draws != nullptr ? whole_number(*draws, "draws", 1, most_runs) : 1,
-           static_cast<std::uint64_t>(seed != nullptr ? whole_number(*seed, "seed", 0, 1L << 53) : 0));
+           static_cast<std::uint64_t>(first != nullptr ? whole_number(*first, "seed", 0, 1L << 53) : 0));
     check_runs(study, *vary);
     choose_plot(study, document.find("plot"));
     return study;

@@ -25,7 +25,7 @@ TEST_CASE("the help of every command shows an example of it") {
 
 TEST_CASE("a command that does not exist is refused with the nearest and all that there are") {
     CHECK(refused(run_program({"chek", "a.toml"}), "no such command 'chek'; did you mean 'check'? valid: run, plan, check, "));
-    CHECK(refused(run_program({"render"}), "no such command 'render'; valid: run, plan, check, "));
+    CHECK(refused(run_program({"simulate"}), "no such command 'simulate'; valid: run, plan, check, "));
 }
 
 TEST_CASE("a command line that cannot be read ends with exit code 2 and one message") {

@@ -1,0 +1,116 @@
+#include "picture/picture_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/nearest_name.h"
+#include "common/text.h"
+#include "percale/certify.h"
+#include "percale/error.h"
+
+namespace percale::scenes {
+
+namespace {
+
+// Numbers at a bar, about.
+constexpr double wanted_numbers = 5.0;
+// Share of the values that the colours leave to their last one.
+constexpr double share_beyond = 0.005;
+// Of a step: a bound that is a round number but for rounding stays.
+constexpr double round_slack = 1e-9;
+
+const std::vector<PictureField>& known_fields() {
+    static const std::vector<PictureField> fields = {{"strain", {"strain_warp", "strain_weft"}, "%", 100.0, "strain"},
+                                                     {"strain_warp", {"strain_warp"}, "%", 100.0, "strain"},
+                                                     {"strain_weft", {"strain_weft"}, "%", 100.0, "strain"},
+                                                     {"strain_shear", {"strain_shear"}, "rad", 1.0, "strain"},
+                                                     {"pressure", {"pressure"}, "Pa", 1.0, "pressure"},
+                                                     {"distance", {"distance"}, "mm", 1000.0, "distance"}};
+    return fields;
+}
+
+/// 1, 2 or 5 times a power of ten, not below `least`.
+double round_step(double least) {
+    const double power = std::pow(10.0, std::floor(std::log10(least)));
+    for (const double digit : {1.0, 2.0, 5.0})
+        if (digit * power >= least * (1.0 - round_slack)) return digit * power;
+    return 10.0 * power;
+}
+
+FieldRange widened(double low, double high) {
+    if (low < 0.0 && high > 0.0) high = std::max(-low, high), low = -high;
+    const double largest = std::max(std::abs(low), std::abs(high)), size = largest > 0.0 ? largest : 1.0;
+    if (high - low < 1e-6 * size) low -= 0.5 * size, high += 0.5 * size;
+    FieldRange range;
+    range.step = round_step((high - low) / wanted_numbers);
+    range.low = range.step * std::floor(low / range.step + round_slack);
+    range.high = range.step * std::ceil(high / range.step - round_slack);
+    return range;
+}
+
+}  // namespace
+
+std::vector<std::string> picture_field_words() {
+    std::vector<std::string> words;
+    for (const PictureField& field : known_fields()) words.push_back(field.word);
+    return words;
+}
+
+const PictureField& picture_field(const std::string& word) {
+    for (const PictureField& field : known_fields())
+        if (field.word == word) return field;
+    throw SceneError("no field '" + word + "'" + suggestion(word, picture_field_words()));
+}
+
+std::vector<double> values_of_file(const PictureField& field, const MeshFields& properties) {
+    std::vector<double> values;
+    for (const std::string& name : field.properties) {
+        const auto found = std::ranges::find(properties.vertex, name, &MeshField::name);
+        if (found == properties.vertex.end()) return {};
+        if (values.empty()) values.assign(found->values.size(), -std::numeric_limits<double>::infinity());
+        for (std::size_t v = 0; v < values.size(); ++v) values[v] = std::max(values[v], field.factor * found->values[v]);
+    }
+    return values;
+}
+
+std::vector<double> distances_to_bodies(const PictureField& field, const TriangleMesh& cloth,
+                                        std::span<const ShownShape> shapes) {
+    std::vector<double> nearest(cloth.vertices.size(), std::numeric_limits<double>::infinity());
+    for (const ShownShape& shape : shapes) {
+        if (shape.is_cloth) continue;
+        const std::vector<double> distances = surface_distances(shape.mesh, cloth.vertices);
+        for (std::size_t v = 0; v < nearest.size(); ++v) nearest[v] = std::min(nearest[v], field.factor * distances[v]);
+    }
+    return nearest;
+}
+
+double FieldRange::share(double value) const { return std::clamp((value - low) / (high - low), 0.0, 1.0); }
+
+void FieldSpread::add(const ShownFrame& frame) {
+    for (const ShownShape& shape : frame.shapes)
+        std::ranges::copy_if(shape.field, std::back_inserter(values_), [](double value) { return std::isfinite(value); });
+}
+
+FieldRange FieldSpread::range() const {
+    if (values_.empty()) throw SceneError("no cloth that is shown has a finite value of the field");
+    std::vector<double> sorted = values_;
+    std::ranges::sort(sorted);
+    const auto beyond = static_cast<std::size_t>(share_beyond * static_cast<double>(sorted.size()));
+    FieldRange range = widened(sorted.front(), sorted[sorted.size() - 1 - beyond]);
+    range.some_below = sorted.front() < range.low;
+    range.some_above = sorted.back() > range.high;
+    return range;
+}
+
+FieldRange FieldSpread::range(double low, double high) const {
+    if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
+        throw SceneError("the range " + number_text(low) + " ... " + number_text(high) +
+                         " of the field must have two finite ends, the lower one first");
+    FieldRange range{low, high, round_step((high - low) / wanted_numbers)};
+    range.some_below = std::ranges::any_of(values_, [&](double value) { return value < low; });
+    range.some_above = std::ranges::any_of(values_, [&](double value) { return value > high; });
+    return range;
+}
+
+}  // namespace percale::scenes
