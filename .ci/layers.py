@@ -16,7 +16,7 @@ from cpp_functions import Unbalanced, code_lines, find_functions, plain_code, wi
 from words import check_glossary, check_readmes
 
 TOP_LEVEL = {'CMakeLists.txt', 'engine', 'collision', 'scenes', 'tests', 'data', 'README.md', 'LICENSE', 'CMakePresets.json',
-             '.ci', '.github', '.clang-format', '.clang-tidy', '.editorconfig', '.gitignore', '.gitattributes'}
+             'pyproject.toml', '.ci', '.github', '.clang-format', '.clang-tidy', '.editorconfig', '.gitignore', '.gitattributes'}
 LIBRARY = ('engine', 'collision', 'scenes')
 CODE_SUFFIXES = ('.cpp', '.h', '.inl')
 
@@ -37,7 +37,7 @@ MAY_INCLUDE = {
     'outside': PUBLIC | {'outside'},
 }
 # The rooms of scenes/, each of which may include itself and the rooms before it.
-SCENES_ROOMS = ['common', 'report', 'shapes', 'meshes', 'frames', 'fields', 'pattern', 'format', 'garment', 'bodies', 'run', 'export', 'doctor', 'drape', 'compare', 'stress', 'program']
+SCENES_ROOMS = ['common', 'report', 'shapes', 'meshes', 'frames', 'fields', 'pattern', 'format', 'garment', 'bodies', 'run', 'export', 'doctor', 'drape', 'compare', 'stress', 'python', 'program']
 # Which folder of collision may include which other ones; tolerances.h all of them. What stands on top (detector.*) sees all, a
 # backend sees the top and what a tree is.
 COLLISION_FOLDERS = {
