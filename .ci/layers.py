@@ -305,10 +305,15 @@ def check_cycles(tree):
         tree.complain(ring[0], 1, f'folders include each other ({", ".join(ring)})')
 
 
+def test_of(path):
+    """The Python module is tested from Python."""
+    return f'tests/{path[len("scenes/"):-4]}_test.py' if room_of(path) == 'python' else f'tests/{path[:-4]}_test.cpp'
+
+
 def check_mirror(tree):
     known = set(tree.files)
     for path in tree.code(*LIBRARY):
-        test = f'tests/{path[:-4]}_test.cpp'
+        test = test_of(path)
         if path.endswith('.cpp') and path not in NO_TEST_FILE and test not in known:
             tree.complain(path, 1, f'no test file ({test})')
 

@@ -42,7 +42,7 @@ Pose pose_of_keys(const py::dict& keys, const char* what) {
         if (std::ranges::find(valid, name) == valid.end())
             throw SceneError(what, "unknown key '" + name + "'" + scenes::suggestion(name, valid));
     }
-    const auto given = [&](const char* key) -> py::object { return keys.contains(key) ? keys[key] : py::none(); };
+    const auto given = [&](const char* key) -> py::object { return keys.contains(key) ? py::object(keys[key]) : py::none(); };
     const py::object scale = given("scale");
     if (!scale.is_none() && !PyNumber_Check(scale.ptr()))
         throw SceneError(what, "scale must be a number, not " + described(scale));

@@ -20,7 +20,7 @@ ClothId add_cloth(SharedSimulation& self, py::handle mesh, py::handle fabric, py
         if (word != "rest" && word != "warp")
             throw SceneError(name, "add_cloth has no argument '" + word + "'; valid: mesh, fabric, pose, name, rest, warp");
     }
-    const auto given = [&](const char* key) -> py::object { return shape.contains(key) ? shape[key] : py::none(); };
+    const auto given = [&](const char* key) -> py::object { return shape.contains(key) ? py::object(shape[key]) : py::none(); };
     const auto start = mesh_of(mesh, name);
     const RestShape rest = rest_shape_of(given("rest"), given("warp"), *start, name);
     const Fabric made = fabric_of(fabric);

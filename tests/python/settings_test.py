@@ -23,7 +23,7 @@ def extremes():
         if option['choices']:
             yield name, 'no_such_word', option['choices'][-1]
         elif np.isfinite(option['highest']):
-            whole = 'integer' in option['kind']
+            whole = 'whole' in option['kind']
             yield name, option['highest'] * 2 if not whole else int(option['highest']) * 2, \
                 int(option['highest']) if whole else option['highest']
 
@@ -55,7 +55,7 @@ def test_automatic_steps_take_the_scheme_of_scene_files():
     ({'detector': 'flc'}, ["'flc'", "did you mean 'fcl'", 'brute_force']),
     ({'gravity': (0, 0)}, ['gravity', '(3,)']),
     ({'gravity': (0, np.nan, 0)}, ['gravity']),
-    ({'wind': 'north'}, ['wind', 'str']),
+    ({'wind': 'north'}, ['wind', 'numbers']),
     ({'time_step': 'fast'}, ['step.time_step', '"fast"'])])
 def test_wrong_settings_are_refused(arguments, words):
     with pytest.raises(percale.SceneError) as caught:
