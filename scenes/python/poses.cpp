@@ -10,6 +10,7 @@
 #include "percale/error.h"
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/values.h"
 
 namespace percale::python {
 namespace {
@@ -44,9 +45,8 @@ Pose pose_of_keys(const py::dict& keys, const char* what) {
     }
     const auto given = [&](const char* key) -> py::object { return keys.contains(key) ? py::object(keys[key]) : py::none(); };
     const py::object scale = given("scale");
-    if (!scale.is_none() && !PyNumber_Check(scale.ptr()))
-        throw SceneError(what, "scale must be a number, not " + described(scale));
-    return make_pose(given("translation"), given("rotation"), scale.is_none() ? 1.0 : py::float_(scale).cast<double>());
+    return make_pose(given("translation"), given("rotation"),
+                     scale.is_none() ? 1.0 : number_from(scale, std::string(what) + ": scale"));
 }
 
 py::tuple rotation_tuple(const Rotation& q) { return py::make_tuple(q.w, q.x, q.y, q.z); }

@@ -8,6 +8,7 @@
 #include "python/poses.h"
 #include "python/settings.h"
 #include "python/simulation.h"
+#include "python/values.h"
 
 // What a simulation is made of, its steps and its saved states.
 namespace percale::python {
@@ -59,11 +60,11 @@ void bind_bodies(SimulationClass& simulation) {
                 for (const auto& [key, value] : more) {
                     const auto word = key.cast<std::string>();
                     if (word == "restitution") {
-                        settings.restitution = value.cast<double>();
+                        settings.restitution = number_from(value, name + ": " + word);
                     } else if (word == "deforming") {
-                        settings.deforming = value.cast<bool>();
+                        settings.deforming = flag_from(value, name + ": " + word);
                     } else if (word == "yields") {
-                        settings.yields = value.cast<bool>();
+                        settings.yields = flag_from(value, name + ": " + word);
                     } else {
                         throw SceneError(name, "add_obstacle has no argument '" + word +
                                                    "'; valid: mesh, pose, friction, name, restitution, deforming, yields");

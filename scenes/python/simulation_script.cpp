@@ -12,6 +12,7 @@
 #include "python/arrays.h"
 #include "python/poses.h"
 #include "python/simulation.h"
+#include "python/values.h"
 
 // What the caller prescribes: pins, obstacles, seams, gravity, wind. Calls that take several vertices change all or nothing.
 namespace percale::python {
@@ -92,11 +93,11 @@ SeamSettings seam_settings(const py::dict& given) {
         double* numbers[] = {&settings.after, &settings.over, &settings.stiffness};
         bool* flags[] = {&settings.contact_while_closing, &settings.weld};
         if (at < 3) {
-            *numbers[at] = value.cast<double>();
+            *numbers[at] = number_from(value, "add_seam: " + word);
         } else if (at < 5) {
-            *flags[at - 3] = value.cast<bool>();
+            *flags[at - 3] = flag_from(value, "add_seam: " + word);
         } else {
-            settings.name = value.cast<std::string>();
+            settings.name = text_from(value, "add_seam: " + word);
         }
     }
     return settings;

@@ -91,6 +91,24 @@ TomlNode converted_value(py::handle value, const std::string& name, const std::s
 
 TomlNode node_of(py::handle value, const std::string& name) { return converted_value(value, name, ""); }
 
+double number_from(py::handle value, const std::string& what) {
+    const TomlNode node = converted_value(value, "", what);
+    if (!node.is_number()) throw SceneError(what, "must be a number, not " + scenes::described(node));
+    return node.number;
+}
+
+bool flag_from(py::handle value, const std::string& what) {
+    const TomlNode node = converted_value(value, "", what);
+    if (node.kind != TomlKind::boolean) throw SceneError(what, "must be True or False, not " + scenes::described(node));
+    return node.text == "true";
+}
+
+std::string text_from(py::handle value, const std::string& what) {
+    const TomlNode node = converted_value(value, "", what);
+    if (node.kind != TomlKind::text) throw SceneError(what, "must be a str, not " + scenes::described(node));
+    return node.text;
+}
+
 py::object python_of(const TomlNode& node) {
     switch (node.kind) {
         case TomlKind::integer:

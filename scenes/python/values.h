@@ -17,6 +17,11 @@ namespace py = pybind11;
 /// naming the key of another type, of a key that is no str, or of an integer of more than 64 bits.
 scenes::TomlNode node_of(py::handle value, const std::string& name = "");
 
+/// A number, True or False, a text. Throw SceneError naming `what` for anything else.
+double number_from(py::handle value, const std::string& what);
+bool flag_from(py::handle value, const std::string& what);
+std::string text_from(py::handle value, const std::string& what);
+
 /// The other way round: dict, list, str, bool, int, float.
 py::object python_of(const scenes::TomlNode& node);
 

@@ -16,7 +16,7 @@ import percale
 
 @pytest.fixture
 def backend(source_dir, monkeypatch):
-    monkeypatch.syspath_prepend(str(source_dir / 'scenes' / 'python'))
+    monkeypatch.syspath_prepend(str(source_dir / 'scenes' / 'python' / 'wheel'))
     monkeypatch.delitem(sys.modules, 'build_backend', raising=False)
     import build_backend
     monkeypatch.setattr(build_backend, 'build_package', lambda: Path(percale.__file__).parent)
@@ -37,6 +37,15 @@ def test_a_wheel_holds_the_package_and_a_record_that_is_true(backend, tmp_path):
     assert {'percale/__init__.py', 'percale/__init__.pyi', 'percale/py.typed', f'{info}/LICENSE', f'{info}/WHEEL'} <= set(files)
     metadata = files[f'{info}/METADATA'].decode()
     assert f'Version: {percale.__version__}\n' in metadata and 'Requires-Dist: numpy\n' in metadata
+
+
+def test_metadata_are_those_of_the_wheel_and_need_no_build(backend, tmp_path, monkeypatch):
+    with zipfile.ZipFile(tmp_path / backend.build_wheel(tmp_path)) as wheel:
+        files = {info.filename: wheel.read(info) for info in wheel.infolist()}
+    monkeypatch.setattr(backend, 'build_package', lambda: pytest.fail('nothing is to be built'))
+    info = backend.prepare_metadata_for_build_wheel(tmp_path)
+    for file in ('METADATA', 'WHEEL'):
+        assert (tmp_path / info / file).read_bytes() == files[f'{info}/{file}']
 
 
 def test_a_wheel_can_be_imported_from_where_it_is_unpacked(backend, tmp_path):

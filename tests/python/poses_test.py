@@ -39,7 +39,7 @@ def test_wrong_poses_are_refused(arguments, words):
 
 @pytest.mark.parametrize('pose, words', [
     ({'translatoin': (0, 0, 0)}, ["'translatoin'", "did you mean 'translation'"]),
-    ({'scale': 'two'}, ['scale', 'str']),
+    ({'scale': 'two'}, ['scale', 'number', '"two"']),
     ((0, 0, 0), ['percale.Pose', 'tuple'])])
 def test_what_is_no_pose_is_refused(ball, refused, pose, words):
     refused(ball.simulation, lambda simulation: simulation.move_obstacle(ball.ball, pose), *words)

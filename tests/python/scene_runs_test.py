@@ -1,4 +1,5 @@
 """Scene files and dicts, run."""
+import _thread
 import json
 import subprocess
 
@@ -139,6 +140,19 @@ def test_an_error_in_on_step_ends_the_run_and_leaves_no_files(tmp_path):
     assert not (tmp_path / 'out').exists()
     with pytest.raises(percale.SceneError, match='on_step alone'):
         kept[0].positions('towel')
+
+
+def test_an_interrupt_ends_a_run_and_leaves_no_files(tmp_path):
+    steps = []
+
+    def on_step(report, view):
+        steps.append(report)
+        if len(steps) == 5:
+            _thread.interrupt_main()  # as the key does
+
+    with pytest.raises(KeyboardInterrupt):
+        percale.run(SCENE, output=tmp_path / 'out', on_step=on_step)
+    assert len(steps) <= 6 and not (tmp_path / 'out').exists()
 
 
 def test_on_step_is_told_of_names_that_are_not_there():

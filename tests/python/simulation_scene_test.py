@@ -63,6 +63,8 @@ def test_arguments_that_nobody_takes_are_refused(ball, refused):
 @pytest.mark.parametrize('arguments, words', [
     ({'friction': 11.0}, ['floor', 'friction', '0 ... 10']),
     ({'restitution': 2.0}, ['floor', 'restitution', '0 ... 1']),
+    ({'restitution': 'none'}, ['floor', 'restitution', 'number', '"none"']),
+    ({'deforming': 1}, ['floor', 'deforming', 'True or False']),
     ({'pose': {'scale': -1.0}}, ['scale'])])
 def test_obstacles_out_of_range_are_refused(ball, refused, arguments, words):
     refused(ball.simulation, lambda s: s.add_obstacle(percale.make_plane(), name='floor', **arguments), *words)

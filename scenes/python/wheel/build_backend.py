@@ -15,7 +15,7 @@ import tomllib
 import zipfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+ROOT = Path(__file__).resolve().parents[3]
 TAG = f'cp{sys.version_info.major}{sys.version_info.minor}'
 
 
@@ -44,24 +44,40 @@ def build_package():
     return build / 'python' / 'percale'
 
 
+def wheel_tag():
+    return f'{TAG}-{TAG}-{platform_tag()}'
+
+
+def wheel_text():
+    return f'Wheel-Version: 1.0\nGenerator: percale\nRoot-Is-Purelib: false\nTag: {wheel_tag()}\n'
+
+
 def record_line(name, data):
     digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()
     return f'{name},sha256={digest},{len(data)}\n'
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    name, version, metadata = project()
+    info = Path(metadata_directory) / f'{name}-{version}.dist-info'
+    info.mkdir()
+    (info / 'METADATA').write_text(metadata)
+    (info / 'WHEEL').write_text(wheel_text())
+    return info.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     name, version, metadata = project()
-    tag = f'{TAG}-{TAG}-{platform_tag()}'
     info = f'{name}-{version}.dist-info'
     package = build_package()
     extension = '_percale' + sysconfig.get_config_var('EXT_SUFFIX')
     members = {f'percale/{file}': (package / file).read_bytes() for file in ('__init__.py', '__init__.pyi', 'py.typed', extension)}
     members[f'{info}/METADATA'] = metadata.encode()
-    members[f'{info}/WHEEL'] = f'Wheel-Version: 1.0\nGenerator: percale\nRoot-Is-Purelib: false\nTag: {tag}\n'.encode()
+    members[f'{info}/WHEEL'] = wheel_text().encode()
     members[f'{info}/LICENSE'] = (ROOT / 'LICENSE').read_bytes()
     record = ''.join(record_line(file, data) for file, data in members.items()) + f'{info}/RECORD,,\n'
     members[f'{info}/RECORD'] = record.encode()
-    wheel = f'{name}-{version}-{tag}.whl'
+    wheel = f'{name}-{version}-{wheel_tag()}.whl'
     with zipfile.ZipFile(Path(wheel_directory) / wheel, 'w', zipfile.ZIP_DEFLATED) as archive:
         for file, data in members.items():
             archive.writestr(file, data)
