@@ -9,6 +9,7 @@
 #include "lists/candidate_state.h"
 #include "lists/feature_minima.h"
 #include "lists/list_passes.h"
+#include "lists/list_removal.h"
 #include "lists/pack_measure.h"
 #include "self/self_contact_detection.h"
 #include "tolerances.h"
@@ -44,7 +45,7 @@ public:
     void remove_obstacle(int obstacle) override {
         const int before = total_version(obstacles_);
         obstacles_.erase(obstacles_.begin() + obstacle);
-        if (lists_) lists_->remove_obstacle(obstacle, before, obstacles_);
+        if (lists_) percale::remove_obstacle(obstacle, before, obstacles_, lists_->memory());
     }
 
     void set_friction(int obstacle, double friction) override { obstacles_[obstacle]->set_friction(friction); }
@@ -265,12 +266,6 @@ private:
         std::vector<SelectedPack> candidates_, selected_;
         std::vector<SelectedLane> lanes_;
     };
-
-    static Box box_of(const ContactPair& feature, std::span<const Vec3> positions) {
-        Box box;
-        for (const int vertex : feature.vertices()) box.add(positions[vertex]);
-        return box;
-    }
 
     const ObstaclePacks& packs_for(const ContactPair& feature) const { return obstacles_[feature.obstacle]->packs(); }
     void fetch_hull(const SelectedPack& at) const { __builtin_prefetch(&packs_for(at.feature()).hulls[at.number()]); }

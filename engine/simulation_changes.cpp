@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "changes/scene_changes.h"
 #include "simulation_implementation.h"
-#include "step/scene_changes.h"
 
 namespace percale {
 

@@ -115,21 +115,17 @@ std::vector<ContactLoad> Simulation::contact_loads(ClothId cloth) const {
 }
 
 Vec3 Simulation::force_on(ObstacleId obstacle) const {
-    const int index = implementation_->index(obstacle);
     Vec3 sum = Vec3::Zero();
-    for (const ContactLoad& load : percale::contact_loads(implementation_->world)) {
-        if (load.obstacle == index) sum -= load.force();
-    }
+    for (const ContactLoad& load : percale::contact_loads(implementation_->world, implementation_->index(obstacle)))
+        sum -= load.force();
     return sum;
 }
 
 Vec3 Simulation::torque_on(ObstacleId obstacle, const Vec3& about) const {
     check_finite(about, implementation_->obstacle(obstacle).name + ": the point that torque_on is about");
-    const int index = implementation_->index(obstacle);
     Vec3 sum = Vec3::Zero();
-    for (const ContactLoad& load : percale::contact_loads(implementation_->world)) {
-        if (load.obstacle == index) sum -= (load.cloth_point - about).cross(load.force());
-    }
+    for (const ContactLoad& load : percale::contact_loads(implementation_->world, implementation_->index(obstacle)))
+        sum -= (load.cloth_point - about).cross(load.force());
     return sum;
 }
 

@@ -41,33 +41,6 @@ void set_drift(ClusterList& list, std::span<const PatchMotion> motions) {
         list.spread = std::max(list.spread, (motion.mean - list.drift).norm() + motion.spread);
 }
 
-/// Features by an obstacle, with their packs; later obstacles have numbers less by one. Bounds of the others stay what they are.
-void remove_features_of(int obstacle, ClusterList& list) {
-    std::vector<int> number;  // of each feature now; -1: gone
-    std::vector<ContactPair> features;
-    for (const ContactPair& feature : list.features) {
-        const bool goes = feature.obstacle == obstacle;
-        number.push_back(goes ? -1 : static_cast<int>(features.size()));
-        if (goes) continue;
-        features.push_back(feature);
-        if (feature.obstacle > obstacle) --features.back().obstacle;
-    }
-    ListedPacks packs;
-    list.has_standing = false;
-    for (std::size_t i = 0; i < list.packs.size(); ++i) {
-        ListedPack pack = list.packs.at[i];
-        pack.feature = number[pack.feature];
-        if (pack.feature < 0) continue;
-        packs.reach.push_back(list.packs.reach[i]);
-        packs.wake.push_back(list.packs.wake[i]);
-        packs.at.push_back(pack);
-        list.has_standing = list.has_standing || pack.standing != 0;
-    }
-    list.features = std::move(features);
-    list.packs = std::move(packs);
-    CandidateLists::set_smallest_bounds(list);
-}
-
 }  // namespace
 
 void ListedPacks::clear() {
@@ -123,18 +96,6 @@ void CandidateLists::settle(const Obstacles& obstacles) {
     const auto settled = [&](int& old) { old = old == good_version ? version : no_version; };
     for (ClusterList& list : memory_.lists) settled(list.version);
     settled(memory_.room_version);
-}
-
-void CandidateLists::remove_obstacle(int obstacle, int version, const Obstacles& left) {
-    const int now = total_version(left);
-    const auto go_on = [&](int& known) { known = known == version ? now : no_version; };
-    go_on(memory_.room_version);
-    memory_.empty = true;
-    for (ClusterList& list : memory_.lists) {
-        go_on(list.version);
-        remove_features_of(obstacle, list);
-        memory_.empty = memory_.empty && list.features.empty();
-    }
 }
 
 bool CandidateLists::covers(std::size_t cluster, const ClothMove& move, int version) {

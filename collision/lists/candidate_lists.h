@@ -97,9 +97,7 @@ public:
     /// Gives lists with good_version the version of the obstacles, which are where they were.
     void settle(const Obstacles& obstacles);
     const ListsMemory& memory() const { return memory_; }
-    /// One obstacle is no longer there, later ones have numbers less by one. `version`: of all, with it; lists that were good for
-    /// that are so for those that are left.
-    void remove_obstacle(int obstacle, int version, const Obstacles& left);
+    ListsMemory& memory() { return memory_; }
 
     /// Makes every list good for all states between two, and moves the lists' time to `move.from`. A move so long that its lists
     /// would not fit into memory is covered in part: returns the fraction of it, from its start, that the lists are good for.

@@ -19,6 +19,12 @@ struct SelectedLane {
     int lane;
 };
 
+inline Box box_of(const ContactPair& feature, std::span<const Vec3> positions) {
+    Box box;
+    for (const int vertex : feature.vertices()) box.add(positions[vertex]);
+    return box;
+}
+
 /// Asks memory for what is about to be read.
 template <class T>
 void fetch(const T* first, std::size_t count) {

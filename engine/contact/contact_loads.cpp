@@ -26,11 +26,12 @@ SummedLoad& load_at(LoadMap& loads, int vertex, int obstacle) {
 }  // namespace
 
 std::vector<ContactLoad> contact_loads(const ContactRows& rows, const ContactTerms& terms,
-                                       const std::vector<RowForce>& row_forces) {
+                                       const std::vector<RowForce>& row_forces, int only) {
+    const auto asked = [only](int obstacle) { return obstacle >= 0 && (only < 0 || obstacle == only); };
     LoadMap loads;
     for (std::size_t row = 0; row < std::min(rows.size(), row_forces.size()); ++row) {
         const RowForce& force = row_forces[row];
-        if (rows.obstacle[row] < 0 || force.normal == 0.0) continue;
+        if (!asked(rows.obstacle[row]) || force.normal == 0.0) continue;
         for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
             const double weight = rows.weight[row][k];
             if (weight == 0.0) continue;
@@ -41,8 +42,9 @@ std::vector<ContactLoad> contact_loads(const ContactRows& rows, const ContactTer
             sum.press += weight * force.normal;
         }
     }
-    for (const Touch& touch : terms.touches.all)
-        load_at(loads, touch.vertex, touch.obstacle).load.friction += friction_force(touch);
+    for (const Touch& touch : terms.touches.all) {
+        if (asked(touch.obstacle)) load_at(loads, touch.vertex, touch.obstacle).load.friction += friction_force(touch);
+    }
     std::vector<ContactLoad> result;
     for (auto& [key, sum] : loads) {
         if (sum.press > 0.0) sum.load.obstacle_point = sum.points / sum.press;

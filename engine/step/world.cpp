@@ -116,11 +116,15 @@ void check_scheme(const StepScene& scene) {
     }
 }
 
-std::vector<ContactLoad> contact_loads(const World& world) {
+std::vector<ContactLoad> contact_loads(const World& world, int only) {
     if (world.load_source == LoadSource::nowhere) return {};
-    if (world.load_source == LoadSource::saved_state) return world.saved_loads;
+    if (world.load_source == LoadSource::saved_state) {
+        std::vector<ContactLoad> loads = world.saved_loads;
+        if (only >= 0) std::erase_if(loads, [only](const ContactLoad& load) { return load.obstacle != only; });
+        return loads;
+    }
     const StagePoint& last = world.work.newton.current;
-    std::vector<ContactLoad> loads = contact_loads(last.rows, last.contact, last.row_forces);
+    std::vector<ContactLoad> loads = contact_loads(last.rows, last.contact, last.row_forces, only);
     for (ContactLoad& load : loads) load.cloth_point = world.state.cloth.positions.at(load.vertex);
     return loads;
 }

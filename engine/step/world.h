@@ -86,8 +86,8 @@ void pass_cloth_to_detector(World& world);
 void check_scheme(const StepScene& scene);
 
 /// Forces of obstacles on vertices at the end of the last step that was solved, sorted by vertex and obstacle; none where they
-/// are not known.
-std::vector<ContactLoad> contact_loads(const World& world);
+/// are not known. `only`: of one obstacle; -1: of all.
+std::vector<ContactLoad> contact_loads(const World& world, int only = -1);
 
 /// As many threads as the settings say, or as pay for the cloth that there is; the workers that were given, if any.
 void set_workers(World& world);

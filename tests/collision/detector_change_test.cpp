@@ -48,6 +48,9 @@ struct SinkingStep {
         return safe == other.safe && same_rows(rows[0], other.rows[0]) && same_rows(rows[1], other.rows[1]) &&
                same_rows(rows[2], other.rows[2]);
     }
+    void replace_obstacle(int number, int other) {
+        for (ContactRows& of : rows) std::ranges::replace(of.obstacle, number, other);
+    }
     std::size_t contacts() const { return rows[0].size() + rows[1].size() + rows[2].size(); }
 };
 
@@ -72,9 +75,7 @@ TEST_CASE("an obstacle that was far, once taken out, leaves the rows and cuts th
         for (int n = 0; n < 24; ++n) {
             if (n == 12) had.detector->remove_obstacle(1);
             SinkingStep step(*had.detector, one, Random(n)), same(*never.detector, other, Random(n));
-            for (ContactRows& rows : step.rows) {
-                for (int& obstacle : rows.obstacle) obstacle = n < 12 && obstacle == 2 ? 1 : obstacle;
-            }
+            if (n < 12) step.replace_obstacle(2, 1);
             REQUIRE(step == same);
             contacts += step.contacts();
         }

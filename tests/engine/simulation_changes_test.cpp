@@ -116,7 +116,7 @@ TEST_CASE("A cloth that was reset makes the steps of one that was just added, in
     }
 }
 
-TEST_CASE("Reset takes pins along, and what the cloth holds with beside its springs; other cloth stays") {
+TEST_CASE("Reset takes pins along, and what the cloth holds with beside its springs, and leaves other cloth alone") {
     Simulation simulation(StepSettings{});
     Fabric limited = free_fabric();
     limited.springs.structural = 20.0;
@@ -194,6 +194,35 @@ TEST_CASE("The id of a cloth that was removed is refused by every call, and noth
     };
     for (const auto& call : calls) check_refused(s, call, {"cloth 1 was removed"});
     check_refused(s, [&] { s.remove_cloth({7}); }, {"no cloth 7"});
+}
+
+TEST_CASE("After a removal every call still reaches the body whose id it is given") {
+    SlopeScene scene(0.0, false);
+    Simulation& s = scene.simulation;
+    const ObstacleId shelf = s.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -3, 0)}, {.name = "shelf"});
+    const ObstacleId rock = s.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -4, 0)}, {.name = "rock"});
+    const ClothId second = s.add_cloth(make_grid(0.2, 0.2, 3, 3), sheet_fabric(), {.translation = Vec3(0, 2, 0)}, "second");
+    const ClothId third = s.add_cloth(make_grid(0.2, 0.2, 3, 3), sheet_fabric(), {.translation = Vec3(0, 3, 0)}, "third");
+    scene.run(2);
+    s.remove_cloth(second);
+    s.remove_obstacle(shelf);
+    s.pin(third, 4);
+    const Vec3 held = s.positions(third)[4];
+    const std::array<ClothId, 1> cloths = {third};
+    const std::array<ObstacleId, 1> obstacles = {rock};
+    s.teleport(cloths, obstacles, {.translation = Vec3(5, 0, 0)});
+    s.move_obstacle(rock, {.translation = Vec3(5, -4.001, 0)});
+    scene.run(1);
+    CHECK(s.positions(third)[4] == held + Vec3(5, 0, 0));
+    CHECK(s.obstacle_pose(rock).translation == Vec3(5, -4.001, 0));
+    CHECK(s.obstacle_pose(scene.plane).translation == Vec3::Zero());
+    CHECK(std::abs(s.positions(scene.cloth)[0].x()) < 0.2);
+    CHECK(mentions(scene_error([&] { s.pin(third, 9); }), {"third", "no vertex 9"}));
+    CHECK(mentions(scene_error([&] { s.set_friction(rock, -1.0); }), {"rock"}));
+    s.set_friction(scene.plane, 2.0);
+    s.set_velocities(scene.cloth, std::vector<Vec3>(16, Vec3(0.5, 0, 0)));
+    scene.run(30);  // it is braked: the floor's friction is the one that was set
+    CHECK(scene.mean(s.velocities(scene.cloth)).norm() < 1e-3);
 }
 
 TEST_CASE("The id of an obstacle that was removed is refused by every call, and nothing changes") {

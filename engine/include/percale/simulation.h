@@ -186,7 +186,7 @@ public:
     double largest_strain(ClothId cloth) const;
     /// What obstacles do to the vertices of a cloth at the end of the last step that was solved, friction included: sorted by
     /// vertex and obstacle, vertices that nothing presses left out. Of a step made in spans it is what the last span ended with.
-    /// Empty before the first step, after a failed one, set_positions and teleport. Costs nothing unless it is asked for.
+    /// Empty before the first step, after a failed one, set_positions, reset and teleport. Costs nothing unless it is asked for.
     std::vector<ContactLoad> contact_loads(ClothId cloth) const;
     /// What all cloth does to an obstacle, N: the sum of those forces with the other sign. Cloth at rest that nothing else holds
     /// presses with its weight.

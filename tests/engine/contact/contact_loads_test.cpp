@@ -56,6 +56,31 @@ TEST_CASE("A load's obstacle point is the mean of what presses its vertex, by no
     CHECK(loads[2].obstacle_point == Vec3(1, 0, 0));
 }
 
+TEST_CASE("Loads of one obstacle are those of all that are with it") {
+    Rows r;
+    r.add({4, 2, -1, -1}, {0.25, 0.75, 0, 0}, 1, {.normal = 8.0, .friction = Vec3(4, 0, 0)});
+    r.add({2, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 1.0});
+    r.add({0, 1, 2, 3}, {1, -0.5, -0.25, -0.25}, -1, {.normal = 8.0});
+    r.terms.touches.clear(8);
+    for (const int obstacle : {0, 1}) {
+        Touch& touch = r.terms.touches.get(2, obstacle);
+        touch.press = Vec3(0, 3 + obstacle, 0);
+        touch.reach = 1e-4;
+        touch.slip = Vec3(2e-4, 0, 0);
+    }
+    for (const int obstacle : {0, 1, 2}) {
+        const std::vector<ContactLoad> loads = contact_loads(r.rows, r.terms, r.forces, obstacle);
+        std::size_t count = 0;
+        for (const ContactLoad& load : r.loads()) {
+            if (load.obstacle != obstacle) continue;
+            REQUIRE(count < loads.size());
+            CHECK(loads[count].vertex == load.vertex);
+            CHECK(loads[count++].force() == load.force());
+        }
+        CHECK(count == loads.size());
+    }
+}
+
 TEST_CASE("Friction that acts on vertices is that of their touches") {
     Rows r;
     r.add({3, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 10.0});

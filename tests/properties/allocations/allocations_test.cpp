@@ -59,6 +59,7 @@ struct Scene {
     StepSettings settings = {};
     bool ball = false, self_contact = false, free_mesh = false, woven = false;
     int warm_up = 60, steps = 20;
+    bool keeps_previous = false;  // Simulation::keep_previous_positions
 };
 
 Fabric fabric_of(const Scene& scene) {
@@ -86,6 +87,7 @@ Simulation make_scene(const Scene& scene) {
 /// Allocations in each of the steps after the warm-up.
 std::vector<long> allocations(const Scene& scene) {
     Simulation simulation = make_scene(scene);
+    simulation.keep_previous_positions(scene.keeps_previous);
     for (int n = 0; n < scene.warm_up; ++n) simulation.step();
     std::vector<long> result(static_cast<std::size_t>(scene.steps), 0);
     for (long& of_step : result) {
@@ -115,6 +117,7 @@ std::vector<Scene> scenes() {
     StepSettings projection{.contact_response = ContactResponse::projection};
     two_threads.threads = 2;
     return {{.name = "hanging grid", .settings = {}},
+            {.name = "hanging grid, positions kept", .settings = {}, .keeps_previous = true},
             {.name = "hanging grid with the ledger", .settings = ledger},
             {.name = "hanging grid by multigrid", .settings = multigrid},
             {.name = "hanging grid, two threads", .settings = two_threads},
@@ -138,6 +141,22 @@ TEST_CASE("The counter sees what is allocated") {
     counting = false;
     CHECK(counted == 2);
     CHECK(some[99] + aligned[99] == 2.0);
+}
+
+TEST_CASE("Interpolation, and normals into memory of the caller's but for one list, allocate nothing") {
+    Simulation simulation = make_scene({.name = "ball", .settings = {}, .ball = true});
+    simulation.keep_previous_positions();
+    for (int n = 0; n < 60; ++n) simulation.step();
+    std::vector<Vec3> out(17 * 17);
+    counted = 0;
+    counting = true;
+    simulation.interpolate(0.5, {0}, out);
+    counting = false;
+    CHECK(counted == 0);
+    counting = true;
+    simulation.normals({0}, out);
+    counting = false;
+    CHECK(counted == 1);
 }
 
 TEST_CASE("Steps allocate nothing after the first ones") {

@@ -1,4 +1,4 @@
-#include "engine/step/scene_changes.h"
+#include "engine/changes/scene_changes.h"
 
 #include <algorithm>
 #include <array>

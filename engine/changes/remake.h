@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "cloth_model.h"
-#include "seams.h"
+#include "model/cloth_model.h"
+#include "model/seams.h"
 
 namespace percale {
 

@@ -44,11 +44,15 @@ void renumber(ContactMultipliers& forces, VertexNumber vertex, ObstacleNumber ob
     forces.set(left);
 }
 
-/// All that a world remembers of contacts. Forces of the last solve are noted down, since its rows have the old numbers.
-template <class VertexNumber, class ObstacleNumber>
-void renumber_contacts(World& world, VertexNumber vertex, ObstacleNumber obstacle) {
+/// Forces of the last solve, of which the rows will not do: they go on with old numbers.
+void note_loads(World& world) {
     world.saved_loads = contact_loads(world);
     if (world.load_source != LoadSource::nowhere) world.load_source = LoadSource::saved_state;
+}
+
+/// All that a world remembers of contacts, its loads noted down.
+template <class VertexNumber, class ObstacleNumber>
+void renumber_contacts(World& world, VertexNumber vertex, ObstacleNumber obstacle) {
     renumber(world.saved_loads, vertex, obstacle);
     renumber(world.state.cloth.grips, vertex, obstacle);
     renumber(world.state.cloth.impacts, vertex, obstacle);
@@ -88,6 +92,7 @@ void carry_over(const std::vector<int>& number, World& world) {
     world.scene.script.pin_targets = std::move(targets);
 }
 
+/// Loads are noted down.
 bool touches(const World& world, int obstacle) {
     const auto with_it = [&](const auto& held) { return held.obstacle == obstacle; };
     const auto force_with_it = [&](const KeyedForce& force) { return force.key.obstacle == obstacle; };
@@ -95,7 +100,7 @@ bool touches(const World& world, int obstacle) {
     const ContactMemory& contact = world.state.contact;
     return std::ranges::any_of(cloth.grips, with_it) || std::ranges::any_of(cloth.impacts, with_it) ||
            std::ranges::any_of(contact.last.all(), force_with_it) || std::ranges::any_of(contact.lasting.all(), force_with_it) ||
-           std::ranges::any_of(contact_loads(world), with_it);
+           std::ranges::any_of(world.saved_loads, with_it);
 }
 
 /// Whether a detector is told anything else of two cloths of the same mesh, or the start of one may not be one of the other.
@@ -107,6 +112,7 @@ bool meets_otherwise(const Fabric& a, const Fabric& b) {
 }  // namespace
 
 void adopt_model(RemadeModel&& made, World& world) {
+    note_loads(world);
     renumber_contacts(
         world, [&](int vertex) { return made.vertex[vertex]; }, [](int obstacle) { return obstacle; });
     world.scene.model = std::move(made.model);
@@ -153,6 +159,7 @@ void change_fabric(World& world, int cloth, const Fabric& fabric) {
 
 void drop_obstacle(World& world, int obstacle) {
     world.scene.detector->remove_obstacle(obstacle);
+    note_loads(world);
     const bool touched = touches(world, obstacle);
     renumber_contacts(
         world, [](int vertex) { return vertex; }, [&](int number) { return without(number, obstacle); });

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/remake.h"
-#include "world.h"
+#include "remake.h"
+#include "step/world.h"
 
 namespace percale {
 

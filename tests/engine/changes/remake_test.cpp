@@ -1,4 +1,4 @@
-#include "engine/model/remake.h"
+#include "engine/changes/remake.h"
 
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
@@ -187,7 +187,7 @@ TEST_CASE("With its own fabric a model is made anew as it was") {
     }
 }
 
-TEST_CASE("With another fabric a model is what is built with it; vertices are found under their new numbers") {
+TEST_CASE("With another fabric a model is what is built with it, and vertices are found under their new numbers") {
     Fabric plain = free_fabric(), tight = Pieces::limited(), hung = Pieces::woven();
     hung.stretch_stiffness = {{300.0, 300.0}};
     for (const Fabric& fabric : {plain, tight, hung}) {
