@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # All that a change must pass, in order; stops at the first stage that fails: .ci/check.sh [STAGE...]
-# Stages: format layers release scenes perf consumer engine_only alone sanitizers fuzz; only on demand: night. Builds are kept under build/ci-*.
+# Stages: format layers release scenes python perf consumer engine_only alone sanitizers fuzz; only on demand: night. Builds are kept under build/ci-*.
 # Each compiler builds what it tests once, in batches: g++ all, as the README says; clang++ the tests, under sanitizers. That no source
 # leans on its batch is seen by engine_only, which builds the engine file by file, and by alone, which reads the other layers' sources.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
 
-stages=(format layers release scenes perf consumer engine_only alone sanitizers fuzz)
+stages=(format layers release scenes python perf consumer engine_only alone sanitizers fuzz)
 on_demand=(night)
 release_copy="$root/build/ci-release/a path with a space"
 jobs=${PERCALE_JOBS:-2}
@@ -179,6 +179,14 @@ stage_scenes() {
 }
 
 # Instructions of the steps of small scenes against .ci/instructions.json.
+# The Python module in the same build, and its tests.
+stage_python() {
+    [ -x "$release_copy/build/percale" ] || { echo "$release_copy/build/percale is missing: run the stage release first"; return 1; }
+    cmake -B "$release_copy/build" -DPERCALE_PYTHON=ON >"$root/build/ci-python.log" 2>&1 || { cat "$root/build/ci-python.log"; return 1; }
+    cmake --build "$release_copy/build" --target percale percale_python
+    ctest --test-dir "$release_copy/build" --no-tests=error -L python
+}
+
 stage_perf() {
     [ -x "$release_copy/build/percale" ] || { echo "$release_copy/build/percale is missing: run the stage release first"; return 1; }
     python3 .ci/perf_gate.py --program "$release_copy/build/percale"

@@ -16,7 +16,7 @@ from cpp_functions import Unbalanced, code_lines, find_functions, plain_code, wi
 from words import check_glossary, check_readmes
 
 TOP_LEVEL = {'CMakeLists.txt', 'engine', 'collision', 'scenes', 'tests', 'data', 'README.md', 'LICENSE', 'CMakePresets.json',
-             '.ci', '.github', '.clang-format', '.clang-tidy', '.editorconfig', '.gitignore', '.gitattributes'}
+             'pyproject.toml', '.ci', '.github', '.clang-format', '.clang-tidy', '.editorconfig', '.gitignore', '.gitattributes'}
 LIBRARY = ('engine', 'collision', 'scenes')
 CODE_SUFFIXES = ('.cpp', '.h', '.inl')
 
@@ -37,7 +37,7 @@ MAY_INCLUDE = {
     'outside': PUBLIC | {'outside'},
 }
 # The rooms of scenes/, each of which may include itself and the rooms before it.
-SCENES_ROOMS = ['common', 'report', 'shapes', 'meshes', 'frames', 'fields', 'pattern', 'format', 'garment', 'bodies', 'measures', 'run', 'export', 'picture', 'page', 'doctor', 'drape', 'compare', 'stress', 'sweep', 'program']
+SCENES_ROOMS = ['common', 'report', 'shapes', 'meshes', 'frames', 'fields', 'pattern', 'format', 'garment', 'bodies', 'measures', 'run', 'export', 'picture', 'page', 'doctor', 'drape', 'compare', 'stress', 'sweep', 'python', 'program']
 # Which folder of collision may include which other ones; tolerances.h all of them. What stands on top (detector.*) sees all, a
 # backend sees the top and what a tree is.
 COLLISION_FOLDERS = {
@@ -307,10 +307,15 @@ def check_cycles(tree):
         tree.complain(ring[0], 1, f'folders include each other ({", ".join(ring)})')
 
 
+def test_of(path):
+    """The Python module is tested from Python."""
+    return f'tests/{path[len("scenes/"):-4]}_test.py' if room_of(path) == 'python' else f'tests/{path[:-4]}_test.cpp'
+
+
 def check_mirror(tree):
     known = set(tree.files)
     for path in tree.code(*LIBRARY):
-        test = f'tests/{path[:-4]}_test.cpp'
+        test = test_of(path)
         if path.endswith('.cpp') and path not in NO_TEST_FILE and test not in known:
             tree.complain(path, 1, f'no test file ({test})')
 

@@ -205,6 +205,7 @@ class Rules(unittest.TestCase):
 
     def test_a_source_without_its_test(self):
         self.caught('scenes/export/frames.cpp', 'int x;\n', 'no test file (tests/scenes/export/frames_test.cpp)')
+        self.caught('scenes/python/arrays.cpp', 'int x;\n', 'no test file (tests/python/arrays_test.py)')
         self.assertEqual(len(violations(removed=['tests/engine/model/shapes_test.cpp'])), 2)  # the size of the tests too
         for exempt in layers.NO_TEST_FILE:
             self.assertEqual(violations({exempt: 'int main() {}\n'}), [])

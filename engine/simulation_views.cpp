@@ -35,6 +35,14 @@ std::span<const double> Simulation::masses(ClothId cloth) const {
     return std::span(all).subspan(range.first, range.count);
 }
 
+std::vector<int> Simulation::pinned_vertices(ClothId cloth) const {
+    const ClothRange& range = implementation_->cloth(cloth);
+    std::vector<int> pinned;
+    for (int i = 0; i < range.count; ++i)
+        if (implementation_->world.scene.script.free[range.index_of(i)] == 0.0) pinned.push_back(i);
+    return pinned;
+}
+
 std::vector<Vec3> Simulation::normals(ClothId cloth) const {
     std::vector<Vec3> all(implementation_->cloth(cloth).count);
     normals(cloth, all);

@@ -1,7 +1,6 @@
 #include "fields/toml_values.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
@@ -123,19 +122,6 @@ TomlNode value_node(const std::vector<Stitch>& value) {
         item.items.push_back(value_node(stitch.share));
     }
     return node;
-}
-
-std::string toml_text(const TomlNode& node) {
-    const bool table = node.kind == TomlKind::table;
-    if (!table && node.kind != TomlKind::list) {
-        if (node.kind == TomlKind::integer) return std::to_string(node.integer);
-        if (node.is_number()) return number_text(node.number);
-        return node.kind == TomlKind::text ? nlohmann::json(node.text).dump() : node.text;
-    }
-    std::vector<std::string> parts;
-    for (const TomlNode& item : table ? node.entries : node.items)
-        parts.push_back((table ? nlohmann::json(item.key).dump() + " = " : "") + toml_text(item));
-    return (table ? "{ " : "[") + joined(parts) + (table ? " }" : "]");
 }
 
 std::string value_text(KeyKind kind, const TomlNode& node) {

@@ -86,9 +86,6 @@ inline constexpr ValueKind value_kind<std::vector<Stitch>> = {KeyKind::stitches}
 template <class Value>
 inline constexpr ValueKind value_kind<std::optional<Value>> = value_kind<Value>;
 
-/// A value as a document may hold it, in one line; of a table inline.
-std::string toml_text(const TomlNode& node);
-
 /// As messages and tables show the default of a key: texts in quotes, words bare.
 std::string value_text(KeyKind kind, const TomlNode& node);
 

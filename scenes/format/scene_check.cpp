@@ -267,4 +267,6 @@ void check_table(const TomlNode& table, const Spot& spot, FaultList& faults) {
 
 void check_document(const TomlNode& document, FaultList& faults) { check_table(document, {}, faults); }
 
+void check_part(const TomlNode& table, const std::string& path, FaultList& faults) { check_table(table, {path, path}, faults); }
+
 }  // namespace percale::scenes

@@ -10,4 +10,7 @@ namespace percale::scenes {
 /// value, and what a table lacks behind its own.
 void check_document(const TomlNode& document, FaultList& faults);
 
+/// The same of one table of a document alone; `path` is its key in scene_keys(), "step" or "fabric", and how messages name it.
+void check_part(const TomlNode& table, const std::string& path, FaultList& faults);
+
 }  // namespace percale::scenes

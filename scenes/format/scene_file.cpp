@@ -100,9 +100,8 @@ std::string file_text(const std::string& file) {
     return text.str();
 }
 
-/// The scene of a text; with kept faults, what could be read of it until there were some.
-Scene parsed(const std::string& text, const std::string& name, std::span<const Override> overrides, FaultList& faults) {
-    TomlNode document = parse_toml(text, name);
+/// The scene of a document; with kept faults, what could be read of it until there were some.
+Scene scene_with(TomlNode document, const std::string& name, std::span<const Override> overrides, FaultList& faults) {
     document.place = {.file = name};
     if (document.entries.empty()) fail_at(document.place, "is empty; a scene needs at least one [fabric.NAME] and one [[cloth]]");
     for (const Override& override : overrides) apply_override(document, override);
@@ -124,12 +123,17 @@ Scene load_scene(const std::string& file, std::span<const Override> overrides) {
 
 Scene parse_scene(const std::string& text, const std::string& name, std::span<const Override> overrides) {
     FaultList faults(false);
-    return parsed(text, name, overrides, faults);
+    return scene_with(parse_toml(text, name), name, overrides, faults);
+}
+
+Scene scene_of_document(const TomlNode& document, const std::string& name, std::span<const Override> overrides) {
+    FaultList faults(false);
+    return scene_with(document, name, overrides, faults);
 }
 
 std::vector<SceneFileError> scene_faults(const std::string& file, std::span<const Override> overrides) {
     FaultList faults(true);
-    faults.attempt([&] { parsed(file_text(file), file, overrides, faults); });
+    faults.attempt([&] { scene_with(parse_toml(file_text(file), file), file, overrides, faults); });
     return faults.found;
 }
 

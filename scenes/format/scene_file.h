@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/scene_file_error.h"
+#include "fields/toml_document.h"
 #include "format/override.h"
 #include "format/scene.h"
 
@@ -17,6 +18,9 @@ Scene load_scene(const std::string& file, std::span<const Override> overrides = 
 
 /// The same from text; `name` stands for the file in messages and relative paths are relative to its folder.
 Scene parse_scene(const std::string& text, const std::string& name, std::span<const Override> overrides = {});
+
+/// The same from a document that was not read from a text; `name` as above. Its places are those of messages.
+Scene scene_of_document(const TomlNode& document, const std::string& name, std::span<const Override> overrides = {});
 
 /// A scene with overrides applied to what it is read from; throws SceneError as load_scene does.
 using SceneSource = std::function<Scene(std::span<const Override>)>;

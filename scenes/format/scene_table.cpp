@@ -13,7 +13,7 @@
 namespace percale::scenes {
 namespace {
 
-std::string fabric_shown(const TomlNode& table) { return "[fabric." + table.key + "]"; }
+std::string fabric_shown(const TomlNode& table) { return table.key.empty() ? "[fabric]" : "[fabric." + table.key + "]"; }
 
 /// A preset is where the other keys start from; it is not kept as such.
 Field<Fabric> preset_field() {
@@ -78,7 +78,7 @@ void finish_step(const TomlNode& table, Scene& scene) {
     if (scheme != nullptr) scene.scheme_place = scheme->place;
 }
 
-Field<Scene> step_field() {
+FieldTable<Scene> made_step_table() {
     FieldTable<Scene> table{.fields = option_fields<Scene>(
                                 step_options(), [](auto& scene) -> auto& { return scene.step; }),
                             .finish = finish_step};
@@ -86,7 +86,11 @@ Field<Scene> step_field() {
         {.path = "detector",
          .sentence = "Which tree finds obstacle triangles near the cloth; all find the same contacts; none refuses obstacles."},
         &Scene::detector, detector_words, std::vector{Detector::fcl, Detector::bullet, Detector::brute_force, Detector::none}));
-    return table_field<Scene>({.path = "step", .sentence = "How the simulation steps."}, itself, table);
+    return table;
+}
+
+Field<Scene> step_field() {
+    return table_field<Scene>({.path = "step", .sentence = "How the simulation steps."}, itself, step_table());
 }
 
 /// A number of seconds, or until rest.
@@ -191,6 +195,11 @@ const FieldTable<Fabric>& fabric_table() {
                                                                    {"spring_damping", "damping_time"},
                                                                    {"pressure", "gas_volume"}}},
                                              .finish = finish_fabric};
+    return table;
+}
+
+const FieldTable<Scene>& step_table() {
+    static const FieldTable<Scene> table = made_step_table();
     return table;
 }
 

@@ -8,6 +8,8 @@ namespace percale::scenes {
 
 const FieldTable<Scene>& scene_table();
 const FieldTable<Fabric>& fabric_table();
+/// [step]: the settings of the steps, and the detector.
+const FieldTable<Scene>& step_table();
 
 /// All keys, every table directly before what it holds.
 const std::vector<SceneKey>& scene_keys();

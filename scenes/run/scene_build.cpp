@@ -45,18 +45,9 @@ void at_place_of(const Spec& spec, Work work) {
     }
 }
 
-std::unique_ptr<ContactDetector> make_detector(const Scene& scene) {
+std::unique_ptr<ContactDetector> detector_for(const Scene& scene) {
     if (!scene.has_contact() && (scene.step.skip || scene.detector == Detector::none)) return nullptr;
-    switch (scene.detector) {
-        case Detector::fcl:
-            return make_fcl_detector();
-        case Detector::bullet:
-            return make_bullet_detector();
-        case Detector::brute_force:
-            return make_brute_force_detector();
-        case Detector::none:
-            break;
-    }
+    if (scene.detector != Detector::none) return make_detector(scene.detector);
     std::vector<std::string> valid(detector_words.begin(), detector_words.end());
     std::erase(valid, word_of(Detector::none));
     const std::string lacks = " needs a detector, but step.detector is none; valid: " + joined(valid);
@@ -268,6 +259,20 @@ std::vector<double> ends_of_shapes(const BuiltScene& built) {
 
 }  // namespace
 
+std::unique_ptr<ContactDetector> make_detector(Detector detector) {
+    switch (detector) {
+        case Detector::fcl:
+            return make_fcl_detector();
+        case Detector::bullet:
+            return make_bullet_detector();
+        case Detector::brute_force:
+            return make_brute_force_detector();
+        case Detector::none:
+            break;
+    }
+    return nullptr;
+}
+
 TriangleMesh obstacle_now(const BuiltScene& built, std::size_t obstacle) {
     TriangleMesh mesh = built.obstacle_meshes[obstacle];
     const std::span<const Vec3> shape = built.simulation.obstacle_shape(built.obstacles[obstacle]);
@@ -309,7 +314,7 @@ BuiltScene build_scene(const Scene& given) {
     Scene scene = given;
     const bool open = scene.step.measure == StepMeasures::automatic;
     if (open && read_step_measures(scene.expectations)) scene.step.measure = StepMeasures::all;
-    std::unique_ptr<ContactDetector> detector = make_detector(scene);
+    std::unique_ptr<ContactDetector> detector = detector_for(scene);
     BuiltScene built{.scene = scene,
                      .simulation = Simulation(scene.step, std::move(detector)),
                      .cloths = {},

@@ -33,6 +33,9 @@ struct BuiltScene {
     std::vector<std::string> warnings;  // what is not quite as the scene file says
 };
 
+/// Null for `none`.
+std::unique_ptr<ContactDetector> make_detector(Detector detector);
+
 /// An obstacle as it stands now, m, world.
 TriangleMesh obstacle_now(const BuiltScene& built, std::size_t obstacle);
 

@@ -13,7 +13,7 @@
 #include "common/text.h"
 #include "common/whole_file.h"
 #include "export/run_settings.h"
-#include "fields/toml_values.h"
+#include "fields/toml_text.h"
 #include "format/expectations.h"
 #include "format/scene_file.h"
 #include "percale/error.h"

@@ -239,4 +239,20 @@ TEST_CASE("The state hash depends on every bit of positions and velocities") {
     CHECK(hash_with(swapped, velocities) != hash);
 }
 
+TEST_CASE("Pinned vertices are told ascending, by the numbers of the mesh") {
+    Simulation simulation(StepSettings{});
+    const ClothId first = simulation.add_cloth(make_grid(1.0, 1.0, 40, 40), sheet_fabric());  // large enough for another order
+    const ClothId second = simulation.add_cloth(make_grid(1.0, 1.0, 3, 3), sheet_fabric(), {.translation = Vec3(0, 1, 0)});
+    CHECK(simulation.pinned_vertices(first).empty());
+    for (const int vertex : {1599, 7, 800}) simulation.pin(first, vertex);
+    simulation.pin(second, 4);
+    CHECK(simulation.pinned_vertices(first) == std::vector{7, 800, 1599});
+    CHECK(simulation.pinned_vertices(second) == std::vector{4});
+    simulation.unpin(first, 800);
+    CHECK(simulation.pinned_vertices(first) == std::vector{7, 1599});
+    simulation.remove_cloth(first);
+    CHECK(simulation.pinned_vertices(second) == std::vector{4});
+    CHECK_THROWS_AS(simulation.pinned_vertices(first), SceneError);
+}
+
 }  // namespace percale::test

@@ -157,6 +157,8 @@ public:
     std::span<const Vec3> velocities(ClothId cloth) const;
     /// Lumped masses, kg.
     std::span<const double> masses(ClothId cloth) const;
+    /// The vertices that are pinned, ascending.
+    std::vector<int> pinned_vertices(ClothId cloth) const;
     /// Unit normals of the vertices, world: of the triangles around each the mean by area, on the side from which they run
     /// counter-clockwise. Zero at a vertex without triangles, or whose triangles have no area or cancel (to 1e-12 of their edges'
     /// squares): there is none. Costs a pass over the triangles of the cloth.

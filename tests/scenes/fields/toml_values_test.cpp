@@ -88,11 +88,3 @@ TEST_CASE("of several keys exactly one must be there") {
     CHECK(error_of([&] { only_key(none, {"a", "b"}, "thing"); }).ends_with("thing must have exactly one of a, b; it has none"));
     CHECK(error_of([&] { only_key(both, {"a", "b"}, "thing"); }).ends_with("thing must have exactly one of a, b; it has a, b"));
 }
-
-TEST_CASE("a value as text reads back as the same value") {
-    for (const char* text : {"3", "0.25", "true", "\"a \\\"word\\\"\"", "[1, [2.5, \"x\"]]", "{ \"below\" = 0.5 }", "[]"}) {
-        const TomlNode node = parse_toml_value(text, {});
-        CHECK(toml_text(node) == text);
-        CHECK(toml_text(parse_toml_value(toml_text(node), {})) == text);
-    }
-}

@@ -220,3 +220,17 @@ TEST_CASE("matches needs a file and a distance") {
     CHECK(fault_after("[expect]\nmatches = { file = \"a.obj\" }\n").find("lacks 'within'") != std::string::npos);
     CHECK(fault_after("[expect]\nmatches = 3\n").find("expect.matches must be a table") != std::string::npos);
 }
+
+TEST_CASE("a part of a document is checked as it is in the whole") {
+    const auto fault_of = [](const std::string& text, const std::string& path) {
+        return error_of([&] {
+            FaultList first(false);
+            check_part(parse_toml(text, "t"), path, first);
+        });
+    };
+    CHECK(fault_of("time_stp = 1", "step").find("did you mean 'time_step'") != std::string::npos);
+    CHECK(fault_of("time_step = 7", "step").find("step.time_step = 7 s is out of range") != std::string::npos);
+    CHECK(fault_of("[springs]\nshear = 1.0", "fabric").find("[fabric.springs] lacks 'structural'") != std::string::npos);
+    FaultList first(false);
+    CHECK_NOTHROW(check_part(parse_toml("time_step = 0.5", "t"), "step", first));
+}

@@ -288,3 +288,14 @@ TEST_CASE("the hanging sheet is the common scene of the field, to the number") {
     CHECK(std::get<VertexIndices>(scene.cloths.at(0).pin).vertices == std::vector<int>{0, 32});
     CHECK(scene.obstacles.empty());
 }
+
+TEST_CASE("a document that was not read from a text is a scene as its text is") {
+    const Override override{"step.time_step", "0.01"};
+    const Scene from_text = parse_scene(small_scene(), "t", {&override, 1});
+    const Scene from_document = scene_of_document(parse_toml(small_scene(), "t"), "t", {&override, 1});
+    CHECK(from_document.step.time_step == 0.01);
+    CHECK(from_document.file == from_text.file);
+    CHECK(from_document.cloths.at(0).name == from_text.cloths.at(0).name);
+    CHECK(from_document.fabrics.at("sheet").springs.shear == from_text.fabrics.at("sheet").springs.shear);
+    CHECK(error_of([&] { scene_of_document(TomlNode(), "t"); }) == fault(""));
+}

@@ -1,0 +1,297 @@
+#include "python/scene_runs.h"
+
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "export/run_folder.h"
+#include "export/run_settings.h"
+#include "format/scene_file.h"
+#include "percale/error.h"
+#include "python/arrays.h"
+#include "python/module.h"
+#include "python/values.h"
+#include "run/scene_plan.h"
+#include "run/start_fault.h"
+
+namespace percale::python {
+namespace {
+
+using namespace percale::scenes;
+
+/// How a scene that no file holds is named in messages; its meshes are relative to the working directory.
+constexpr const char* name_of_dict = "scene";
+
+py::object parsed_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
+
+KeptFrame kept(const Frame& frame) {
+    KeptFrame copy{.index = frame.index, .time = frame.time, .cloths = {}, .obstacles = {}, .check = frame.check};
+    for (const TriangleMesh& mesh : frame.cloths) copy.cloths.push_back(mesh.vertices);
+    for (const TriangleMesh& mesh : frame.obstacles) copy.obstacles.push_back(mesh.vertices);
+    return copy;
+}
+
+/// Calls on_step where there is one; true if the run is to stop. Looks for signals, which Python's own code cannot meanwhile.
+bool told(const py::object& on_step, const StepReport& report, const BuiltScene& built) {
+    const py::gil_scoped_acquire gil;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (on_step.is_none()) return false;
+    const auto view = std::make_shared<RunView>(RunView{&built});
+    struct Ended {
+        RunView& view;
+        ~Ended() { view.built = nullptr; }
+    } ended{*view};
+    return on_step(report, view).cast<py::object>().is(py::bool_(true));
+}
+
+std::size_t number_of(const std::vector<std::string>& names, const std::string& name, const char* what) {
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i] == name) return i;
+    throw SceneError(std::string("no ") + what + " '" + name + "'; valid: " + py::str(py::cast(names)).cast<std::string>());
+}
+
+template <class Specs>
+std::vector<std::string> names_of(const Specs& specs) {
+    std::vector<std::string> names;
+    for (const auto& spec : specs) names.push_back(spec.name);
+    return names;
+}
+
+/// Runs what is built; files where they are asked for.
+class Recorder {
+public:
+    Recorder(BuiltScene& built, const RunWishes& wishes, SceneRun& run) : built_(built), wishes_(wishes), run_(run) {
+        if (!wishes.output.empty()) folder_.emplace(wishes.output, built.scene, true);
+    }
+
+    void record() {
+        RunHooks hooks;
+        hooks.begin = [&] {
+            if (folder_) folder_->begin();
+        };
+        hooks.frame = [&](const Frame& frame) {
+            if (folder_) folder_->add(frame);
+            if (wishes_.keep_frames) run_.frames.push_back(kept(frame));
+            records_.push_back({.index = frame.index,
+                                .time = frame.time,
+                                .cloths = {},
+                                .obstacles = {},
+                                .others = {},
+                                .check = frame.check,
+                                .meeting = frame.meeting});
+        };
+        hooks.step = [&](const StepReport& report, const Simulation& simulation) {
+            if (folder_) folder_->add(report, simulation);
+            stop_ = told(wishes_.on_step, report, built_) || stop_;
+        };
+        hooks.stop_asked = [&] { return stop_; };
+        run_.result = run_scene(built_, hooks, {.certify_steps = wishes_.certify_steps});
+        const std::vector<Expectation> expected =
+            wishes_.certify_steps ? with_every_step(built_.scene.expectations) : built_.scene.expectations;
+        run_.expectations = judge(expected, measure_values(run_.result.measures), run_.result.timed);
+        run_.report = run_report_text(built_, run_.result, records_, run_.expectations);
+        if (folder_) folder_->finish(built_, run_.result, run_.expectations);
+    }
+
+private:
+    BuiltScene& built_;
+    const RunWishes& wishes_;
+    SceneRun& run_;
+    std::optional<RunFolder> folder_;
+    std::vector<FrameRecord> records_;
+    bool stop_ = false;
+};
+
+std::vector<std::string> run_warnings(const BuiltScene& built, const RunResult& result) {
+    std::vector<std::string> warnings = result.plan.warnings;
+    for (const StartMove& move : built.simulation.start_repair()) warnings.push_back(start_move_text(move));
+    for (const Pinch& pinch : result.totals.pinches) warnings.push_back(pinch_text(pinch, built.scene));
+    const std::vector<std::string> strains = strain_warnings(built, result.measures.largest_strain);
+    warnings.insert(warnings.end(), strains.begin(), strains.end());
+    return warnings;
+}
+
+void bind_scene(py::module_& module) {
+    py::class_<Scene>(module, "Scene", "A scene file, checked: what cloth, on what bodies, for how long, what is expected.")
+        .def_readonly("file", &Scene::file, "As given; \"scene\" for a dict.")
+        .def_readonly("title", &Scene::title)
+        .def_property_readonly(
+            "duration", [](const Scene& scene) { return scene.latest_end(); }, "s, when it ends at the latest.")
+        .def_property_readonly(
+            "settings", [](const Scene& scene) { return parsed_json(settings_text(scene)); },
+            "Every value that a run uses, defaults included, laid out like a scene file: a dict.")
+        .def("__repr__", [](const Scene& scene) { return "<percale.Scene: " + scene.file + ">"; });
+    module.def(
+        "load_scene", &scene_from, py::arg("scene"), py::arg("overrides") = py::none(),
+        "A scene from a file, or from a dict laid out like one, checked as files are. overrides: dotted keys and values, as\n"
+        "--set of the program: {\"step.time_step\": 0.01, \"cloth.towel.pin\": [0]}. Throws SceneError with file, line, column.");
+    module.def(
+        "plan",
+        [](py::handle source, py::handle overrides) {
+            const Scene scene = scene_from(source, overrides);
+            return parsed_json([&] {
+                const py::gil_scoped_release others_run;
+                return plan_json(build_scene(scene));
+            }());
+        },
+        py::arg("scene"), py::arg("overrides") = py::none(), "What a run of a scene would do and cost: a dict; runs nothing.");
+}
+
+void bind_view(py::module_& module) {
+    py::class_<RunView, std::shared_ptr<RunView>>(module, "RunView", "What on_step sees of a run; good during the call alone.")
+        .def_property_readonly(
+            "time", [](const RunView& view) { return view.now().simulation.time(); }, "s.")
+        .def(
+            "positions",
+            [](const RunView& view, const std::string& cloth) {
+                const BuiltScene& built = view.now();
+                return array_of(
+                    built.simulation.positions(built.cloths[number_of(names_of(built.scene.cloths), cloth, "cloth")]));
+            },
+            py::arg("cloth"), "(n, 3), m, of the cloth of that name; a copy.")
+        .def(
+            "velocities",
+            [](const RunView& view, const std::string& cloth) {
+                const BuiltScene& built = view.now();
+                return array_of(
+                    built.simulation.velocities(built.cloths[number_of(names_of(built.scene.cloths), cloth, "cloth")]));
+            },
+            py::arg("cloth"), "(n, 3), m/s, likewise.")
+        .def(
+            "force_on",
+            [](const RunView& view, const std::string& obstacle) {
+                const BuiltScene& built = view.now();
+                const std::size_t number = number_of(names_of(built.scene.obstacles), obstacle, "obstacle");
+                return array_of(built.simulation.force_on(built.obstacles[number]));
+            },
+            py::arg("obstacle"), "N, shape (3,), of all cloth on the obstacle of that name.")
+        .def(
+            "state_hash", [](const RunView& view) { return view.now().simulation.state_hash(); }, "As of Simulation.");
+}
+
+py::dict by_name(const std::vector<std::string>& names, const std::vector<std::vector<Vec3>>& meshes) {
+    py::dict dict;
+    for (std::size_t i = 0; i < names.size(); ++i) dict[py::str(names[i])] = array_of(meshes[i]);
+    return dict;
+}
+
+py::list frame_list(const SceneRun& run) {
+    py::list list;
+    for (const KeptFrame& frame : run.frames) {
+        py::dict entry;
+        entry["index"] = frame.index;
+        entry["time"] = frame.time;
+        entry["cloths"] = by_name(run.cloth_names, frame.cloths);
+        entry["obstacles"] = by_name(run.obstacle_names, frame.obstacles);
+        entry["intersections"] = frame.check.intersections;
+        entry["deepest_penetration"] = frame.check.deepest_penetration;
+        entry["smallest_distance"] = frame.check.smallest_distance;
+        list.append(entry);
+    }
+    return list;
+}
+
+py::list expectation_list(const SceneRun& run) {
+    py::list list;
+    for (const ExpectationResult& result : run.expectations) {
+        py::dict entry;
+        entry["measure"] = result.expectation.measure;
+        entry["value"] = result.value ? py::object(py::float_(*result.value)) : py::none();
+        entry["limit"] = limit_text(result.expectation);
+        entry["passed"] = result.passed;
+        entry["text"] = result.text;
+        list.append(entry);
+    }
+    return list;
+}
+
+void bind_run(py::module_& module) {
+    py::class_<SceneRun, std::shared_ptr<SceneRun>>(module, "RunResult", "What became of a run of a scene.")
+        .def_property_readonly(
+            "status", [](const SceneRun& run) { return scenes::status_word(run.result.status); }, "finished, failed or stopped.")
+        .def_property_readonly(
+            "reason", [](const SceneRun& run) { return run.result.reason; }, "Why it failed or was stopped.")
+        .def_property_readonly("passed", &SceneRun::passed, "It finished, and every expectation was met.")
+        .def_property_readonly(
+            "measures", [](const SceneRun& run) { return measure_values(run.result.measures); },
+            "By the names of [expect]; without what was not measured.")
+        .def_property_readonly("expectations", &expectation_list, "A dict each: measure, value, limit, passed, text.")
+        .def_property_readonly(
+            "report", [](const SceneRun& run) { return parsed_json(run.report); }, "report.json as a dict; frames without files.")
+        .def_property_readonly(
+            "frames", &frame_list,
+            "With frames = True: a dict each: index, time (s), cloths and obstacles ((n, 3) arrays by name, m, world),\n"
+            "intersections, deepest_penetration, smallest_distance (m).")
+        .def_readonly("warnings", &SceneRun::warnings, "What is not quite as the scene says, and what was repaired.")
+        .def_readonly("state_hash", &SceneRun::state_hash, "Of the last state.")
+        .def("__repr__", [](const SceneRun& run) {
+            return std::string("<percale.RunResult: ") + scenes::status_word(run.result.status) + ", " +
+                   std::to_string(run.result.totals.steps) + " steps>";
+        });
+    module.def(
+        "run",
+        [](py::handle scene, const std::optional<std::filesystem::path>& output, const py::object& on_step, py::handle overrides,
+           bool frames, bool certify_steps) {
+            if (output && output->empty()) throw SceneError("output", "is empty; None writes nothing");
+            if (!on_step.is_none() && !PyCallable_Check(on_step.ptr())) throw SceneError("on_step", "cannot be called");
+            return run_with(scene_from(scene, overrides), {.output = output ? output->string() : "",
+                                                           .on_step = on_step,
+                                                           .keep_frames = frames,
+                                                           .certify_steps = certify_steps});
+        },
+        py::arg("scene"), py::arg("output") = py::none(), py::arg("on_step") = py::none(), py::arg("overrides") = py::none(),
+        py::arg("frames") = false, py::arg("certify_steps") = false,
+        "Runs a scene (Scene, path or dict) to its end; other threads run meanwhile. output: a folder for frames, report.json "
+        "and\n"
+        "steps.csv, whole or absent; None: nothing is written. on_step(report, view): called after every step with a StepReport\n"
+        "and a RunView; True stops the run. frames: keep the output frames in the result. certify_steps: certify every state.");
+}
+
+}  // namespace
+
+bool SceneRun::passed() const {
+    const auto is_passed = [](const ExpectationResult& expectation) { return expectation.passed; };
+    return result.status == RunStatus::finished && std::ranges::all_of(expectations, is_passed);
+}
+
+const BuiltScene& RunView::now() const {
+    if (built == nullptr)
+        throw SceneError("this view of a run was good during its call of on_step alone; copy what is to be kept");
+    return *built;
+}
+
+std::shared_ptr<SceneRun> run_with(const Scene& scene, const RunWishes& wishes) {
+    auto run = std::make_shared<SceneRun>();
+    const py::gil_scoped_release others_run;
+    BuiltScene built = build_scene(scene);
+    run->cloth_names = names_of(built.scene.cloths);
+    run->obstacle_names = names_of(built.scene.obstacles);
+    Recorder(built, wishes, *run).record();
+    run->state_hash = built.simulation.state_hash();
+    run->warnings = run_warnings(built, run->result);
+    return run;
+}
+
+Scene scene_from(py::handle source, py::handle overrides) {
+    const std::vector<Override> changes = overrides_of(overrides);
+    if (py::isinstance<py::dict>(source)) return scene_of_document(node_of(source, name_of_dict), name_of_dict, changes);
+    if (py::isinstance<Scene>(source)) {
+        if (!changes.empty()) throw SceneError("overrides", "a scene was checked when it was loaded; give them to load_scene");
+        return source.cast<Scene>();
+    }
+    if (!py::isinstance<py::str>(source) && !py::hasattr(source, "__fspath__"))
+        throw SceneError("scene", "must be a percale.Scene, the path of a scene file or a dict, not " + described(source));
+    return load_scene(source.cast<std::filesystem::path>().string(), changes);
+}
+
+void bind_scene_runs(py::module_& module) {
+    bind_scene(module);
+    bind_view(module);
+    bind_run(module);
+}
+
+}  // namespace percale::python

@@ -1,0 +1,106 @@
+"""What pip calls for `pip install .` (PEP 517): builds the module by CMake and packs it as a wheel.
+
+Standard library alone, so nothing is downloaded. The build is kept in build/pip-TAG of the checkout: a second install is quick.
+CMake's own environment variables (CXX, CMAKE_GENERATOR, CMAKE_BUILD_PARALLEL_LEVEL) hold.
+"""
+import base64
+import hashlib
+import os
+import re
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import tomllib
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+TAG = f'cp{sys.version_info.major}{sys.version_info.minor}'
+
+
+def project():
+    """(name, version, text of METADATA)."""
+    table = tomllib.loads((ROOT / 'pyproject.toml').read_text())['project']
+    version = re.search(r'project\(percale VERSION ([\d.]+)', (ROOT / 'CMakeLists.txt').read_text()).group(1)
+    lines = ['Metadata-Version: 2.1', f'Name: {table["name"]}', f'Version: {version}', f'Summary: {table["description"]}',
+             f'License: {table["license"]["text"]}', f'Requires-Python: {table["requires-python"]}',
+             *(f'Requires-Dist: {need}' for need in table['dependencies'])]
+    return table['name'], version, '\n'.join(lines) + '\n'
+
+
+def platform_tag():
+    return re.sub(r'[^A-Za-z0-9]', '_', sysconfig.get_platform())
+
+
+def build_package():
+    """The folder of the package, built."""
+    build = ROOT / 'build' / f'pip-{TAG}-{platform_tag()}'
+    build.mkdir(parents=True, exist_ok=True)
+    jobs = os.environ.get('CMAKE_BUILD_PARALLEL_LEVEL', str(os.cpu_count() or 1))
+    subprocess.run(['cmake', '-S', ROOT, '-B', build, '-DCMAKE_BUILD_TYPE=Release', '-DPERCALE_PYTHON=ON', '-DPERCALE_TESTS=OFF',
+                    f'-DPython3_EXECUTABLE={sys.executable}'], check=True)
+    subprocess.run(['cmake', '--build', build, '--target', 'percale_python', '--parallel', jobs], check=True)
+    return build / 'python' / 'percale'
+
+
+def wheel_tag():
+    return f'{TAG}-{TAG}-{platform_tag()}'
+
+
+def wheel_text():
+    return f'Wheel-Version: 1.0\nGenerator: percale\nRoot-Is-Purelib: false\nTag: {wheel_tag()}\n'
+
+
+def record_line(name, data):
+    digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()
+    return f'{name},sha256={digest},{len(data)}\n'
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    name, version, metadata = project()
+    info = Path(metadata_directory) / f'{name}-{version}.dist-info'
+    info.mkdir()
+    (info / 'METADATA').write_text(metadata)
+    (info / 'WHEEL').write_text(wheel_text())
+    return info.name
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    name, version, metadata = project()
+    info = f'{name}-{version}.dist-info'
+    package = build_package()
+    extension = '_percale' + sysconfig.get_config_var('EXT_SUFFIX')
+    members = {f'percale/{file}': (package / file).read_bytes() for file in ('__init__.py', '__init__.pyi', 'py.typed', extension)}
+    members[f'{info}/METADATA'] = metadata.encode()
+    members[f'{info}/WHEEL'] = wheel_text().encode()
+    members[f'{info}/LICENSE'] = (ROOT / 'LICENSE').read_bytes()
+    record = ''.join(record_line(file, data) for file, data in members.items()) + f'{info}/RECORD,,\n'
+    members[f'{info}/RECORD'] = record.encode()
+    wheel = f'{name}-{version}-{wheel_tag()}.whl'
+    with zipfile.ZipFile(Path(wheel_directory) / wheel, 'w', zipfile.ZIP_DEFLATED) as archive:
+        for file, data in members.items():
+            archive.writestr(file, data)
+    return wheel
+
+
+def source_files():
+    """What git tracks, or without git everything but builds."""
+    if (ROOT / '.git').exists():
+        listed = subprocess.run(['git', '-C', ROOT, 'ls-files', '-z'], check=True, capture_output=True).stdout.decode()
+        return [file for file in listed.split('\0') if (ROOT / file).is_file()]
+    files = (file.relative_to(ROOT) for file in ROOT.rglob('*') if file.is_file())
+    return sorted(str(file) for file in files if not file.parts[0].startswith('build') and '__pycache__' not in file.parts)
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    name, version, metadata = project()
+    folder = f'{name}-{version}'
+    with tarfile.open(Path(sdist_directory) / f'{folder}.tar.gz', 'w:gz', format=tarfile.PAX_FORMAT) as archive:
+        for file in source_files():
+            archive.add(ROOT / file, f'{folder}/{file}')
+        info = Path(sdist_directory) / 'PKG-INFO'
+        info.write_text(metadata)
+        archive.add(info, f'{folder}/PKG-INFO')
+        info.unlink()
+    return f'{folder}.tar.gz'
