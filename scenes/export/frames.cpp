@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <system_error>
 
 #include "common/text.h"
@@ -76,8 +77,8 @@ std::vector<const FrameFormat*> formats_of(const OutputSpec& output, std::span<c
         for (const FrameFormat& format : formats) valid.push_back(format.word);
         throw SceneError("output.frames: no such frame format: '" + word + "'; valid: " + joined(valid));
     }
-    if (!output.fields.empty()) std::ranges::stable_partition(chosen, &FrameFormat::holds_fields);
-    std::ranges::stable_partition(chosen, &FrameFormat::exact);
+    if (!output.fields.empty()) std::stable_partition(chosen.begin(), chosen.end(), std::mem_fn(&FrameFormat::holds_fields));
+    std::stable_partition(chosen.begin(), chosen.end(), std::mem_fn(&FrameFormat::exact));
     return chosen;
 }
 
