@@ -36,8 +36,13 @@ inline std::vector<FrameRecord> write_falling_frames(const TestFolder& folder, i
         for (Vec3& x : sheet.vertices) x.y() += 1.0 - 0.1 * i;
         const std::string file = "frames/sheet_" + std::to_string(i) + ".obj";
         write_obj(folder.path(file), sheet.vertices, sheet.triangles);
-        records.push_back(
-            {.index = i, .time = 0.5 * i, .cloths = {file}, .obstacles = {"frames/ball.obj"}, .check = {}, .meeting = {}});
+        records.push_back({.index = i,
+                           .time = 0.5 * i,
+                           .cloths = {file},
+                           .obstacles = {"frames/ball.obj"},
+                           .others = {},
+                           .check = {},
+                           .meeting = {}});
     }
     return records;
 }
