@@ -1,3 +1,4 @@
+#include "scenes/meshes/mesh_import.h"
 #include "tests/scenes/pattern/garments.h"
 #include "tests/scenes/program/run_program.h"
 #include "tests/support/catch.h"
@@ -25,8 +26,12 @@ TEST_CASE("a pattern is sewn into a mesh, which a scene drapes with its seams cl
         CHECK(run.exit_code == 0);
         CHECK(folder.read(name + "/report.json").find("\"largest_gap\": 0.2") == std::string::npos);
     }
-    // The same cloth either way, in every bit.
-    CHECK(folder.read("by_mesh/frames/skirt_00024.obj") == folder.read("by_pattern/frames/skirt_00024.obj"));
+    // The same cloth either way, in every bit; a frame of the mesh has what that file has besides.
+    const TriangleMesh by_mesh = scenes::import_mesh(folder.path("by_mesh/frames/skirt_00024.obj"));
+    const TriangleMesh by_pattern = scenes::import_mesh(folder.path("by_pattern/frames/skirt_00024.obj"));
+    CHECK(by_mesh.vertices == by_pattern.vertices);
+    CHECK(by_mesh.triangles == by_pattern.triangles);
+    CHECK(folder.read("by_mesh/frames/skirt_00024.obj").find("\nvt ") != std::string::npos);
 }
 
 TEST_CASE("a pattern that cannot be sewn leaves nothing behind") {
