@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "percale/detectors.h"
 #include "percale/error.h"
 #include "scenes/meshes/mesh_import.h"
 #include "scenes/run/obstacle_motion.h"
@@ -148,17 +147,6 @@ std::string pin_some(scenes::BuiltScene& built, Random& random) {
     return "a pinned corner";
 }
 
-std::unique_ptr<ContactDetector> make_detector(scenes::Detector detector) {
-    switch (detector) {
-        case scenes::Detector::bullet:
-            return make_bullet_detector();
-        case scenes::Detector::brute_force:
-            return make_brute_force_detector();
-        default:
-            return make_fcl_detector();
-    }
-}
-
 /// Everything of a scene but where the obstacle is.
 struct Draw {
     NamedMesh cloth, obstacle;
@@ -170,7 +158,7 @@ struct Draw {
 
 scenes::BuiltScene build(const Draw& draw) {
     scenes::BuiltScene built{.scene = {},
-                             .simulation = Simulation(draw.settings, make_detector(draw.detector)),
+                             .simulation = Simulation(draw.settings, scenes::make_detector(draw.detector)),
                              .cloths = {},
                              .cloth_meshes = {draw.cloth.mesh},
                              .rest_shapes = {{}},
