@@ -1,4 +1,3 @@
-#define BT_USE_DOUBLE_PRECISION  // as its library is built
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
