@@ -164,4 +164,9 @@ std::vector<std::byte> read_bytes(const std::string& file) {
     return bytes;
 }
 
+std::string read_text(const std::string& file) {
+    const std::vector<std::byte> bytes = read_bytes(file);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace percale::scenes

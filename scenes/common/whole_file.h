@@ -73,5 +73,7 @@ void write_durable_file(const std::string& file, std::span<const std::byte> byte
 
 /// Throws SceneError naming the file if it cannot be read.
 std::vector<std::byte> read_bytes(const std::string& file);
+/// The same as a text.
+std::string read_text(const std::string& file);
 
 }  // namespace percale::scenes

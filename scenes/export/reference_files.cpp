@@ -1,9 +1,10 @@
 #include "export/reference_files.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "common/scene_file_error.h"
-#include "common/text.h"
 #include "common/whole_file.h"
 #include "format/expectations.h"
 #include "garment/cloth_shape.h"
@@ -48,26 +49,28 @@ ReferenceFile reference_file(const BuiltScene& built, const RunResult& result, s
     return reference;
 }
 
-std::string bytes_of(const std::string& file) {
-    if (!std::filesystem::exists(file)) return "";
-    const std::vector<std::byte> bytes = read_bytes(file);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+std::string text_now(const std::string& file) { return std::filesystem::exists(file) ? read_text(file) : ""; }
 
 }  // namespace
 
 std::vector<std::string> update_references(const BuiltScene& built, const RunResult& result) {
     std::vector<ReferenceFile> files;
-    for (std::size_t i = 0; i < built.scene.expectations.size(); ++i)
-        if (built.scene.expectations[i].measure == "matches") files.push_back(reference_file(built, result, i));
+    for (std::size_t i = 0; i < built.scene.expectations.size(); ++i) {
+        const Expectation& expectation = built.scene.expectations[i];
+        if (expectation.measure != "matches") continue;
+        ReferenceFile reference = reference_file(built, result, i);
+        if (std::ranges::find(files, reference.file, &ReferenceFile::file) != files.end())
+            fail_at(expectation.place, "matches: " + reference.file + " is named twice, and --update cannot write both into it");
+        files.push_back(std::move(reference));
+    }
     std::vector<std::string> told;
     for (const ReferenceFile& reference : files) {
-        const std::string before = bytes_of(reference.file);
+        const std::string before = text_now(reference.file);
         if (extension_of(reference.file) == ".ply")
             write_ply(reference.file, reference.mesh);
         else
             write_obj(reference.file, reference.mesh.vertices, reference.mesh.triangles);
-        const bool same = before == bytes_of(reference.file);
+        const bool same = before == text_now(reference.file);
         told.push_back("matches " + reference.expectation->file + when_text(*reference.expectation) + ": " +
                        (same ? "unchanged" : "written, " + std::to_string(reference.mesh.vertices.size()) + " vertices"));
     }

@@ -1,7 +1,5 @@
 #include "frames/glb_frames.h"
 
-#include "common/bytes.h"
-#include "common/whole_file.h"
 #include "frames/frame_folder.h"
 #include "frames/morph_glb.h"
 

@@ -54,8 +54,7 @@ std::vector<int> vertices_of(std::string_view corners, std::size_t vertices_abov
 }  // namespace
 
 ObjLayout::ObjLayout(const std::string& file) : file_(file) {
-    const std::vector<std::byte> bytes = read_bytes(file);
-    const std::string content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string content = read_text(file);
     std::istringstream in(content);
     triangles_ = read_obj(in, file).triangles;
     std::size_t line_number = 0, next_triangle = 0;

@@ -1,7 +1,6 @@
 #include "frames/point_cache_frames.h"
 
 #include <fstream>
-#include <limits>
 
 #include "common/bytes.h"
 #include "common/whole_file.h"

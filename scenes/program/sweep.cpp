@@ -2,10 +2,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "common/text.h"
 #include "common/whole_file.h"

@@ -175,8 +175,7 @@ void check_runs(const Study& study, const TomlNode& vary) {
 }  // namespace
 
 Study read_study(const std::string& file) {
-    const std::vector<std::byte> bytes = read_bytes(file);
-    const TomlNode document = parse_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+    const TomlNode document = parse_toml(read_text(file), file);
     for (const TomlNode& node : document.entries)
         if (std::ranges::find(study_keys, node.key) == study_keys.end()) fail_unknown(node, "a study", study_keys);
     const std::string scene = text_at(document, "scene");
@@ -220,10 +219,9 @@ std::string study_text(const Study& study) {
 }
 
 Study stored_study(const std::string& file) {
-    const std::vector<std::byte> bytes = read_bytes(file);
+    const std::string text = read_text(file);
     try {
-        const auto json = ordered_json::parse(reinterpret_cast<const char*>(bytes.data()),
-                                              reinterpret_cast<const char*>(bytes.data()) + bytes.size());
+        const auto json = ordered_json::parse(text);
         Study study{.file = file,
                     .scene = json.at("scene"),
                     .frames = json.at("frames"),

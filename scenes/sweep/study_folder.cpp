@@ -25,8 +25,7 @@ void StudyFolder::begin(const Study& study) const {
     if (error) throw SceneError(path_ + ": cannot be made: " + error.message());
     const std::string text = study_text(study), stored = file("study.json");
     if (!fs::exists(stored)) return write_whole_file(stored, text);
-    const std::vector<std::byte> bytes = read_bytes(stored);
-    if (std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()) != text)
+    if (read_text(stored) != text)
         throw SceneError(
             path_ + ": holds another study, or this one before its file or its scene was changed; name another folder with -o");
 }

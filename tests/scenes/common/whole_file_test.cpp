@@ -10,6 +10,15 @@ using namespace percale;
 using namespace percale::scenes;
 using percale::scenes::test::TestFolder;
 
+TEST_CASE("a file is read as bytes and as a text, whatever they are") {
+    const TestFolder folder;
+    const std::string text("a\0\r\n\xff", 5);
+    const std::string file = folder.write("some.bin", text);
+    CHECK(read_text(file) == text);
+    CHECK(read_bytes(file).size() == 5);
+    CHECK_THROWS_WITH(read_text(folder.path("none")), Catch::Contains("none"));
+}
+
 TEST_CASE("a device is refused and not replaced") {
     if (!std::filesystem::is_character_file("/dev/full")) return;
     CHECK_THROWS_WITH(WholeFile("/dev/full"), Catch::Contains("not a regular file"));

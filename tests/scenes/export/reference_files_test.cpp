@@ -48,5 +48,6 @@ TEST_CASE("what cannot be written is refused before anything is") {
     };
     refused("[[expect]]\nmatches = { file = \"end.stl\", within = 1 }\n", "end.stl: --update writes .obj and .ply");
     refused("[[expect]]\nduring = [0, 1]\nmatches = { file = \"end.obj\", within = 1 }\n", "is of many shapes");
+    refused("[[expect]]\nat = 0.05\nmatches = { file = \"good.obj\", within = 1 }\n", "good.obj is named twice");
     refused("[[expect]]\nat = 7\nmatches = { file = \"end.obj\", within = 1 }\n", "the run did not reach 7 s");
 }
