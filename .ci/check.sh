@@ -178,7 +178,6 @@ stage_scenes() {
     "$release_copy/build/percale" check data/scenes/*.toml
 }
 
-# Instructions of the steps of small scenes against .ci/instructions.json.
 # The Python module in the same build, and its tests.
 stage_python() {
     [ -x "$release_copy/build/percale" ] || { echo "$release_copy/build/percale is missing: run the stage release first"; return 1; }
@@ -187,6 +186,7 @@ stage_python() {
     ctest --test-dir "$release_copy/build" --no-tests=error -L python
 }
 
+# Instructions of the steps of small scenes against .ci/instructions.json.
 stage_perf() {
     [ -x "$release_copy/build/percale" ] || { echo "$release_copy/build/percale is missing: run the stage release first"; return 1; }
     python3 .ci/perf_gate.py --program "$release_copy/build/percale"

@@ -47,8 +47,8 @@ ExpectationResult judged(const Expectation& expectation, std::optional<double> m
 /// What a run has measured of an expectation.
 std::optional<double> measured_of(const Expectation& expectation, std::size_t index,
                                   const std::map<std::string, double>& measures, std::span<const double> timed) {
-    if (expectation.at || expectation.during)
-        return index < timed.size() && !std::isnan(timed[index]) ? std::optional(timed[index]) : std::nullopt;
+    if (index < timed.size() && !std::isnan(timed[index])) return timed[index];
+    if (expectation.at || expectation.during) return std::nullopt;
     const auto found = measures.find(expectation.measure);
     return found != measures.end() ? std::optional(found->second) : std::nullopt;
 }

@@ -146,7 +146,8 @@ std::optional<TomlNode> expectations_node(const Scene& scene) {
     list.kind = TomlKind::list;
     const Expectation* last = nullptr;
     for (const Expectation& expectation : scene.expectations) {
-        if (last == nullptr || last->at != expectation.at || last->during != expectation.during)
+        const bool same = last != nullptr && last->at == expectation.at && last->during == expectation.during;
+        if (!same || list.items.back().find(expectation.measure) != nullptr)
             list.items.push_back(spec_node(when_table(), expectation));
         list.items.back().entries.push_back(expectation_node(expectation));
         last = &expectation;

@@ -1,7 +1,5 @@
 #include "frames/vtp_frames.h"
 
-#include <algorithm>
-
 #include "common/bytes.h"
 #include "common/text.h"
 #include "common/whole_file.h"

@@ -203,6 +203,8 @@ py::list expectation_list(const SceneRun& run) {
         entry["value"] = result.value ? py::object(py::float_(*result.value)) : py::none();
         entry["limit"] = limit_text(result.expectation);
         entry["passed"] = result.passed;
+        if (result.expectation.at) entry["at"] = *result.expectation.at;
+        if (result.expectation.during) entry["during"] = *result.expectation.during;
         entry["text"] = result.text;
         list.append(entry);
     }

@@ -263,7 +263,6 @@ private:
     double every_, made_;
 };
 
-/// Throws SceneError for a reference that cannot be read.
 TimedMeasures timed_of(const BuiltScene& built, std::vector<std::vector<Vec3>> references) {
     // Times are sums of steps.
     return {built.scene.expectations, std::move(references), 1e-6 * built.scene.step.time_step};
@@ -311,11 +310,12 @@ public:
         if (script_.rest) end_at_rest(script_.rest->figures());
     }
 
+    const std::vector<std::vector<Vec3>>& shapes() const { return script_.timed.shapes(); }
+
     /// Brings the totals up to date that are no sums over steps.
     void measure() {
         if (script_.rest) result_.rest = script_.rest->figures();
         result_.timed = script_.timed.values();
-        result_.shapes = script_.timed.shapes();
         result_.totals.simulated_s = built_.simulation.time();
         result_.totals.wall_s =
             earlier_wall_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -383,6 +383,16 @@ private:
     CheckpointTimes checkpoints_;
 };
 
+/// Those of the end, each with its own file.
+void measure_matches(const BuiltScene& built, std::span<const std::vector<Vec3>> references, RunResult& result) {
+    for (std::size_t i = 0; i < references.size(); ++i) {
+        const Expectation& expectation = built.scene.expectations[i];
+        if (references[i].empty() || expectation.at || expectation.during) continue;
+        result.timed[i] = largest_vertex_distance(built.simulation, built.cloths, references[i]);
+        if (!result.measures.matches) result.measures.matches = result.timed[i];
+    }
+}
+
 }  // namespace
 
 RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings& settings) {
@@ -402,12 +412,9 @@ RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings&
         result.measures.largest_strain = result.measures.energy_gain = result.totals.energy.elastic;
     }
     add_end(result.measures, built.simulation, built.cloths);
-    for (std::size_t i = 0; i < references.size(); ++i) {
-        const Expectation& expectation = built.scene.expectations[i];
-        if (!references[i].empty() && !expectation.at && !expectation.during)
-            result.measures.matches = largest_vertex_distance(built.simulation, built.cloths, references[i]);
-    }
     run.measure();
+    measure_matches(built, references, result);
+    result.shapes = run.shapes();
     return result;
 }
 

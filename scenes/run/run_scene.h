@@ -56,9 +56,9 @@ struct RunResult {
     RunTotals totals;
     ScenePlan plan;  // before the first step
     Measures measures;
-    std::optional<RestFigures> rest;        // of a scene that ends at rest
-    std::vector<double> timed;              // what TimedMeasures measured, in the order of the scene's expectations
-    std::vector<std::vector<Vec3>> shapes;  // TimedMeasures::shapes
+    std::optional<RestFigures> rest;  // of a scene that ends at rest
+    std::vector<double> timed;        // of the scene's expectations, in their order: TimedMeasures, and `matches` at the end
+    std::vector<std::vector<Vec3>> shapes;  // TimedMeasures::shapes; empty where a time was over when the run was resumed
     std::vector<double> resumed_at;         // s, where the run was resumed; empty for one that was not
 };
 
@@ -97,13 +97,13 @@ struct RunSettings {
 /// Steps until the scene's duration is over, or with duration = "rest" until all cloth is proven at rest and nothing is to come;
 /// that has a last frame of its own, and has failed if it is not at rest by its longest duration (where the duration is no
 /// multiple of the time step the last step is shorter, or up to a thousandth longer), a step fails or a stop is asked for.
-/// Adaptive steps (time_step = "auto") end at every frame's and event's time. Frame k follows the first step that ends at or
-/// after k / fps; frame 0 is the start. Every frame is certified against every obstacle, and cloth that meets cloth against that,
-/// also when nothing is written. A step in which an obstacle moves far is made in equal parts (motion_parts), each a step of the
-/// simulation and of the totals. Throws SceneError if the reference of a `matches` expectation cannot be read or has another
-/// number of vertices, or if the state to go on from is not one of this scene, before the first step; what a hook throws passes
-/// through. A run that goes on from a state ends with the same bits and figures as one that was never interrupted; the scene must
-/// have been built anew.
+/// Adaptive steps (time_step = "auto") end at every time of a frame, an event and an expectation's `at`. Frame k follows the
+/// first step that ends at or after k / fps; frame 0 is the start. Every frame is certified against every obstacle, and cloth
+/// that meets cloth against that, also when nothing is written. A step in which an obstacle moves far is made in equal parts
+/// (motion_parts), each a step of the simulation and of the totals. Throws SceneError if the reference of a `matches` expectation
+/// cannot be read or has another number of vertices, or if the state to go on from is not one of this scene, before the first
+/// step; what a hook throws passes through. A run that goes on from a state ends with the same bits and figures as one that was
+/// never interrupted; the scene must have been built anew.
 RunResult run_scene(BuiltScene& built, const RunHooks& hooks = {}, const RunSettings& settings = {});
 
 }  // namespace percale::scenes

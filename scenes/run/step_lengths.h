@@ -8,7 +8,7 @@
 namespace percale::scenes {
 
 /// Tells how long the steps of a run are: `time_step`, the last one shorter; with "auto" equal ones from stop to stop, which are
-/// the times of frames, events and expectations, and the scene's end. Times in s.
+/// the times of frames, events and expectations' `at`, and the scene's end. Times in s.
 class StepLengths {
 public:
     /// `made`: steps so far; `length`: of the last one, before the first step.time_step.

@@ -1,6 +1,5 @@
 #include "sweep/batch_files.h"
 
-#include <algorithm>
 #include <filesystem>
 
 namespace percale::scenes {

@@ -157,6 +157,9 @@ void choose_plot(Study& study, const TomlNode* node) {
     if (std::ranges::find(study.keys, study.plot_key) == study.keys.end())
         fail_at(node->place,
                 "plot: '" + study.plot_key + "' is none of the keys that vary" + suggestion(study.plot_key, study.keys));
+    const auto key = static_cast<std::size_t>(std::ranges::find(study.keys, study.plot_key) - study.keys.begin());
+    if (!std::ranges::all_of(study.runs, [&](const auto& run) { return is_number(run[key]); }))
+        fail_at(node->place, "plot: not all values of '" + study.plot_key + "' are numbers");
     if (std::ranges::find(measures, study.plot_measure) == measures.end())
         fail_at(node->place, "plot: no measure '" + study.plot_measure + "'" + suggestion(study.plot_measure, measures));
 }

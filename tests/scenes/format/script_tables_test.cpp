@@ -129,6 +129,11 @@ TEST_CASE("tables of expectations have each their time, and are written as they 
     REQUIRE(again.expectations.size() == 4);
     CHECK(again.expectations[2].at == 1.5);
     CHECK(again.expectations[3].highest == 0.2);
+    const Scene twice = parse_scene(small_scene() +
+                                        "[[expect]]\nlowest_vertex = { above = 0.1 }\n"
+                                        "[[expect]]\nlowest_vertex = { above = 0.2 }\n",
+                                    "t");
+    CHECK(expect_field().write(twice)->items.size() == 2);
     CHECK_THROWS_WITH(parse_scene(small_scene() + "[[expect]]\nat = 1.0\nduring = [0, 1]\n", "t"),
                       Catch::Contains("exclude each other"));
     CHECK_THROWS_WITH(parse_scene(small_scene() + "[[expect]]\nduring = [2, 1]\n", "t"),

@@ -97,6 +97,7 @@ TEST_CASE("what is no study is refused with its place and what it should be") {
     contains(good, "plot = [\"step.time_stp\", \"largest_strain\"]\n",
              "none of the keys that vary; did you mean 'step.time_step'?");
     contains(good, "plot = [\"step.time_step\", \"largest_stran\"]\n", "did you mean 'largest_strain'?");
+    contains("\"step.scheme\" = [\"rk4\"]\n", "plot = [\"step.scheme\", \"largest_strain\"]\n", "are numbers");
     folder.write("none.toml", "scene = \"sheet.toml\"\n");
     CHECK_THROWS_WITH(read_study(folder.path("none.toml")), Catch::Contains("needs [vary]"));
     CHECK_THROWS_AS(read_study(folder.path("absent.toml")), SceneError);
