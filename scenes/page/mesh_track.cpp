@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/bytes.h"
 #include "percale/error.h"
 
 namespace percale::scenes {
@@ -23,7 +24,7 @@ void check_same_mesh(const std::string& file, const TriangleMesh& mesh, const Tr
 std::string packed_bytes(const std::vector<float>& values, const PackRange& range) {
     std::string bytes;
     bytes.reserve(2 * values.size());
-    for (const float value : values) append_packed(bytes, packed(value, range));
+    for (const float value : values) append_little(bytes, packed(value, range));
     return bytes;
 }
 
@@ -32,7 +33,7 @@ std::string packed_positions(const std::array<std::vector<float>, 3>& axes, cons
     std::string bytes;
     bytes.reserve(6 * axes[0].size());
     for (std::size_t v = 0; v < axes[0].size(); ++v)
-        for (std::size_t k = 0; k < 3; ++k) append_packed(bytes, packed(axes[k][v], ranges[k]));
+        for (std::size_t k = 0; k < 3; ++k) append_little(bytes, packed(axes[k][v], ranges[k]));
     return bytes;
 }
 
@@ -40,7 +41,7 @@ std::string corner_bytes(const std::vector<Triangle>& triangles) {
     std::string bytes;
     bytes.reserve(12 * triangles.size());
     for (const Triangle& triangle : triangles)
-        for (const int corner : triangle) append_whole(bytes, static_cast<std::uint32_t>(corner));
+        for (const int corner : triangle) append_little(bytes, static_cast<std::uint32_t>(corner));
     return bytes;
 }
 

@@ -31,15 +31,6 @@ std::uint16_t packed(double value, const PackRange& range) {
     return static_cast<std::uint16_t>(std::clamp(std::round((value - range.low) / range.step), 0.0, largest_packed));
 }
 
-void append_packed(std::string& bytes, std::uint16_t number) {
-    bytes += static_cast<char>(number & 255u);
-    bytes += static_cast<char>(number >> 8);
-}
-
-void append_whole(std::string& bytes, std::uint32_t number) {
-    for (int k = 0; k < 4; ++k) bytes += static_cast<char>(number >> (8 * k) & 255u);
-}
-
 std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
 std::string base64(std::string_view bytes) {

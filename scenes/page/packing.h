@@ -22,10 +22,6 @@ PackRange range_of(std::span<const float> values);
 /// The nearest number for a value of the range, off by half a step at most; packed_absent where it is not finite.
 std::uint16_t packed(double value, const PackRange& range);
 
-/// Appends the bytes of a number, the lowest first.
-void append_packed(std::string& bytes, std::uint16_t number);
-void append_whole(std::string& bytes, std::uint32_t number);
-
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);
 /// How many letters that makes of so many bytes.

@@ -6,7 +6,7 @@
 
 #include "common/nearest_name.h"
 #include "common/text.h"
-#include "percale/certify.h"
+#include "frames/cloth_fit.h"
 #include "percale/error.h"
 
 namespace percale::scenes {
@@ -76,13 +76,12 @@ std::vector<double> values_of_file(const PictureField& field, const MeshFields& 
 
 std::vector<double> distances_to_bodies(const PictureField& field, const TriangleMesh& cloth,
                                         std::span<const ShownShape> shapes) {
-    std::vector<double> nearest(cloth.vertices.size(), std::numeric_limits<double>::infinity());
-    for (const ShownShape& shape : shapes) {
-        if (shape.is_cloth) continue;
-        const std::vector<double> distances = surface_distances(shape.mesh, cloth.vertices);
-        for (std::size_t v = 0; v < nearest.size(); ++v) nearest[v] = std::min(nearest[v], field.factor * distances[v]);
-    }
-    return nearest;
+    std::vector<TriangleMesh> bodies;
+    for (const ShownShape& shape : shapes)
+        if (!shape.is_cloth) bodies.push_back(shape.mesh);
+    std::vector<double> distances = obstacle_distances(cloth.vertices, bodies);
+    for (double& distance : distances) distance *= field.factor;
+    return distances;
 }
 
 double FieldRange::share(double value) const { return std::clamp((value - low) / (high - low), 0.0, 1.0); }

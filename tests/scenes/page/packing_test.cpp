@@ -61,11 +61,4 @@ TEST_CASE("Values that are all equal are packed as their lowest") {
     CHECK(packed(0.25, range) == 0);
 }
 
-TEST_CASE("Bytes of packed numbers have the lowest first") {
-    std::string bytes;
-    append_packed(bytes, 0x1234);
-    append_whole(bytes, 0x89abcdef);
-    CHECK(bytes == std::string("\x34\x12\xef\xcd\xab\x89"));
-}
-
 }  // namespace percale::scenes::test
