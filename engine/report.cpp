@@ -169,6 +169,20 @@ const char* status_word(StepStatus status) {
     return "unknown";
 }
 
+const char* solver_word(LinearSolver solver) {
+    switch (solver) {
+        case LinearSolver::automatic:
+            return "none";
+        case LinearSolver::cg:
+            return "cg";
+        case LinearSolver::multigrid:
+            return "multigrid";
+        case LinearSolver::direct:
+            return "direct";
+    }
+    return "";
+}
+
 std::string StepReport::explanation() const {
     std::ostringstream text;
     text << "step from t = " << (ok() ? time - dt : time) << " s over " << dt << " s: " << status_word(status);

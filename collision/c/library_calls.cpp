@@ -5,6 +5,8 @@
 
 using namespace percale::c_interface;
 
+static_assert(PERCALE_STEP_OK == static_cast<int>(percale::StepStatus::ok));
+static_assert(PERCALE_STEP_NOT_CONVERGED == static_cast<int>(percale::StepStatus::not_converged));
 static_assert(PERCALE_STEP_HALVED == static_cast<int>(percale::StepStatus::halved));
 static_assert(PERCALE_STEP_TOLERANCE_MISSED == static_cast<int>(percale::StepStatus::tolerance_missed));
 static_assert(PERCALE_STEP_PIN_BLOCKED == static_cast<int>(percale::StepStatus::pin_blocked));

@@ -3,18 +3,10 @@
 #include <sstream>
 
 #include "c/structs.h"
-#include "percale/options.h"
+#include "percale/report.h"
 
 namespace percale::c_interface {
 namespace {
-
-const char* solver_word(LinearSolver solver) {
-    const Option<StepSettings>* found = nullptr;
-    for (const Option<StepSettings>& option : step_options()) {
-        if (option.key == "linear_solver") found = &option;
-    }
-    return found->choices[static_cast<std::size_t>(solver)].data();
-}
 
 /// The energies of a step report and of percale_energy have the same names.
 template <class Struct>
@@ -87,7 +79,8 @@ percale_energy c_energy(const StepEnergy& energy) {
 }
 
 percale_step_report c_report(const StepReport& report) {
-    auto told = default_struct<percale_step_report>();
+    percale_step_report told{};
+    told.struct_size = sizeof told;
     write_solution(report, told);
     write_trouble(report, told);
     write_energy(report.energy, told);
@@ -100,6 +93,11 @@ percale_step_report c_report(const StepReport& report) {
     told.measure_s = report.stages.measure;
     told.cpu_s = report.cpu_s;
     return told;
+}
+
+template <>
+percale_step_report default_struct() {
+    return c_report({});
 }
 
 percale_start_fault c_start_fault(const StartFault& fault) {

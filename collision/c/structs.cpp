@@ -78,11 +78,6 @@ percale_energy default_struct() {
 }
 
 template <>
-percale_step_report default_struct() {
-    return sized_struct<percale_step_report>();
-}
-
-template <>
 percale_start_fault default_struct() {
     auto made = sized_struct<percale_start_fault>();
     made.obstacle = made.inside_vertex = made.cloth_triangle = made.obstacle_triangle = made.other_cloth_triangle = -1;

@@ -96,7 +96,7 @@ percale_pose c_pose(const Pose& pose);
 template <class Item>
 struct Buffer {
     Item* items;
-    std::size_t capacity;  // of what `items_each` numbers make
+    std::size_t capacity;  // in items
     std::size_t* count;
 
     /// Calls write(items) where there is room for `needed`. Throws SceneError for NULL, CallError where there is not.

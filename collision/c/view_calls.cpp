@@ -71,6 +71,13 @@ percale_status percale_masses(const percale_simulation* simulation, int cloth, d
     });
 }
 
+percale_status percale_pinned_vertices(const percale_simulation* simulation, int cloth, int* vertices, size_t capacity,
+                                       size_t* count) {
+    return call_on(__func__, simulation, [&](const percale_simulation& of) {
+        give_items<int>(of.simulation.pinned_vertices({cloth}), {vertices, capacity, count});
+    });
+}
+
 percale_status percale_normals(const percale_simulation* simulation, int cloth, double* normals, size_t capacity, size_t* count) {
     return call_on(__func__, simulation, [&](const percale_simulation& of) {
         give_vectors(of.simulation.normals({cloth}), {normals, capacity, count});

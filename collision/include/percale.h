@@ -169,8 +169,8 @@ percale_status percale_remove_cloth(percale_simulation* simulation, int cloth);
 /* The same of an obstacle; cloth wakes up only if it touched some. */
 percale_status percale_remove_obstacle(percale_simulation* simulation, int obstacle);
 /* Another fabric, copied, for a cloth whose mesh, rest shape, positions, velocities and pins stay. Contacts are forgotten where
- * thickness, friction, self_contact or the order of the springs changes: the next step then checks the start as percale_prepare
- * does. Costs as much as adding a cloth. States saved before are refused. */
+ * thickness, friction, self_contact or the order of the springs changes, or a strain limit comes or goes: the next step then
+ * checks the start as percale_prepare does. Costs as much as adding a cloth. States saved before are refused. */
 percale_status percale_set_fabric(percale_simulation* simulation, int cloth, const percale_fabric* fabric);
 /* Coulomb coefficient of an obstacle against cloth from the next step on, 0 ... 10. */
 percale_status percale_set_friction(percale_simulation* simulation, int obstacle, double friction);
@@ -249,6 +249,9 @@ percale_status percale_velocities(const percale_simulation* simulation, int clot
                                   size_t* count);
 /* Lumped masses, kg, one number a vertex. */
 percale_status percale_masses(const percale_simulation* simulation, int cloth, double* masses, size_t capacity, size_t* count);
+/* Numbers of the vertices that are pinned, ascending. */
+percale_status percale_pinned_vertices(const percale_simulation* simulation, int cloth, int* vertices, size_t capacity,
+                                       size_t* count);
 /* Unit normals of the vertices, world, three numbers each: of the triangles around each the mean by area, on the side from which
  * they run counter-clockwise. 0 0 0 where there is none: no triangles, none with an area, or they cancel. */
 percale_status percale_normals(const percale_simulation* simulation, int cloth, double* normals, size_t capacity, size_t* count);

@@ -109,8 +109,8 @@ bool meets_otherwise(const Fabric& a, const Fabric& b) {
            a.strain_limit.has_value() != b.strain_limit.has_value();
 }
 
-}  // namespace
-
+/// Puts a model made anew of that of the world in its place: the cloth that is left keeps state, pins and contact, under its new
+/// numbers. The detector is told by those who call it.
 void adopt_model(RemadeModel&& made, World& world) {
     note_loads(world);
     renumber_contacts(
@@ -124,6 +124,17 @@ void adopt_model(RemadeModel&& made, World& world) {
     set_workers(world);
     scene_changed(world);
 }
+
+/// Throws SceneError where the detector knows no contact of cloth with cloth: it is told of none, and told anew afterwards.
+void check_knows_cloth(World& world) {
+    const std::size_t count = world.scene.model.rest.size();
+    const std::vector<int> nowhere(count, -1);
+    const std::vector<double> friction(count, 0.0);
+    world.scene.detector->set_self_contact(
+        {.cloth = nowhere, .rest = world.scene.model.rest, .friction = friction, .stitches = {}});
+}
+
+}  // namespace
 
 std::vector<int> drop_cloth(World& world, int cloth) {
     RemadeModel made = remake(world.scene.model, world.scene.script.seams, {.cloth = cloth});
@@ -144,17 +155,14 @@ std::vector<int> drop_cloth(World& world, int cloth) {
 
 void change_fabric(World& world, int cloth, const Fabric& fabric) {
     const ClothRange before = world.scene.model.cloths[cloth];
-    adopt_model(remake(world.scene.model, world.scene.script.seams, {cloth, &fabric}), world);
+    RemadeModel made = remake(world.scene.model, world.scene.script.seams, {cloth, &fabric});
+    // What is refused is refused before anything changes.
+    if (fabric.self_contact && !meets_cloth(world.scene)) check_knows_cloth(world);
+    adopt_model(std::move(made), world);
     const bool same_order = before.order.place == world.scene.model.cloths[cloth].order.place;
     if (same_order && !meets_otherwise(before.fabric, fabric)) return;
     world.changed = true;
-    try {
-        pass_cloth_to_detector(world);
-    } catch (const SceneError&) {  // it knows no contact of cloth with cloth
-        adopt_model(remake(world.scene.model, world.scene.script.seams, {cloth, &before.fabric}), world);
-        pass_cloth_to_detector(world);
-        throw;
-    }
+    pass_cloth_to_detector(world);
 }
 
 void drop_obstacle(World& world, int obstacle) {

@@ -5,10 +5,6 @@
 
 namespace percale {
 
-/// Puts a model made anew of that of the world in its place: the cloth that is left keeps state, pins and contact, under its new
-/// numbers. Tells the detector, where that has to know, and the next step checks the start then.
-void adopt_model(RemadeModel&& made, World& world);
-
 /// Takes cloth, what pairs say of it and its seams out. Returns the numbers before of the seams that are left.
 std::vector<int> drop_cloth(World& world, int cloth);
 

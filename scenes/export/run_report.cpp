@@ -27,20 +27,6 @@ double peak_memory_bytes() {
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-const char* solver_word(LinearSolver solver) {
-    switch (solver) {
-        case LinearSolver::automatic:
-            return "none";
-        case LinearSolver::cg:
-            return "cg";
-        case LinearSolver::multigrid:
-            return "multigrid";
-        case LinearSolver::direct:
-            return "direct";
-    }
-    return "";
-}
-
 void put_counts(ordered_json& json, const RunTotals& totals) {
     json["simulated_s"] = totals.simulated_s;
     json["steps"] = totals.steps;

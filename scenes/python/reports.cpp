@@ -7,11 +7,6 @@
 namespace percale::python {
 namespace {
 
-const char* solver_word(LinearSolver solver) {
-    constexpr const char* words[] = {"none", "cg", "multigrid", "direct"};
-    return words[static_cast<int>(solver)];
-}
-
 void bind_parts(py::module_& module) {
     py::class_<StepEnergy>(module, "StepEnergy",
                            "J: energies at the end of a step and what became of energy during it. NaN where it is not measured\n"

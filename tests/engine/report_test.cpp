@@ -123,4 +123,11 @@ TEST_CASE("Dropped spans are counted by what became of them and told in words") 
     CHECK(dropped == DroppedSpans{.not_converged = 3, .blocked = 1, .not_finite = 1, .inexact = 2});
 }
 
+TEST_CASE("Solvers have the words of their option, and none where nothing was solved") {
+    CHECK(solver_word(LinearSolver::automatic) == std::string("none"));
+    CHECK(solver_word(LinearSolver::cg) == std::string("cg"));
+    CHECK(solver_word(LinearSolver::multigrid) == std::string("multigrid"));
+    CHECK(solver_word(LinearSolver::direct) == std::string("direct"));
+}
+
 }  // namespace percale::test

@@ -151,7 +151,7 @@ typedef struct percale_step_report {
     double smallest_dt, largest_dt; /* s, of the parts the step was solved in */
     int parts, rejected;            /* accepted lengths; lengths tried and found too inexact */
     int newton_iterations, linear_iterations, line_search_cuts;
-    const char* linear_solver; /* word of option linear_solver, in use at the end; "auto" if nothing was solved */
+    const char* linear_solver; /* word of option linear_solver, in use at the end; "none" if nothing was solved */
     int halvings;              /* how often a span was solved again as two halves */
     int dropped_not_converged, dropped_blocked, dropped_not_finite, dropped_inexact; /* why */
     double residual;                                                                 /* relative to the first of the step */

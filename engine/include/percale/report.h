@@ -159,4 +159,7 @@ struct StartMove {
 
 const char* status_word(StepStatus status);
 
+/// Of a solver in use: the word of the option linear_solver, "none" for `automatic`, with which nothing was solved.
+const char* solver_word(LinearSolver solver);
+
 }  // namespace percale

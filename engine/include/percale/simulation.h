@@ -72,9 +72,9 @@ public:
     void remove_obstacle(ObstacleId obstacle);
     /// Another fabric for a cloth whose mesh, rest shape, positions, velocities and pins stay: the coming steps are those of a
     /// simulation with that fabric that was given this state. Everything of a fabric may change, kinds of springs too. Contacts
-    /// are forgotten where thickness, friction, self_contact or the order of the springs changes (the next step checks the start
-    /// then, as `prepare` does), what its strain limits hold with always. Costs as much as adding a cloth. Throws SceneError as
-    /// add_cloth does, and leaves everything as it was. States saved before are refused.
+    /// are forgotten where thickness, friction, self_contact or the order of the springs changes, or a strain limit comes or goes
+    /// (the next step checks the start then, as `prepare` does), what its strain limits hold with always. Costs as much as adding
+    /// a cloth. Throws SceneError as add_cloth does, and leaves everything as it was. States saved before are refused.
     void set_fabric(ClothId cloth, const Fabric& fabric);
 
     void pin(ClothId cloth, int vertex);

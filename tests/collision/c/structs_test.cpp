@@ -41,6 +41,13 @@ TEST_CASE("Every struct of the C interface is prepared at its size and at no oth
     check_init(percale_init_option, "percale_init_option");
 }
 
+TEST_CASE("A report of no step names no cloth, vertex or obstacle") {
+    const auto report = c_struct(percale_init_step_report);
+    for (const int number : {report.blocked_cloth, report.blocked_vertex, report.blocking_obstacle, report.stretched_cloth})
+        CHECK(number == -1);
+    CHECK(report.linear_solver == std::string("none"));
+}
+
 TEST_CASE("Structs of the C interface begin with the defaults of C++") {
     const auto obstacle = c_struct(percale_init_obstacle_settings);
     const ObstacleSettings obstacle_of_cpp;

@@ -29,6 +29,7 @@ struct BadLook {
 };
 
 double out[3];
+int numbers[1];
 int whole;
 std::size_t items;
 percale_contact_load load;
@@ -57,6 +58,7 @@ const BadLook bad_looks[] = {
     {"percale_contact_loads", "2", [](auto* s) { return percale_contact_loads(s, 2, &load, 1, &items); }},
     {"percale_force_on", "1", [](auto* s) { return percale_force_on(s, 1, out); }},
     {"percale_force_on", "force", [](auto* s) { return percale_force_on(s, 0, nullptr); }},
+    {"percale_pinned_vertices", "4", [](auto* s) { return percale_pinned_vertices(s, 4, numbers, 1, &items); }},
     {"percale_normals", "4", [](auto* s) { return percale_normals(s, 4, out, 1, &items); }},
     {"percale_normals", "buffer", [](auto* s) { return percale_normals(s, 0, nullptr, 81, &items); }},
     {"percale_interpolate", "keep_previous_positions", [](auto* s) { return percale_interpolate(s, 0.5, 0, out, 1, &items); }},
@@ -123,6 +125,19 @@ TEST_CASE("Copies and views of a cloth are the numbers of C++") {
     fails(percale_positions(twin.c(), 0, copy.data(), 80, &count), PERCALE_BUFFER_TOO_SMALL, "percale_positions", "80");
     CHECK(count == 81);
     CHECK(copy == std::vector<double>(copy.size(), -7.0));
+}
+
+TEST_CASE("Pinned vertices are told by their numbers, ascending, and how many they are without a buffer") {
+    Twin twin("none", {}, {});
+    twin.add_cloth(make_grid(0.6, 0.6, 4, 4), {}, {}, {0.0, 0.0, 0.0});
+    for (const int vertex : {12, 3}) well(percale_pin(twin.c(), 0, vertex));
+    std::size_t count = 0;
+    well(percale_pinned_vertices(twin.c(), 0, nullptr, 0, &count));
+    CHECK(count == 2);
+    int told[2] = {-7, -7};
+    well(percale_pinned_vertices(twin.c(), 0, told, 2, &count));
+    CHECK((told[0] == 3 && told[1] == 12));
+    fails(percale_pinned_vertices(twin.c(), 0, told, 1, nullptr), PERCALE_BUFFER_TOO_SMALL, "percale_pinned_vertices", "1");
 }
 
 TEST_CASE("Normals and places between two steps are the numbers of C++, and neither is told in part") {

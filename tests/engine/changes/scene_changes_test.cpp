@@ -168,14 +168,26 @@ TEST_CASE("A fabric that the cloth cannot have is refused as by add_cloth, and n
     wrong.pressure = 5.0;
     check_refused(s, [&] { s.set_fabric(scene.middle, wrong); }, {"middle", "closed mesh"});
     check_refused(s, [&] { s.set_fabric({3}, free_fabric()); }, {"no cloth 3"});
-    SlopeScene plane(0.3);
+}
+
+TEST_CASE("A fabric that the detector cannot have is refused before anything changes: loads stay, and so do all later steps") {
+    SlopeScene plane(0.3), untouched(0.3);
     plane.run(3);
-    wrong = sheet_fabric();
+    untouched.run(3);
+    Fabric wrong = sheet_fabric();
     wrong.self_contact = true;  // which a plane's detector does not know
-    const std::uint64_t hash = plane.simulation.state_hash();
+    wrong.thickness = 0.02;
     CHECK(mentions(scene_error([&] { plane.simulation.set_fabric(plane.cloth, wrong); }), {"self_contact must be false"}));
-    CHECK(plane.simulation.state_hash() == hash);
-    plane.run(3);
+    const std::vector<ContactLoad> loads = plane.simulation.contact_loads(plane.cloth),
+                                   wanted = untouched.simulation.contact_loads(untouched.cloth);
+    REQUIRE(loads.size() == wanted.size());
+    for (std::size_t i = 0; i < loads.size(); ++i) CHECK(loads[i].normal == wanted[i].normal);
+    for (int step = 0; step < 5; ++step) {
+        const StepReport here = plane.simulation.step(), there = untouched.simulation.step();
+        CHECK(plane.simulation.state_hash() == untouched.simulation.state_hash());
+        CHECK(here.contact_hash == there.contact_hash);
+        CHECK(here.newton_iterations == there.newton_iterations);
+    }
 }
 
 TEST_CASE("Cloth that was removed leaves the steps of a simulation that was given the rest alone, in every bit") {
