@@ -181,7 +181,7 @@ stage_scenes() {
 # The Python module in the same build, and its tests.
 stage_python() {
     [ -x "$release_copy/build/percale" ] || { echo "$release_copy/build/percale is missing: run the stage release first"; return 1; }
-    cmake -B "$release_copy/build" -DPERCALE_PYTHON=ON >"$root/build/ci-python.log" 2>&1 || { cat "$root/build/ci-python.log"; return 1; }
+    cmake -S "$release_copy" -B "$release_copy/build" -DPERCALE_PYTHON=ON >"$root/build/ci-python.log" 2>&1 || { cat "$root/build/ci-python.log"; return 1; }
     cmake --build "$release_copy/build" --target percale percale_python
     ctest --test-dir "$release_copy/build" --no-tests=error -L python
 }
