@@ -75,6 +75,11 @@ void Simulation::keep_previous_positions(bool keep) {
     if (!keep) implementation_->previous = {};
 }
 
+void Simulation::keep_impulses(bool keep) {
+    implementation_->world.keeps_impulses = keep;
+    if (!keep) implementation_->world.state.impulses = {};
+}
+
 void Simulation::reset(ClothId cloth) {
     World& world = implementation_->world;
     const ClothRange& range = implementation_->cloth(cloth);

@@ -140,6 +140,15 @@ struct Simulation::Implementation {
         throw SceneError(cloth(id).name, std::string(call) + " of vertex " + std::to_string(index) + ", which is not pinned");
     }
 
+    ObstacleImpulse impulse(const char* call, ObstacleId id) const {
+        const auto at = static_cast<std::size_t>(index(id));
+        if (!world.keeps_impulses) {
+            throw SceneError(world.scene.script.obstacles[at].name,
+                             std::string(call) + ": no impulses are kept, call keep_impulses before the step");
+        }
+        return at < world.state.impulses.size() ? world.state.impulses[at] : ObstacleImpulse{};
+    }
+
     /// For a cloth with self_contact.
     void check_meets(const std::string& name) const {
         if (!world.scene.detector) throw SceneError(name, "self_contact needs a contact detector, give one to the simulation");

@@ -129,6 +129,14 @@ Vec3 Simulation::torque_on(ObstacleId obstacle, const Vec3& about) const {
     return sum;
 }
 
+Vec3 Simulation::impulse_on(ObstacleId obstacle) const { return implementation_->impulse("impulse_on", obstacle).linear; }
+
+Vec3 Simulation::angular_impulse_on(ObstacleId obstacle, const Vec3& about) const {
+    check_finite(about, implementation_->obstacle(obstacle).name + ": the point that angular_impulse_on is about");
+    const ObstacleImpulse impulse = implementation_->impulse("angular_impulse_on", obstacle);
+    return impulse.angular - about.cross(impulse.linear);
+}
+
 std::uint64_t Simulation::state_hash() const {
     Hash hash;
     const ClothState& state = implementation_->world.state.cloth;

@@ -65,6 +65,10 @@ const char* percale_explanation(const percale_simulation* simulation) {
     return text;
 }
 
+percale_status percale_keep_impulses(percale_simulation* simulation, int keep) {
+    return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.keep_impulses(keep != 0); });
+}
+
 percale_status percale_keep_previous_positions(percale_simulation* simulation, int keep) {
     return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.keep_previous_positions(keep != 0); });
 }

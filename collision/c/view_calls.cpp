@@ -152,6 +152,20 @@ percale_status percale_torque_on(const percale_simulation* simulation, int obsta
     });
 }
 
+percale_status percale_impulse_on(const percale_simulation* simulation, int obstacle, double* impulse) {
+    return call_on(__func__, simulation, [&](const percale_simulation& of) {
+        write_vector(of.simulation.impulse_on({obstacle}), &demanded(impulse, "impulse"));
+    });
+}
+
+percale_status percale_angular_impulse_on(const percale_simulation* simulation, int obstacle, const double* about,
+                                          double* impulse) {
+    return call_on(__func__, simulation, [&](const percale_simulation& of) {
+        const percale::Vec3 told = of.simulation.angular_impulse_on({obstacle}, vector_of(about, "about"));
+        write_vector(told, &demanded(impulse, "impulse"));
+    });
+}
+
 percale_status percale_meets(const percale_simulation* simulation, int first, int second, int* meet) {
     return tell(__func__, simulation, meet, [&](const auto& of) { return of.meets({first}, {second}) ? 1 : 0; });
 }

@@ -285,6 +285,14 @@ percale_status percale_force_on(const percale_simulation* simulation, int obstac
 /* Torque of the same forces about a point (m, world), N m, x y z: the sum of (cloth_point - about) x force, so that body and
  * cloth keep their angular momentum. */
 percale_status percale_torque_on(const percale_simulation* simulation, int obstacle, const double* about, double* torque);
+/* Steps from now on add up what contact gives obstacles; 0: no more, which costs nothing. Not part of saved states. */
+percale_status percale_keep_impulses(percale_simulation* simulation, int keep);
+/* What all cloth gave an obstacle in the last step, impacts included, N s, x y z: a rigid body that is given it keeps, with the
+ * cloth, their momentum. Zero after a step that failed and after percale_restore. An error unless impulses are kept. */
+percale_status percale_impulse_on(const percale_simulation* simulation, int obstacle, double* impulse);
+/* The angular momentum of the same about a point (m, world), N m s, x y z. */
+percale_status percale_angular_impulse_on(const percale_simulation* simulation, int obstacle, const double* about,
+                                          double* impulse);
 /* *meet: 1 where the two cloths, or the cloth with itself, meet now, else 0. */
 percale_status percale_meets(const percale_simulation* simulation, int first, int second, int* meet);
 /* m, how far apart the sides of each stitch are. */

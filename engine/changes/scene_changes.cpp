@@ -172,6 +172,8 @@ void drop_obstacle(World& world, int obstacle) {
     renumber_contacts(
         world, [](int vertex) { return vertex; }, [&](int number) { return without(number, obstacle); });
     world.scene.script.obstacles.erase(world.scene.script.obstacles.begin() + obstacle);
+    std::vector<ObstacleImpulse>& impulses = world.state.impulses;
+    if (static_cast<std::size_t>(obstacle) < impulses.size()) impulses.erase(impulses.begin() + obstacle);
     world.plan_outdated = true;
     if (touched) scene_changed(world);
 }

@@ -1,6 +1,5 @@
 #include "contact_loads.h"
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -27,24 +26,15 @@ SummedLoad& load_at(LoadMap& loads, int vertex, int obstacle) {
 
 std::vector<ContactLoad> contact_loads(const ContactRows& rows, const ContactTerms& terms,
                                        const std::vector<RowForce>& row_forces, int only) {
-    const auto asked = [only](int obstacle) { return obstacle >= 0 && (only < 0 || obstacle == only); };
     LoadMap loads;
-    for (std::size_t row = 0; row < std::min(rows.size(), row_forces.size()); ++row) {
-        const RowForce& force = row_forces[row];
-        if (!asked(rows.obstacle[row]) || force.normal == 0.0) continue;
-        for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-            const double weight = rows.weight[row][k];
-            if (weight == 0.0) continue;
-            SummedLoad& sum = load_at(loads, rows.vertex[row][k], rows.obstacle[row]);
-            sum.load.normal += weight * force.normal * rows.direction[row];
-            sum.load.friction += weight * force.friction;  // of projection; penalty has it by touches
-            sum.points += weight * force.normal * rows.obstacle_point[row];
-            sum.press += weight * force.normal;
-        }
-    }
-    for (const Touch& touch : terms.touches.all) {
-        if (asked(touch.obstacle)) load_at(loads, touch.vertex, touch.obstacle).load.friction += friction_force(touch);
-    }
+    for_each_push(rows, terms, row_forces, [&](const Push& push) {
+        if (only >= 0 && push.obstacle != only) return;
+        SummedLoad& sum = load_at(loads, push.vertex, push.obstacle);
+        sum.load.normal += push.normal;
+        sum.load.friction += push.friction;
+        if (push.where) sum.points += push.press * *push.where;
+        sum.press += push.press;
+    });
     std::vector<ContactLoad> result;
     for (auto& [key, sum] : loads) {
         if (sum.press > 0.0) sum.load.obstacle_point = sum.points / sum.press;

@@ -35,12 +35,14 @@ struct RowMotion {
 
 class Settling {
 public:
-    Settling(const StepScene& scene, const StageMove& move, ClothState& end, ImpactSpace& space)
+    Settling(const StepScene& scene, const StageMove& move, ClothState& end, ImpactSpace& space,
+             std::vector<ObstacleImpulse>& impulses)
         : scene_(scene),
           move_(move),
           rows_(move.contacts.rows),
           end_(end),
           space_(space),
+          impulses_(impulses),
           fading_(std::pow(impact_fading, move.length / scene.settings.time_step)) {}
 
     ImpactFlows run() {
@@ -120,7 +122,7 @@ private:
         if (share == 0.0) return std::max(most, of_contact);
         if (impact.stopped) return of_contact;
         for (int k = 0; k < 4 && rows_.vertex[row][k] >= 0; ++k) {
-            space_.thrown.push_back({rows_.vertex[row][k], rows_.direction[row]});
+            space_.thrown.push_back({rows_.vertex[row][k], rows_.obstacle[row], rows_.direction[row]});
         }
         return motion.ends - share * impact.speed;
     }
@@ -139,6 +141,9 @@ private:
             const int vertex = rows_.vertex[row][k];
             const double part = scene_.script.free[vertex] * rows_.weight[row][k] / (scene_.model.mass[vertex] * motion.mobility);
             end_.velocities.add(vertex, part * change * n);
+            if (rows_.obstacle[row] < 0 || impulses_.empty()) continue;
+            const Vec3 gain = move_.share * scene_.model.mass[vertex] * part * change * n;
+            impulses_[rows_.obstacle[row]].take(end_.positions.at(vertex), gain);
         }
         // The impulse p = change/mobility changes the kinetic energy by p times the mean speed, of which the obstacle did its
         // own.
@@ -163,14 +168,16 @@ private:
     const ContactRows& rows_;
     ClothState& end_;
     ImpactSpace& space_;
+    std::vector<ObstacleImpulse>& impulses_;
     double fading_;  // in this stage
     ImpactFlows flows_;
 };
 
 }  // namespace
 
-ImpactFlows settle_impacts(const StepScene& scene, const StageMove& move, ClothState& end, ImpactSpace& space) {
-    return Settling(scene, move, end, space).run();
+ImpactFlows settle_impacts(const StepScene& scene, const StageMove& move, ClothState& end, ImpactSpace& space,
+                           std::vector<ObstacleImpulse>& impulses) {
+    return Settling(scene, move, end, space, impulses).run();
 }
 
 }  // namespace percale

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "obstacle_impulse.h"
 #include "plan/scene.h"
 #include "solve/implicit_stage.h"
 
@@ -16,11 +17,13 @@ struct StageMove {
     bool keeps_to_mean = false;
     /// m/s, where the scheme goes on with the change of the stage before, contact's included: what it starts from.
     const Vectors* extrapolated = nullptr;
+    /// How much of what the stage gives the span keeps: the second stage of TR-BDF2 goes on with the first one's change.
+    double share = 1.0;
 };
 
 /// A vertex whose velocity has jumped.
 struct ThrownVertex {
-    int vertex = -1;
+    int vertex = -1, obstacle = -1;
     Vec3 direction = Vec3::Zero();  // unit
 };
 
@@ -41,7 +44,8 @@ struct ImpactFlows {
 /// long the step. What came at a speed u, faster than gravity makes it in the stage (and 2 h a second), is in an impact. Once it
 /// has been stopped it leaves an obstacle with restitution e at e u, and beside that, until u has faded, it loses of the speed at
 /// which it leaves what contact gave it. Row by row, the nearest first. Contacts that last are left alone. Changes velocities and
-/// impacts of `end`.
-ImpactFlows settle_impacts(const StepScene& scene, const StageMove& move, ClothState& end, ImpactSpace& space);
+/// impacts of `end`, and adds what obstacles were given to `impulses` (add_contact_impulses).
+ImpactFlows settle_impacts(const StepScene& scene, const StageMove& move, ClothState& end, ImpactSpace& space,
+                           std::vector<ObstacleImpulse>& impulses);
 
 }  // namespace percale

@@ -214,8 +214,15 @@ private:
         seam_place_ = trapezoid_share;
         solve_steadily({start_.cloth, {span_.fraction.from, between}, 2.0}, middle);
         if (!usable()) return;
-        settle({work_.newton.current, start_.cloth, first, first, true}, middle);
-        obstacle_work_ += obstacle_work(length() - work_.base.h);
+        const double kept = length() - work_.base.h;  // s, that forces of the first stage act in all
+        settle({.contacts = work_.newton.current,
+                .start = start_.cloth,
+                .length = first,
+                .impulse_time = first,
+                .keeps_to_mean = true,
+                .share = kept / first},
+               middle);
+        obstacle_work_ += obstacle_work(kept);
         set_end_acceleration(middle, work_.acceleration);
         set_bdf2_base(middle, work_.acceleration, start_.cloth, length() - first, first, work_.base);
         stop_at_jumps(middle);
@@ -230,25 +237,32 @@ private:
         for (const Impact& impact : end_.cloth.impacts) end_.past.unbalanced.set(impact.vertex, Vec3::Zero());
     }
 
+    ImpactFlows settle_with_impulses(const StageMove& move, ClothState& end) {
+        add_contact_impulses(move.contacts, move.share * move.impulse_time, end_.impulses);
+        return settle_impacts(scene_, move, end, work_.impacts, end_.impulses);
+    }
+
     /// The account has what it does to energy in what contact took.
     void settle(const StageMove& move, ClothState& end) {
-        if (scene_.plan.contacts) obstacle_work_ += settle_impacts(scene_, move, end, work_.impacts).work;
+        if (scene_.plan.contacts) obstacle_work_ += settle_with_impulses(move, end).work;
     }
 
     /// A velocity that has jumped is not extrapolated from what it was before.
     void stop_at_jumps(const ClothState& from) {
         if (!scene_.plan.contacts) return;
-        for (const auto& [vertex, direction] : work_.impacts.thrown) {
+        for (const auto& [vertex, obstacle, direction] : work_.impacts.thrown) {
             const Vec3 beyond = work_.base.velocities.at(vertex) - from.velocities.at(vertex);
-            work_.base.velocities.add(vertex, -direction.dot(beyond) * direction);
+            const Vec3 change = -direction.dot(beyond) * direction;
+            work_.base.velocities.add(vertex, change);
+            if (end_.impulses.empty() || !scene_.is_free(vertex)) continue;
+            end_.impulses[obstacle].take(from.positions.at(vertex), scene_.model.mass[vertex] * change);
         }
     }
 
     /// Of backward Euler, behind its account: velocities are those that positions had until then.
     void settle_end() {
         if (!scene_.plan.contacts) return;
-        const ImpactFlows flows =
-            settle_impacts(scene_, {work_.newton.current, start_.cloth, length(), length()}, end_.cloth, work_.impacts);
+        const ImpactFlows flows = settle_with_impulses({work_.newton.current, start_.cloth, length(), length()}, end_.cloth);
         result_.flows.work += flows.work;
         if (scene_.plan.ledger) result_.flows.dissipated_contact += flows.loss;
     }

@@ -2,6 +2,7 @@
 
 #include "contact/contact_law.h"
 #include "model/cloth_state.h"
+#include "obstacle_impulse.h"
 #include "step_control.h"
 
 namespace percale {
@@ -20,7 +21,8 @@ struct SchemeMemory {
     }
 };
 
-/// All of the cloth and of its solution that a step changes and the next one goes by. Saved; but for `contact`, as it is.
+/// All of the cloth and of its solution that a step changes and the next one goes by. Saved; but for `contact`, as it is, and
+/// without `impulses`.
 struct StepState {
     ClothState cloth;
     SchemeMemory past;
@@ -30,6 +32,8 @@ struct StepState {
     StepControl control;          // of adaptive steps
     double time = 0.0;            // s
     double time_error = 0.0;      // s, what rounding has added to it
+    /// Of each obstacle in the step under way, or in the last one; empty unless somebody asks (World::keeps_impulses).
+    std::vector<ObstacleImpulse> impulses;
 };
 
 /// `end` begins as a span's start: all but the cloth.
@@ -41,6 +45,7 @@ inline void begin_end(const StepState& start, StepState& end) {
     end.control = start.control;
     end.time = start.time;
     end.time_error = start.time_error;
+    end.impulses = start.impulses;
 }
 
 }  // namespace percale

@@ -124,6 +124,13 @@ StepReport refuse_far(World& world, const MotionParts& motion) {
     return report;
 }
 
+/// Cloth that sleeps goes on pressing with the forces it fell asleep with.
+void press_asleep(World& world) {
+    const double dt = world.scene.settings.time_step;
+    for (const ContactLoad& load : contact_loads(world))
+        world.state.impulses[load.obstacle].take(load.cloth_point, dt * load.force());
+}
+
 /// Whether what closes on the cloth gives way to it.
 bool yields_in_vain(const Script& script, const StepReport& report) {
     if (report.status != StepStatus::obstacle_too_fast) return false;
@@ -157,8 +164,10 @@ void scene_changed(World& world) {
 }
 
 StepReport step(World& world) {
+    world.state.impulses.assign(world.keeps_impulses ? world.scene.script.obstacles.size() : 0, {});
     if (world.rest.asleep) {
         advance_time(world.scene.settings.time_step, world.state);
+        if (world.keeps_impulses) press_asleep(world);
         return sleep_through(world.rest, world.state.time);
     }
     const int limit = world.scene.settings.work_limit;

@@ -111,6 +111,22 @@ void bind_bodies(SimulationClass& simulation) {
             },
             py::arg("obstacle"), py::arg("about"), "Torque of the same forces about a point (m, world), N m, shape (3,).")
         .def(
+            "keep_impulses",
+            [](SharedSimulation& self, bool keep) { self.change([&](Simulation& s) { s.keep_impulses(keep); }); },
+            py::arg("keep") = true, "From now on, for impulse_on: steps add up what contact gives obstacles.")
+        .def(
+            "impulse_on", [](const SharedSimulation& self, ObstacleId id) { return array_of(self.look().impulse_on(id)); },
+            py::arg("obstacle"),
+            "What all cloth gave an obstacle in the last step, impacts included, N s, shape (3,). Zero after a step that failed "
+            "and\nafter restore.")
+        .def(
+            "angular_impulse_on",
+            [](const SharedSimulation& self, ObstacleId id, py::handle about) {
+                return array_of(self.look().angular_impulse_on(id, vector_of(about, "about")));
+            },
+            py::arg("obstacle"), py::arg("about"),
+            "The angular momentum of the same about a point (m, world), N m s, shape (3,).")
+        .def(
             "obstacle_pose", [](const SharedSimulation& self, ObstacleId id) { return self.look().obstacle_pose(id); },
             py::arg("obstacle"), "Where it is now.")
         .def(

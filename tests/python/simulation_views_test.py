@@ -39,6 +39,21 @@ def test_contact_loads_are_a_table_whose_sums_are_force_and_torque(resting):
     assert np.all(loads['normal'][:, 1] > 0)
 
 
+def test_impulses_are_kept_on_demand(resting, refused):
+    simulation, _, table = resting
+    refused(simulation, lambda s: s.impulse_on(table), 'keep_impulses')
+    refused(simulation, lambda s: s.angular_impulse_on(table, (0, 0, 0)), 'keep_impulses')
+    simulation.keep_impulses()
+    assert simulation.impulse_on(table).tolist() == [0, 0, 0]
+    assert simulation.step().ok
+    impulse = simulation.force_on(table) / 60
+    assert simulation.impulse_on(table) == pytest.approx(impulse, abs=1e-12)
+    about = np.array([0.3, -0.2, 0.1])
+    assert simulation.angular_impulse_on(table, about) == pytest.approx(simulation.torque_on(table, about) / 60, abs=1e-12)
+    simulation.keep_impulses(False)
+    refused(simulation, lambda s: s.impulse_on(table), 'keep_impulses')
+
+
 def test_before_the_first_step_nothing_presses(ball):
     assert len(ball.simulation.contact_loads(ball.cloth)) == 0
     assert ball.simulation.force_on(ball.ball).tolist() == [0, 0, 0]

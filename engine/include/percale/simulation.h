@@ -194,6 +194,16 @@ public:
     /// Torque of the same forces about a point (m, world), N m: the sum of (ContactLoad::cloth_point - about) x force. They act
     /// where they act on the cloth, on its middle surface, so that body and cloth keep their angular momentum.
     Vec3 torque_on(ObstacleId obstacle, const Vec3& about) const;
+    /// From now on, for `impulse_on`: steps add up what each contact gives, and no other result of theirs changes by that. Until
+    /// then, and after `false`, it costs nothing. Not part of saved states.
+    void keep_impulses(bool keep = true);
+    /// What all cloth gave an obstacle in the last step, N s: the forces of every piece that the step was made in times its
+    /// length, and what impacts gave. A rigid body of the host's is given that, so that body and cloth keep their momentum. Zero
+    /// before the first step since keep_impulses, after one that failed and after `restore`. Throws SceneError unless impulses are
+    /// kept.
+    Vec3 impulse_on(ObstacleId obstacle) const;
+    /// The angular momentum of the same about a point (m, world), N m s, taken where the cloth was at the end of each piece.
+    Vec3 angular_impulse_on(ObstacleId obstacle, const Vec3& about) const;
     /// Whether two cloths, or a cloth with itself, meet now: both have self_contact, set_pair does not keep them apart, and no
     /// seam that joins them closes without contact (SeamSettings::contact_while_closing).
     bool meets(ClothId first, ClothId second) const;

@@ -71,6 +71,10 @@ const BadLook bad_looks[] = {
          const double nowhere[3] = {0.0, std::nan(""), 0.0};
          return percale_torque_on(s, 0, nowhere, out);
      }},
+    {"percale_impulse_on", "keep_impulses", [](auto* s) { return percale_impulse_on(s, 0, out); }},
+    {"percale_impulse_on", "1", [](auto* s) { return percale_impulse_on(s, 1, out); }},
+    {"percale_angular_impulse_on", "keep_impulses", [](auto* s) { return percale_angular_impulse_on(s, 0, out, out); }},
+    {"percale_angular_impulse_on", "about", [](auto* s) { return percale_angular_impulse_on(s, 0, nullptr, out); }},
     {"percale_meets", "9", [](auto* s) { return percale_meets(s, 0, 9, &whole); }},
     {"percale_meets", "NULL", [](auto* s) { return percale_meets(s, 0, 0, nullptr); }},
     {"percale_seam_gaps", "seam", [](auto* s) { return percale_seam_gaps(s, 0, out, 3, &items); }},

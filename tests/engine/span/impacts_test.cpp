@@ -22,6 +22,8 @@ struct Hit {
     ImpactSpace space;
     ImpactFlows flows;
     bool keeps_to_mean = false;
+    double share = 1.0;
+    std::vector<ObstacleImpulse> impulses;
 
     explicit Hit(const Vec3& velocity, double force = push, bool between_cloths = false) {
         scene.script.obstacles.push_back({.name = "ground", .start = {}, .end = {}});
@@ -52,7 +54,7 @@ struct Hit {
         return *this;
     }
     double settle(const Vectors* extrapolated = nullptr) {
-        flows = settle_impacts(scene, {contacts, scene.state, dt, dt, keeps_to_mean, extrapolated}, end, space);
+        flows = settle_impacts(scene, {contacts, scene.state, dt, dt, keeps_to_mean, extrapolated, share}, end, space, impulses);
         return end.velocities.y[0];
     }
 };
@@ -162,6 +164,23 @@ TEST_CASE("The energy that settling takes is told, what a moving obstacle does a
     CHECK(hit.end.velocities.y[0] == Approx(2.0).epsilon(1e-12));  // came at 2 m/s against it, leaves at 1
     CHECK(before - after + hit.flows.work == Approx(hit.flows.loss).epsilon(1e-12));
     CHECK(hit.flows.work == Approx(mass * (2.0 - 3.0) * 1.0).epsilon(1e-12));
+}
+
+TEST_CASE("Settling gives an obstacle what it takes from the cloth, where somebody asks and the span keeps it") {
+    Hit hit(Vec3(0.5, 3.0, 0));
+    hit.end.positions.set(0, Vec3(0.2, 0, 0));
+    hit.impulses.resize(1);
+    hit.share = 1.5;
+    CHECK(hit.after(-2.0).on(0.5).settle() == Approx(1.0).epsilon(1e-14));
+    const double given = 1.5 * mass * 2.0;  // from 3 m/s to 1
+    CHECK((hit.impulses[0].linear - Vec3(0, given, 0)).norm() < 1e-14);
+    CHECK((hit.impulses[0].angular - Vec3(0, 0, 0.2 * given)).norm() < 1e-14);
+    CHECK(hit.space.thrown[0].obstacle == 0);
+
+    Hit between(Vec3(0, 1.0, 0), push, true);
+    between.impulses.resize(1);
+    between.after(-2.0).settle();
+    CHECK(between.impulses[0].linear == Vec3::Zero());
 }
 
 }  // namespace percale::test
