@@ -16,7 +16,7 @@ constexpr int side = 5;        // vertices along an edge of the cloth
 constexpr double width = 0.4;  // m
 constexpr double cell_width = width / (side - 1);
 constexpr double density = 0.2;  // kg/m^2
-constexpr std::uint32_t seed = 5;
+constexpr std::uint32_t velocity_seed = 5;
 
 /// In -1 ... 1, the same on every machine.
 class Random {
@@ -28,7 +28,7 @@ public:
     }
 
 private:
-    std::mt19937 bits_{seed};
+    std::mt19937 bits_{velocity_seed};
 };
 
 bool inside_circle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
