@@ -28,6 +28,7 @@ public:
         thickness_.assign(vertex_thickness.begin(), vertex_thickness.end());
         lists_.reset();
         between_cloths_.reset();
+        scene_hash_.reset();
     }
 
     void set_workers(Workers* workers) override { workers_ = workers; }
@@ -45,10 +46,14 @@ public:
     void remove_obstacle(int obstacle) override {
         const int before = total_version(obstacles_);
         obstacles_.erase(obstacles_.begin() + obstacle);
+        scene_hash_.reset();
         if (lists_) percale::remove_obstacle(obstacle, before, obstacles_, lists_->memory());
     }
 
-    void set_friction(int obstacle, double friction) override { obstacles_[obstacle]->set_friction(friction); }
+    void set_friction(int obstacle, double friction) override {
+        obstacles_[obstacle]->set_friction(friction);
+        scene_hash_.reset();
+    }
 
     void deform_obstacle(int obstacle, std::span<const Vec3> start, std::span<const Vec3> end) override {
         obstacles_[obstacle]->deform(start, end);
@@ -103,7 +108,7 @@ public:
     double smallest_distance() const override { return smallest_distance_; }
 
     void save(StateWriter& state) const override {
-        state(scene_hash(triangles_, thickness_, obstacles_));
+        state(own_hash());
         save_motions(obstacles_, state);
         state(forgotten_at_, smallest_distance_, lists_.has_value());
         if (lists_) percale::save(*lists_, obstacles_, state);
@@ -113,8 +118,7 @@ public:
     void restore(StateReader& state) override {
         std::uint64_t hash = 0;
         state(hash);
-        if (hash != scene_hash(triangles_, thickness_, obstacles_))
-            throw SceneError("saved state: it is of other cloth or other obstacles than the detector has");
+        if (hash != own_hash()) throw SceneError("saved state: it is of other cloth or other obstacles than the detector has");
         const std::vector<SavedMotion> motions = restored_motions(obstacles_, state);
         std::vector<Vec3> forgotten_at;
         double smallest_distance = 0.0;
@@ -122,22 +126,28 @@ public:
         state(forgotten_at, smallest_distance, listed);
         state.demand(forgotten_at.empty() || forgotten_at.size() == thickness_.size(), "a wrong number of vertices");
         std::optional<CandidateLists> lists;
-        if (listed) lists = restored_lists(triangles_, thickness_, obstacles_, state);
-        std::optional<SelfContactDetection> between_cloths = between_cloths_;
-        if (between_cloths) between_cloths->restore(state);
+        if (listed) lists = restored_lists(triangles_, thickness_, obstacles_, lists_ ? &*lists_ : nullptr, state);
+        std::optional<SelfListsMemory> between_cloths;
+        if (between_cloths_) between_cloths = between_cloths_->restored(state);
         state.demand(state.at_end(), "there is more than belongs to it");
         set_motions(motions, obstacles_);
         forgotten_at_ = std::move(forgotten_at);
         smallest_distance_ = smallest_distance;
         lists_ = std::move(lists);
         if (lists_) lists_->settle(obstacles_);
-        between_cloths_ = std::move(between_cloths);
+        if (between_cloths) between_cloths_->go_on_from(std::move(*between_cloths));
     }
 
 private:
+    std::uint64_t own_hash() const {
+        if (!scene_hash_) scene_hash_ = scene_hash(triangles_, thickness_, obstacles_);
+        return *scene_hash_;
+    }
+
     int add(const TriangleMesh& mesh, const Pose& pose, double friction, SurfaceShape shape) {
         obstacles_.push_back(std::make_unique<Obstacle>(mesh, pose, friction, make_tree_, shape));
         lists_.reset();
+        scene_hash_.reset();
         return static_cast<int>(obstacles_.size()) - 1;
     }
 
@@ -441,6 +451,7 @@ private:
     std::vector<unsigned char> moved_;                    // whether they are to be forgotten now
     std::optional<SelfContactDetection> between_cloths_;  // if any cloth meets cloth
     double smallest_distance_ = std::numeric_limits<double>::infinity();
+    mutable std::optional<std::uint64_t> scene_hash_;  // of cloth and obstacles as they are, once it was asked for
 };
 
 }  // namespace

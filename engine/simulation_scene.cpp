@@ -177,7 +177,7 @@ ScenePlan Simulation::plan(const ScriptedChanges& to_come) const {
     return scene_plan(implementation_->world.scene, implementation_->world.state.cloth, to_come);
 }
 
-std::vector<std::byte> Simulation::save() const { return saved_world(implementation_->world, implementation_->moves_inside()); }
+std::vector<std::byte> Simulation::save() const { return implementation_->save(); }
 
 void Simulation::restore(std::span<const std::byte> saved) {
     check_scheme(implementation_->world.scene);

@@ -108,7 +108,7 @@ public:
 
     /// Nothing is near any cluster.
     bool empty() const { return memory_.empty; }
-    std::span<const ClothCluster> clusters() const { return clusters_.clusters; }
+    const ClothClusters& clusters() const { return clusters_; }
     std::span<ClusterList> lists() { return memory_.lists; }
     /// m, by how much a move brings any vertex of a cluster, and any listed obstacle, nearer to each other at most.
     double approach(std::size_t cluster, const ClothMove& move) const;

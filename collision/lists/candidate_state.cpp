@@ -4,6 +4,9 @@
 
 namespace percale {
 
+template <>
+inline constexpr bool is_plain_state<Box> = sizeof(Box) == 2 * sizeof(Vec3);
+
 template <class Archive, OfType<Box> Value>
 void exchange(Archive& archive, Value& box) {
     archive(box.low, box.high);
@@ -30,13 +33,27 @@ void exchange(Archive& archive, Value& packs) {
     archive(packs.reach, packs.wake, packs.at);
 }
 
+/// All but the version.
 template <class Archive, OfType<ClusterList> Value>
-void exchange(Archive& archive, Value& list) {
-    archive(list.boxes, list.features, list.packs, list.travel, list.cloth_travel, list.drift, list.spread, list.inside_until,
-            list.version);
+void exchange_contents(Archive& archive, Value& list) {
+    archive(list.boxes, list.features, list.packs, list.travel, list.cloth_travel, list.drift, list.spread, list.inside_until);
+}
+
+/// As put_lists has them, one by one.
+template <OfType<ClusterList> Value>
+void exchange(StateReader& state, Value& list) {
+    exchange_contents(state, list);
+    state(list.version);
 }
 
 namespace {
+
+/// The triangles, one cluster after the other.
+std::vector<int> order_of(std::span<const ClothCluster> clusters) {
+    std::vector<int> order;
+    for (const ClothCluster& cluster : clusters) order.insert(order.end(), cluster.triangles.begin(), cluster.triangles.end());
+    return order;
+}
 
 /// Whether an order holds every number below `count` once.
 bool is_permutation_of(std::span<const int> order, std::size_t count) {
@@ -147,27 +164,36 @@ std::vector<SavedMotion> restored_motions(const Obstacles& obstacles, StateReade
     return motions;
 }
 
+namespace {
+
+/// With versions that say no more than whether lists are good for the obstacles as they are.
+void put_lists(const std::vector<ClusterList>& lists, int version, StateWriter& state) {
+    state(static_cast<std::uint64_t>(lists.size()));
+    for (const ClusterList& list : lists) {
+        exchange_contents(state, list);
+        state(list.version == version ? good_version : no_version);
+    }
+}
+
+}  // namespace
+
 void save(const CandidateLists& candidates, const Obstacles& obstacles, StateWriter& state) {
     const ListsMemory& memory = candidates.memory();
     const int version = total_version(obstacles);
-    std::vector<int> order;
-    for (const ClothCluster& cluster : candidates.clusters()) {
-        order.insert(order.end(), cluster.triangles.begin(), cluster.triangles.end());
-    }
-    std::vector<ClusterList> lists = memory.lists;
-    for (ClusterList& list : lists) list.version = list.version == version ? good_version : no_version;
-    state(order, lists, memory.seen, memory.seen_fraction, memory.anchor, memory.room, memory.room_version == version,
-          memory.empty);
+    state(order_of(candidates.clusters().clusters));
+    put_lists(memory.lists, version, state);
+    state(memory.seen, memory.seen_fraction, memory.anchor, memory.room, memory.room_version == version, memory.empty);
 }
 
 CandidateLists restored_lists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
-                              const Obstacles& obstacles, StateReader& state) {
+                              const Obstacles& obstacles, const CandidateLists* known, StateReader& state) {
     std::vector<int> order;
     ListsMemory memory;
     state(order, memory.lists, memory.seen);
-    state.demand(is_permutation_of(order, triangles.size()), "no order of the triangles");
+    const bool same_order = known && order == order_of(known->clusters().clusters);
+    state.demand(same_order || is_permutation_of(order, triangles.size()), "no order of the triangles");
     state.demand(memory.seen.size() == vertex_thickness.size(), "a wrong number of vertices");
-    ClothClusters clusters = make_clusters(triangles, memory.seen.size(), order);
+    ClothClusters clusters = same_order ? known->clusters() : make_clusters(triangles, memory.seen.size(), order);
     state.demand(memory.lists.size() == clusters.clusters.size(), "a wrong number of lists");
     bool room_is_known = false;
     state(memory.seen_fraction, memory.anchor, memory.room, room_is_known, memory.empty);

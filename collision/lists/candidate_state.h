@@ -31,8 +31,9 @@ void set_motions(std::span<const SavedMotion> motions, const Obstacles& obstacle
 void save(const CandidateLists& candidates, const Obstacles& obstacles, StateWriter& state);
 
 /// Lists as they were saved, of the same cloth and obstacles. Throws SceneError for what is none of these. Obstacles may still be
-/// elsewhere, but must be where they were when CandidateLists::settle is called, which is before anything else.
+/// elsewhere, but must be where they were when CandidateLists::settle is called, which is before anything else. `known`: others
+/// of the same cloth, whose clusters are taken where they are the same; null: none.
 CandidateLists restored_lists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
-                              const Obstacles& obstacles, StateReader& state);
+                              const Obstacles& obstacles, const CandidateLists* known, StateReader& state);
 
 }  // namespace percale

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "percale/contact.h"
@@ -32,7 +33,8 @@ public:
 
     /// As those of self_contact_state.h.
     void save(StateWriter& state) const { percale::save(lists_, state); }
-    void restore(StateReader& state) { percale::restore(lists_, state); }
+    SelfListsMemory restored(StateReader& state) const { return restored_memory(lists_, state); }
+    void go_on_from(SelfListsMemory memory) { lists_.set_memory(std::move(memory)); }
 
 private:
     double cut(const SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe);

@@ -63,11 +63,11 @@ void save(const SelfContactLists& lists, StateWriter& state) {
     state(memory.start, memory.displacement, memory.seen, memory.lists, memory.pairs, memory.made);
 }
 
-void restore(SelfContactLists& lists, StateReader& state) {
+SelfListsMemory restored_memory(const SelfContactLists& lists, StateReader& state) {
     SelfListsMemory memory;
     state(memory.start, memory.displacement, memory.seen, memory.lists, memory.pairs, memory.made);
     check(memory, lists, state);
-    lists.set_memory(std::move(memory));
+    return memory;
 }
 
 }  // namespace percale

@@ -31,6 +31,14 @@ std::array<char, name_length> letters(std::string_view name) {
     return result;
 }
 
+/// Over the first seal_length of them.
+void put_seal(const SealKind& kind, std::span<std::byte> bytes) {
+    const std::span<const std::byte> content = bytes.subspan(seal_length);
+    StateWriter writer;
+    writer(Seal{letters(kind.name), kind.version, content.size(), checksum(content)});
+    std::ranges::copy(writer.take(), bytes.begin());
+}
+
 [[noreturn]] void refuse_seal(const SealKind& kind, const std::string& fault) {
     throw SceneError(std::string(kind.words) + ": " + fault);
 }
@@ -45,13 +53,22 @@ bool is_proper(const Pose& pose) {
 }
 
 std::uint64_t checksum(std::span<const std::byte> content) {
+    constexpr std::size_t word_length = sizeof(std::uint64_t), lanes = 4;
+    // Each word waits for the one before in its lane alone.
+    std::array<Hash, lanes> lane;
+    const auto add = [&](Hash& hash, std::size_t at, std::size_t count) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, content.data() + at, count);
+        hash.add(word);
+    };
+    std::size_t at = 0;
+    for (; at + lanes * word_length <= content.size(); at += lanes * word_length) {
+        for (std::size_t k = 0; k < lanes; ++k) add(lane[k], at + k * word_length, word_length);
+    }
     Hash hash;
     hash.add(static_cast<std::uint64_t>(content.size()));
-    for (std::size_t at = 0; at < content.size(); at += sizeof(std::uint64_t)) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, content.data() + at, std::min(sizeof word, content.size() - at));
-        hash.add(word);
-    }
+    for (; at < content.size(); at += word_length) add(hash, at, std::min(word_length, content.size() - at));
+    for (const Hash& each : lane) hash.add(each.value());
     return hash.value();
 }
 
@@ -61,10 +78,21 @@ void StateReader::refuse(const char* fault) const {
 }
 
 std::vector<std::byte> sealed(const SealKind& kind, std::span<const std::byte> content) {
-    StateWriter writer;
-    writer(Seal{letters(kind.name), kind.version, content.size(), checksum(content)});
+    std::vector<std::byte> bytes(seal_length + content.size());
+    std::ranges::copy(content, bytes.begin() + seal_length);
+    put_seal(kind, bytes);
+    return bytes;
+}
+
+StateWriter begin_sealed(std::size_t expected) {
+    StateWriter writer(expected);
+    writer(Seal{});
+    return writer;
+}
+
+std::vector<std::byte> end_sealed(const SealKind& kind, StateWriter& writer) {
     std::vector<std::byte> bytes = writer.take();
-    bytes.insert(bytes.end(), content.begin(), content.end());
+    put_seal(kind, bytes);
     return bytes;
 }
 

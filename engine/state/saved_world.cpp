@@ -150,7 +150,7 @@ void exchange(Archive& archive, Value& saved) {
 
 namespace {
 
-SavedWorld state_of(const World& world) {
+SavedWorld state_of(const World& world, std::size_t expected) {
     const StepScene& scene = world.scene;
     SavedWorld saved;
     saved.changed = world.changed;
@@ -178,7 +178,7 @@ SavedWorld state_of(const World& world) {
     saved.solver_is_set = world.work.newton.solver.is_for(scene.model);
     saved.solver = world.work.newton.solver.choice();
     if (!scene.detector) return saved;
-    StateWriter writer;
+    StateWriter writer(expected);
     scene.detector->save(writer);
     saved.detector = writer.take();
     return saved;
@@ -364,10 +364,17 @@ void put_model(const SavedWorld& saved, ClothModel& model) {
     copy_bending(model.springs, model.adjacency);
 }
 
+/// What the solver has made of the model's shape stays: no stage depends on it, and it is dear.
 void put_solver(const SavedWorld& saved, const StepScene& scene, NewtonSpace& newton) {
+    StepSolver solver = std::move(newton.solver);
     newton = NewtonSpace{};
-    if (saved.solver_is_set) newton.solver.set_model(scene.compute, scene.model, scene.settings.linear_solver);
-    newton.solver.go_on_from(saved.solver);
+    if (!saved.solver_is_set) {
+        solver.forget_model();
+    } else if (!solver.is_for(scene.model)) {
+        solver.set_model(scene.compute, scene.model, scene.settings.linear_solver);
+    }
+    solver.go_on_from(saved.solver);
+    newton.solver = std::move(solver);
 }
 
 void put_state(SavedWorld& saved, World& world) {
@@ -416,13 +423,13 @@ void restore_detector(const SavedWorld& saved, World& world) {
 
 }  // namespace
 
-std::vector<std::byte> saved_world(const World& world, const std::vector<StartMove>& start_moves) {
+std::vector<std::byte> saved_world(const World& world, const std::vector<StartMove>& start_moves, std::size_t expected) {
     const Identity identity = identity_of(world);
-    SavedWorld saved = state_of(world);
+    SavedWorld saved = state_of(world, expected);
     saved.start_moves = start_moves;
-    StateWriter writer;
+    StateWriter writer = begin_sealed(expected);
     writer(identity.numbers, identity.cloth, identity.obstacles, identity.settings, saved);
-    return sealed(state_seal, writer.take());
+    return end_sealed(state_seal, writer);
 }
 
 std::vector<StartMove> restore_world(std::span<const std::byte> bytes, World& world) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,12 +17,26 @@
 
 namespace percale {
 
+/// Whether lists of a type are written as they lie in memory: numbers, and structs without gaps of which every bit pattern is
+/// one. `exchange` of such a struct names all its fields in their order, so that one alone makes the same bytes.
+template <class Value>
+inline constexpr bool is_plain_state = std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>;
+template <>
+inline constexpr bool is_plain_state<std::byte> = true;
+template <>
+inline constexpr bool is_plain_state<Vec3> = sizeof(Vec3) == 3 * sizeof(double);
+template <class Value, std::size_t count>
+inline constexpr bool is_plain_state<std::array<Value, count>> = is_plain_state<Value>;
+
 /// Takes down the values of a state, one after the other and every bit of them: numbers, Vec3, text, and arrays, lists and
 /// optionals of what it takes. A struct is taken down by `exchange(archive, value)`, a function beside it that names its fields
 /// once, for StateWriter and StateReader alike.
 class StateWriter {
 public:
     static constexpr bool reads = false;
+
+    /// `expected`: bytes that may come, for which memory is taken at once.
+    explicit StateWriter(std::size_t expected = 4096) : bytes_(std::max(expected, std::size_t{64})) {}
 
     template <class... Values>
     void operator()(const Values&... values) {
@@ -33,7 +48,11 @@ public:
         static_cast<void>(count);
         put(static_cast<std::int32_t>(value));
     }
-    std::vector<std::byte> take() { return std::move(bytes_); }
+    std::vector<std::byte> take() {
+        bytes_.resize(used_);
+        used_ = 0;
+        return std::move(bytes_);
+    }
 
 private:
     template <class Value>
@@ -62,23 +81,20 @@ private:
     template <class Value, class Allocator>
     void put(const std::vector<Value, Allocator>& values) {
         put(static_cast<std::uint64_t>(values.size()));
-        if constexpr (is_raw<Value>) {
+        if constexpr (is_plain_state<Value>) {
             put_raw(values.data(), values.size() * sizeof(Value));
         } else {
             for (const Value& value : values) put(value);
         }
     }
     void put_raw(const void* from, std::size_t count) {
-        const auto* first = static_cast<const std::byte*>(from);
-        bytes_.insert(bytes_.end(), first, first + count);
+        if (bytes_.size() - used_ < count) bytes_.resize(std::max(2 * bytes_.size(), used_ + count));
+        if (count > 0) std::memcpy(bytes_.data() + used_, from, count);
+        used_ += count;
     }
 
-    template <class Value>
-    static constexpr bool is_raw = std::is_same_v<Value, std::byte> ||
-                                   (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>);
-    friend class StateReader;
-
     std::vector<std::byte> bytes_;
+    std::size_t used_ = 0;  // of them
 };
 
 /// Reads what a StateWriter took down, in the same order. Throws SceneError where the bytes end too early or hold what no writer
@@ -141,12 +157,13 @@ private:
     template <class Value, class Allocator>
     void get(std::vector<Value, Allocator>& values) {
         values.clear();
-        if constexpr (StateWriter::is_raw<Value>) {
+        if constexpr (is_plain_state<Value>) {
             values.resize(count_of(sizeof(Value)));
             get_raw(values.data(), values.size() * sizeof(Value));
         } else {
-            // One after the other: what memory they take has been read first.
-            for (std::size_t left = count_of(1); left > 0; --left) get(values.emplace_back());
+            std::size_t left = count_of(1);
+            values.reserve(std::min(left, (bytes_.size() - at_) / sizeof(Value)));  // no more memory than bytes are left
+            for (; left > 0; --left) get(values.emplace_back());
         }
     }
     /// A count of values that take `bytes` each at least.
@@ -197,6 +214,10 @@ struct SealKind {
 
 /// The content with kind, length and checksum in front.
 std::vector<std::byte> sealed(const SealKind& kind, std::span<const std::byte> content);
+
+/// The same without a copy: a writer that has room for the seal, which is put there when the content is complete.
+StateWriter begin_sealed(std::size_t expected = 4096);
+std::vector<std::byte> end_sealed(const SealKind& kind, StateWriter& writer);
 
 /// The content again, a part of `bytes`. Throws SceneError where they are not of that kind and version, cut off or damaged.
 std::span<const std::byte> unsealed(const SealKind& kind, std::span<const std::byte> bytes);

@@ -58,7 +58,7 @@ std::vector<Box> allowed(CandidateLists& lists, std::size_t vertices) {
     std::vector<Box> boxes(vertices);
     for (Box& box : boxes) box.low = Vec3::Constant(-1e300), box.high = Vec3::Constant(1e300);
     for (std::size_t i = 0; i < lists.lists().size(); ++i) {
-        const auto& vertex = lists.clusters()[i].all_vertices;
+        const auto& vertex = lists.clusters().clusters[i].all_vertices;
         for (std::size_t k = 0; k < vertex.size(); ++k) {
             boxes[vertex[k]].low = boxes[vertex[k]].low.cwiseMax(lists.lists()[i].boxes[k].low);
             boxes[vertex[k]].high = boxes[vertex[k]].high.cwiseMin(lists.lists()[i].boxes[k].high);
@@ -98,7 +98,7 @@ long lists_built(CandidateLists& lists, const World& world, std::span<const Vec3
     long built = 0;
     for (std::size_t i = 0; i < lists.lists().size(); ++i) {
         std::vector<Box>& boxes = lists.lists()[i].boxes;
-        const bool marked = boxes.size() > lists.clusters()[i].all_vertices.size();
+        const bool marked = boxes.size() > lists.clusters().clusters[i].all_vertices.size();
         if (marked) boxes.pop_back();
         built += marked ? 0 : 1;
     }
@@ -285,7 +285,7 @@ TEST_CASE("a cluster's thickness is the largest of its vertices") {
     world.thickness_of_vertex[0] = 3.0 * thickness;
     CandidateLists lists = world.lists();
     for (std::size_t i = 0; i < lists.lists().size(); ++i) {
-        const auto& vertices = lists.clusters()[i].all_vertices;
+        const auto& vertices = lists.clusters().clusters[i].all_vertices;
         const bool has_first = std::find(vertices.begin(), vertices.end(), 0) != vertices.end();
         CHECK(lists.lists()[i].thickness == (has_first ? 3.0 : 1.0) * thickness);
     }

@@ -56,8 +56,17 @@ struct Walk {
     }
 };
 
-std::unique_ptr<ContactDetector> copy_of(const Walk& walk, Scene scene, const Backend& backend, const Saved& saved) {
+/// What a detector that reads a state has until then.
+enum class Before { nothing, the_same_clusters, other_clusters };
+
+std::unique_ptr<ContactDetector> copy_of(const Walk& walk, Scene scene, const Backend& backend, const Saved& saved,
+                                         Before before) {
     Steps fresh = make_steps(scene, walk.steps.cloth, backend);
+    std::vector<Vec3> elsewhere = walk.at;
+    if (before == Before::other_clusters) {
+        for (Vec3& x : elsewhere) x = Vec3(2.0 + x.z(), 3.0 * x.x(), -x.y());
+    }
+    if (before != Before::nothing) static_cast<void>(Answers(*fresh.detector, elsewhere, elsewhere));
     restore(*fresh.detector, saved);
     return std::move(fresh.detector);
 }
@@ -75,7 +84,10 @@ int check_copies(Scene scene, const Backend& backend) {
     std::vector<std::unique_ptr<ContactDetector>> copies;
     int contacts = 0;
     for (int step = 0; step < 24; ++step) {
-        if (step % 8 == 0) copies.push_back(copy_of(walk, scene, backend, saved_by(*walk.steps.detector)));
+        if (step % 8 == 0) {
+            const auto before = static_cast<Before>(step / 8);
+            copies.push_back(copy_of(walk, scene, backend, saved_by(*walk.steps.detector), before));
+        }
         walk.move_obstacles(step);
         const std::vector<Vec3> to = walk.next(step);
         const Answers answers(*walk.steps.detector, walk.at, to);

@@ -16,6 +16,11 @@ SelfContactDetection detection_of(const Cloths& cloths) {
     return {cloths.mesh.triangles, cloths.thickness, cloths.self_contact()};
 }
 
+void restore(SelfContactDetection& detection, const Saved& saved) {
+    StateReader reader(saved);
+    detection.go_on_from(detection.restored(reader));
+}
+
 /// One step of all answers; moves `x` to where the cut leads.
 ContactRows step(SelfContactDetection& detection, std::vector<Vec3>& x, const std::vector<Vec3>& to) {
     ContactRows rows;
