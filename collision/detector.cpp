@@ -299,26 +299,15 @@ private:
     /// that rests stay, or contacts that join while a step is solved would be missing at the start of the next: the cloth would
     /// tremble between the two.
     void forget_contacts(std::span<const Vec3> positions) {
-        const bool all =
-            forgotten_at_.size() != positions.size() ||
-            std::any_of(obstacles_.begin(), obstacles_.end(), [](const auto& o) { return o->largest_displacement() > 0.0; });
+        const auto moves = [](const auto& obstacle) { return obstacle->largest_displacement() > 0.0; };
+        const bool all = forgotten_at_.size() != positions.size() || std::ranges::any_of(obstacles_, moves);
         forgotten_at_.resize(positions.size(), Vec3::Zero());
         moved_.resize(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
             moved_[i] = all || (positions[i] - forgotten_at_[i]).norm() > tolerances::forgetting_displacement * thickness_[i];
             if (moved_[i]) forgotten_at_[i] = positions[i];
         }
-        for (ClusterList& list : lists_->lists()) {
-            if (!list.has_standing) continue;
-            list.has_standing = false;
-            for (std::size_t i = 0; i < list.packs.size(); ++i) {
-                if (list.packs.at[i].standing == 0) continue;
-                const std::span<const int> cloth = list.features[list.packs.at[i].feature].vertices();
-                if (std::any_of(cloth.begin(), cloth.end(), [&](int vertex) { return moved_[vertex]; }))
-                    list.packs.at[i].standing = 0;
-                list.has_standing = list.has_standing || list.packs.at[i].standing != 0;
-            }
-        }
+        lists_->forget_standing(moved_);
     }
 
     PackAnswer measure_pack(const ClothMove& move, const SelectedPack& at, double near) const {

@@ -98,6 +98,19 @@ void CandidateLists::settle(const Obstacles& obstacles) {
     settled(memory_.room_version);
 }
 
+void CandidateLists::forget_standing(std::span<const unsigned char> moved) {
+    for (ClusterList& list : memory_.lists) {
+        if (!list.has_standing) continue;
+        list.has_standing = false;
+        for (ListedPack& pack : list.packs.at) {
+            if (pack.standing == 0) continue;
+            const std::span<const int> cloth = list.features[pack.feature].vertices();
+            if (std::any_of(cloth.begin(), cloth.end(), [&](int vertex) { return moved[vertex]; })) pack.standing = 0;
+            list.has_standing = list.has_standing || pack.standing != 0;
+        }
+    }
+}
+
 bool CandidateLists::covers(std::size_t cluster, const ClothMove& move, int version) {
     ClusterList& list = memory_.lists[cluster];
     if (list.version != version) return false;

@@ -112,6 +112,8 @@ public:
     std::span<ClusterList> lists() { return memory_.lists; }
     /// m, by how much a move brings any vertex of a cluster, and any listed obstacle, nearer to each other at most.
     double approach(std::size_t cluster, const ClothMove& move) const;
+    /// Contacts of cloth features of which a vertex has `moved` are no standing ones any more.
+    void forget_standing(std::span<const unsigned char> moved);
     /// Sets the smallest bounds of a list whose packs' bounds have changed.
     static void set_smallest_bounds(ClusterList& list);
 

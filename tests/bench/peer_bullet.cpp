@@ -13,7 +13,7 @@
 
 #include "percale/simulation.h"
 #include "tests/bench/bench_report.h"
-#include "tests/bench/bullet_sheet.h"
+#include "tests/bench/peers/bullet_sheet.h"
 #include "tests/support/bench_unit.h"
 
 namespace {

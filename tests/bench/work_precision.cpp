@@ -15,9 +15,9 @@
 #include "scenes/common/whole_file.h"
 #include "scenes/report/plot_svg.h"
 #include "tests/bench/bench_report.h"
-#include "tests/bench/plain_rk4.h"
+#include "tests/bench/peers/plain_rk4.h"
 #ifdef PERCALE_HAS_BULLET_SOFT_BODY
-#include "tests/bench/bullet_sheet.h"
+#include "tests/bench/peers/bullet_sheet.h"
 #endif
 
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/bench/bullet_sheet.h"
+#include "tests/bench/peers/bullet_sheet.h"
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletSoftBody/btDeformableBodySolver.h>
