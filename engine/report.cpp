@@ -188,7 +188,8 @@ std::string StepReport::explanation() const {
     text << "step from t = " << (ok() ? time - dt : time) << " s over " << dt << " s: " << status_word(status);
     if (!ok()) text << ", " << failure_text(*this);
     text << " (" << newton_iterations << " Newton and " << linear_iterations << " linear iterations, relative residual "
-         << residual << ", " << halvings << " halvings" << (dropped.total() > 0 ? "; dropped: " + dropped.text() : "") << ")";
+         << residual << ", " << halvings << " halvings" << (dropped.total() > 0 ? "; dropped: " + dropped.text() : "")
+         << (out_of_time ? "; ended by its time limit" : "") << ")";
     return text.str();
 }
 

@@ -167,6 +167,11 @@ void Simulation::set_work_limit(int iterations) {
     implementation_->world.scene.settings = settings;
 }
 
+void Simulation::set_time_limit(double seconds) {
+    if (seconds != 0.0) check_range("set_time_limit", "seconds", "s", seconds, 1e-6, 1e6);
+    implementation_->world.time_limit = seconds;
+}
+
 void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     World& world = implementation_->world;
     const ClothRange& range = implementation_->cloth(cloth);

@@ -45,6 +45,7 @@ void write_solution(const StepReport& from, percale_step_report& to) {
     to.smallest_fraction = from.smallest_fraction;
     to.sleeping_cloths = from.sleeping_cloths;
     to.slept = from.slept;
+    to.out_of_time = from.out_of_time;
     to.stopped = from.stopped;
     to.contacts = from.contacts;
     to.smallest_distance = from.smallest_distance;

@@ -58,6 +58,10 @@ percale_status percale_set_work_limit(percale_simulation* simulation, int iterat
     return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.set_work_limit(iterations); });
 }
 
+percale_status percale_set_time_limit(percale_simulation* simulation, double seconds) {
+    return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.set_time_limit(seconds); });
+}
+
 percale_status percale_set_positions(percale_simulation* simulation, int cloth, const double* positions, size_t vertex_count) {
     return call_on(__func__, simulation, [&](percale_simulation& of) {
         of.simulation.set_positions({cloth}, vectors_of(positions, vertex_count, "positions"));

@@ -13,6 +13,7 @@
 #include "linear/linear_solver.h"
 #include "plan/scene.h"
 #include "schemes/stage_base.h"
+#include "support/deadline.h"
 
 namespace percale {
 
@@ -73,6 +74,7 @@ struct NewtonSpace {
     BodyStates bodies;                                      // in the rounds of find_motion
     ForeseenRows foreseen;                                  // of the last move that a line search refused
     int iterations_left = std::numeric_limits<int>::max();  // of StepSettings::work_limit, for one stage
+    Deadline deadline;                                      // of the step
 
     ContactLaw& law(ContactResponse response) {
         if (response == ContactResponse::projection) return projection;

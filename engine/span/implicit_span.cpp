@@ -102,6 +102,7 @@ private:
         result_.newton_iterations += stage.newton_iterations;
         result_.linear_iterations += stage.linear_iterations;
         result_.line_search_cuts += stage.line_search_cuts;
+        result_.out_of_time = result_.out_of_time || stage.out_of_time;
         result_.residual = stage.residual;
         result_.smallest_fraction = std::min(result_.smallest_fraction, stage.smallest_fraction);
         result_.contact_stiffness = std::max(result_.contact_stiffness, stage.largest_stiffness);

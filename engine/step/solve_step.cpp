@@ -7,6 +7,7 @@
 #include "schemes/schemes.h"
 #include "span/advance.h"
 #include "span/targets.h"
+#include "support/deadline.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -47,13 +48,15 @@ public:
         for (double at = 0.0; at < 1.0;) {
             const StepStatus status = report_.status;
             const StepEnergy energy = report_.energy;
-            const double length = next_length(control, whole * (1.0 - at));
+            // Once time is up the rest is taken at once, as exact as it comes.
+            const bool late = report_.out_of_time || is_past(work_.deadline);
+            const double rest = whole * (1.0 - at), length = late ? rest : next_length(control, rest);
             const double share = length / whole, to = at + share > 1.0 - 1e-9 ? 1.0 : at + share;
             error_ = 0.0;
             StepState* end = cover({at, to}, accepted);
             if (!end) return nullptr;
             const StepAttempt attempt{length, error_, facts_of(scene_.plan.scheme).order, touches()};
-            if (!accept_attempt(attempt, scene_.settings.tolerance, control)) {
+            if (!late && !report_.out_of_time && !accept_attempt(attempt, scene_.settings.tolerance, control)) {
                 accepted.past.earlier_length = 0.0;  // BDF2 goes on with shorter lengths as from a start
                 report_.status = status;
                 report_.energy = energy;
@@ -62,7 +65,8 @@ public:
                 continue;
             }
             std::swap(accepted, *end);
-            if (control.missed && report_.status == StepStatus::ok) report_.status = StepStatus::tolerance_missed;
+            report_.out_of_time = report_.out_of_time || late;
+            if ((control.missed || late) && report_.status == StepStatus::ok) report_.status = StepStatus::tolerance_missed;
             ++report_.parts;
             shortest = std::min(shortest, length);
             longest = std::max(longest, length);
@@ -112,6 +116,7 @@ private:
         StepState* end = nullptr;
         while (count > 0) {
             work_.newton.iterations_left = work_.iterations_left - report_.newton_iterations;
+            work_.newton.deadline = work_.deadline;
             const auto [fraction, depth] = pending[--count];
             const Span next = span(fraction, depth == most_halvings);
             end = &other_end(*at);
@@ -125,6 +130,7 @@ private:
             if (result.is_usable(next.last_try)) {
                 keep(result);
                 if (result.end != SpanEnd::solved) report_.status = StepStatus::not_converged;
+                report_.out_of_time = report_.out_of_time || result.out_of_time;
                 report_.smallest_dt = std::min(report_.smallest_dt, next.length());
                 report_.largest_dt = std::max(report_.largest_dt, next.length());
                 at = end;

@@ -58,7 +58,8 @@ struct World {
     bool changed = true;        // cloth or obstacles were added since the last preparation
     RefusedStart refused;       // what stood in the way of the last preparation
     LoadSource load_source = LoadSource::nowhere;
-    bool keeps_impulses = false;            // StepState::impulses
+    double time_limit = 0.0;               // s, Simulation::set_time_limit
+    bool keeps_impulses = false;           // StepState::impulses
     std::vector<ContactLoad> saved_loads;  // of a state that was restored
     Holds holds_before;                    // before the step that is being made
     /// Of each cloth that waits for seams to close: cloths with the same number are joined by such seams and do not meet each

@@ -76,7 +76,7 @@ void bind_counts(py::class_<StepReport>& report) {
 }
 
 void bind_trouble(py::class_<StepReport>& report) {
-    report
+    report.def_readonly("out_of_time", &StepReport::out_of_time, "set_time_limit ended it before it was solved.")
         .def_readonly("blocked_by_pin", &StepReport::blocked_by_pin, "The blocked vertex is a pinned one in an obstacle's path.")
         .def_readonly("blocked_cloth", &StepReport::blocked_cloth, "Number of the cloth that is blocked; -1: none.")
         .def_readonly("blocked_vertex", &StepReport::blocked_vertex)

@@ -204,7 +204,13 @@ void bind_world(SimulationClass& simulation) {
                 self.change([&](Simulation& s) { s.set_work_limit(iterations); });
                 self.settings.work_limit = iterations;
             },
-            py::arg("iterations"), "Newton iterations of a step at most, 1 ... 50000; 0: no limit.");
+            py::arg("iterations"), "Newton iterations of a step at most, 1 ... 50000; 0: no limit.")
+        .def(
+            "set_time_limit",
+            [](SharedSimulation& self, double seconds) { self.change([&](Simulation& s) { s.set_time_limit(seconds); }); },
+            py::arg("seconds"),
+            "Wall time of a step, s, 1e-6 ... 1e6; 0: none. A step that has used it up is taken as it is:\n"
+            "report.out_of_time. Results then depend on the machine.");
 }
 
 void bind_cloth_to_cloth(SimulationClass& simulation) {

@@ -45,6 +45,7 @@ WRONG_CALLS = {
     'gravity of two': (lambda s, c: s.set_gravity((0, 1)), ['gravity', '(3,)']),
     'wind not finite': (lambda s, c: s.set_wind((0, NAN, 0)), ['wind']),
     'time step 0': (lambda s, c: s.set_time_step(0.0), ['time_step', '1e-07 ... 1']),
+    'time limit': (lambda s, c: s.set_time_limit(-1.0), ['1e-06']),
     'work limit': (lambda s, c: s.set_work_limit(-1), ['work_limit']),
     'teleport of two scales': (lambda s, c: s.teleport([c], [], {'scale': 2.0}), ['teleport', 'scale']),
     'teleport otherwise': (lambda s, c: s.teleport([c], [], None, 'stop'), ["'stop'", 'keep, clear']),

@@ -178,6 +178,7 @@ typedef struct percale_step_report {
     double dissipated_material, dissipated_friction, dissipated_contact, dissipated_integrator, residual_work, imbalance;
     double refresh_s, evaluate_s, force_s, setup_s, solve_s, cut_s, measure_s; /* CPU seconds of the calling thread */
     double cpu_s;                                                              /* of all threads */
+    int out_of_time; /* 1: percale_set_time_limit ended it before it was solved */
 } percale_step_report;
 
 /* What is wrong with a refused start: an obstacle that the cloth crosses, is inside of or touches, or cloth against cloth. */

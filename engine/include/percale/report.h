@@ -12,7 +12,7 @@ namespace percale {
 enum class StepStatus {  // those up to tolerance_missed are accepted
     ok,
     halved,             // ok, but only after the step was redone as shorter ones
-    not_converged,      // accepted at the iteration limit; the residual says how far off
+    not_converged,      // accepted at the limit of iterations or time; the residual says how far off
     tolerance_missed,   // adaptive: accepted at the shortest length there is, smallest_dt, with an error above the tolerance
     pin_blocked,        // failed: a pin could not reach its target without crossing an obstacle, or is to jump too far
     obstacle_too_fast,  // failed: the cloth could not follow a moving obstacle
@@ -113,6 +113,7 @@ struct StepReport {
     double smallest_fraction = 1.0;  // smallest part of a move that was free of crossing
     int sleeping_cloths = 0;         // at rest
     bool slept = false;              // all were: the step was not solved, the figures are those of the last one that was
+    bool out_of_time = false;        // Simulation::set_time_limit ended it before it was solved
     bool stopped = false;            // kinetic damping set all velocities to 0 at its end
     int contacts = 0;                // contact rows at the end
     double smallest_distance = 0.0;  // m; infinity if nothing was near

@@ -118,6 +118,12 @@ public:
     void set_time_step(double time_step);  // s, 1e-7 ... 1
     /// StepSettings::work_limit, 0 (none) ... 50000. Steps of a scene at 1/60 s take some 1 to 10 Newton iterations.
     void set_work_limit(int iterations);
+    /// Wall time of a step, s, 1e-6 ... 1e6, or 0 (none, as before the first call): for hosts that have to go on. A step that has
+    /// used it up is taken as it is after the Newton iteration under way, each piece of it after one at least: StepReport says
+    /// out_of_time, and not_converged or, of an adaptive step, tolerance_missed. Nothing crosses, pins and obstacles are where
+    /// they go; what is missing is that the cloth gave way to all forces. Where no state on the way can be taken it goes on.
+    /// Results then depend on the machine: without it no decision reads a clock. Not part of saved states.
+    void set_time_limit(double seconds);
     /// All vertices of a cloth; m and m/s. For starts that are not at rest.
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
@@ -199,8 +205,8 @@ public:
     void keep_impulses(bool keep = true);
     /// What all cloth gave an obstacle in the last step, N s: the forces of every piece that the step was made in times its
     /// length, and what impacts gave. A rigid body of the host's is given that, so that body and cloth keep their momentum. Zero
-    /// before the first step since keep_impulses, after one that failed and after `restore`. Throws SceneError unless impulses are
-    /// kept.
+    /// before the first step since keep_impulses, after one that failed and after `restore`. Throws SceneError unless impulses
+    /// are kept.
     Vec3 impulse_on(ObstacleId obstacle) const;
     /// The angular momentum of the same about a point (m, world), N m s, taken where the cloth was at the end of each piece.
     Vec3 angular_impulse_on(ObstacleId obstacle, const Vec3& about) const;

@@ -86,13 +86,14 @@ TEST_CASE("A step report in C holds every figure of the one in C++, each in its 
 }
 
 TEST_CASE("Each flag of a step report is 1 where it is true, and no other one") {
-    for (bool StepReport::*flag :
-         {&StepReport::slept, &StepReport::stopped, &StepReport::blocked_by_pin, &StepReport::yielded_in_vain}) {
+    for (bool StepReport::*flag : {&StepReport::slept, &StepReport::stopped, &StepReport::blocked_by_pin,
+                                   &StepReport::yielded_in_vain, &StepReport::out_of_time}) {
         StepReport from;
         from.*flag = true;
         const percale_step_report told = c_report(from);
-        CHECK(told.slept + told.stopped + told.blocked_by_pin + told.yielded_in_vain == 1);
+        CHECK(told.slept + told.stopped + told.blocked_by_pin + told.yielded_in_vain + told.out_of_time == 1);
         CHECK(told.slept == (flag == &StepReport::slept ? 1 : 0));
+        CHECK(told.out_of_time == (flag == &StepReport::out_of_time ? 1 : 0));
         CHECK(told.stopped == (flag == &StepReport::stopped ? 1 : 0));
         CHECK(told.blocked_by_pin == (flag == &StepReport::blocked_by_pin ? 1 : 0));
     }

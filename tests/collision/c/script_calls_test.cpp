@@ -72,6 +72,8 @@ const BadMove bad_moves[] = {
     {"percale_set_time_step", "time_step", [](auto* s) { return percale_set_time_step(s, 0.0); }},
     {"percale_set_time_step", "time_step", [](auto* s) { return percale_set_time_step(s, std::nan("")); }},
     {"percale_set_work_limit", "work_limit", [](auto* s) { return percale_set_work_limit(s, -1); }},
+    {"percale_set_time_limit", "1e-06", [](auto* s) { return percale_set_time_limit(s, -1.0); }},
+    {"percale_set_time_limit", "1e-06", [](auto* s) { return percale_set_time_limit(s, std::nan("")); }},
     {"percale_set_positions", "1 positions for 81", [](auto* s) { return percale_set_positions(s, 0, zero_vector, 1); }},
     {"percale_set_positions", "positions", [](auto* s) { return percale_set_positions(s, 0, nullptr, 81); }},
     {"percale_set_positions", "position 1",

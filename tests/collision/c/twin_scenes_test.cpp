@@ -103,6 +103,8 @@ void change_weather(Twin& twin, int step) {
     well(percale_set_time_step(twin.c(), 0.01));
     twin.cpp().set_work_limit(500);
     well(percale_set_work_limit(twin.c(), 500));
+    twin.cpp().set_time_limit(1e3);
+    well(percale_set_time_limit(twin.c(), 1e3));
 }
 
 void teleport_all(Twin& twin, int step) {
