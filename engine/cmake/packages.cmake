@@ -11,7 +11,14 @@ endif()
 set(percale_soname_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME percale)
-set(CPACK_PACKAGE_CONTACT "Percale contributors")
+# Who hands packages on gives a name with an address: -DCPACK_PACKAGE_CONTACT="Name <address>". The project itself has no address.
+if(NOT CPACK_PACKAGE_CONTACT)
+  set(CPACK_PACKAGE_CONTACT "Percale contributors")
+endif()
+set(percale_deb_contact "${CPACK_PACKAGE_CONTACT}")
+if(NOT percale_deb_contact MATCHES "<")
+  string(APPEND percale_deb_contact " <>")  # the changelog's last line is one by its brackets
+endif()
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -21,8 +28,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # CPack would put the project's description before that of each package
 set(percale_deb_version ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
 string(TIMESTAMP percale_deb_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/debian/changelog.in ${PROJECT_BINARY_DIR}/debian/changelog @ONLY)
@@ -63,6 +69,9 @@ Percale simulates cloth as masses and springs, by implicit steps, over mesh
 obstacles, rigid or bending.
 .
 This package holds the shared library with the C interface.")
+# Programs that link it depend on a package whose library has that SONAME and is not older.
+file(WRITE ${PROJECT_BINARY_DIR}/debian/shlibs "libpercale ${percale_soname_version} libpercale${percale_soname_version} (>= ${PROJECT_VERSION})\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/shlibs ${CMAKE_CURRENT_LIST_DIR}/debian/triggers)
 set(percale_dev_depends "libpercale${percale_soname_version} (= ${percale_deb_version}), libeigen3-dev (>= 3.4), libccd-dev, libfcl-dev, libbullet-dev")
 percale_package(development libpercale-dev libdevel "${percale_dev_depends}"
 "cloth that drapes over meshes - development files
