@@ -81,7 +81,7 @@ try_in_chroot() {
 install_packages() {
     in_chroot sh -c "cd /try && apt-get -qq install -y --no-install-recommends $2" >"$scratch/install-$1.log" 2>&1 ||
         { tail -20 "$scratch/install-$1.log"; return 1; }
-    in_chroot /try/try_packages.sh "$1" "" /try/consumer /tmp/work
+    in_chroot /try/try_packages.sh "$1" "" /try/consumer /try/work
 }
 
 for program in dpkg-deb dpkg-checkbuilddeps; do
