@@ -51,6 +51,7 @@ try_unpacked() {
         dpkg-deb -x "$deb" "$scratch/root"
     done
     for part in "${parts[@]}"; do .ci/try_packages.sh "$part" "$scratch/root" "$consumer" "$scratch/work"; done
+    write_sizes "$scratch/work"
 }
 
 # in_chroot COMMAND...
@@ -60,7 +61,7 @@ in_chroot() {
 
 # Each package is tried with what it depends on and nothing else that it might lean on.
 try_in_chroot() {
-    local release mirror version
+    local release mirror version deb name
     release=$(. /etc/os-release && echo "$VERSION_CODENAME")
     mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Label: Debian' "Codename: $release" | head -1)
     debootstrap --variant=minbase "$release" "$scratch/chroot" "${mirror:-http://deb.debian.org/debian}" >"$scratch/debootstrap.log" ||
@@ -68,13 +69,46 @@ try_in_chroot() {
     mkdir "$scratch/chroot/try"
     cp -r "$build"/*.deb .ci/try_packages.sh "$scratch/chroot/try"
     cp -r "$consumer" "$scratch/chroot/try/consumer"
+    for deb in "$build"/*.deb; do
+        name=$(dpkg-deb -f "$deb" Package)
+        needed_space "./$(basename "$deb") $([ "$name" != libpercale-dev ] || basename "$(echo "$build"/libpercale[0-9]*.deb)" | sed 's|^|./|')" \
+            >"$scratch/needed-$name.txt"
+    done
     install_packages program './percale_*.deb'
     install_packages python './python3-percale_*.deb'
     install_packages development './libpercale*.deb g++ cmake make pkg-config'
+    write_sizes "$scratch/chroot/try/work"
     version=$(basename "$build"/libpercale[0-9]*.deb | cut -d _ -f 1)
     in_chroot apt-get -qq purge -y percale "$version" libpercale-dev python3-percale >"$scratch/purge.log" 2>&1
     in_chroot find / -xdev \( -path /try -o -path /tmp \) -prune -o -iname '*percale*' -print | tee "$scratch/left_behind.txt"
     [ ! -s "$scratch/left_behind.txt" ] || { echo "the packages left these files behind"; return 1; }
+}
+
+# needed_space PACKAGES: what apt says that they and all they depend on take on the disk, while nothing of it is installed.
+needed_space() {
+    in_chroot sh -c "cd /try && apt-get install --assume-no --no-install-recommends $1" 2>/dev/null |
+        sed -n 's/^After this operation, \(.*\) of additional disk space.*/\1/p' || true
+}
+
+# write_sizes WORK: sizes.md in SCRATCH; data/bench/cost/sizes.md is a copy of one.
+write_sizes() {
+    local deb name
+    {
+        printf '`.ci/check.sh packages`: Debian packages (amd64, g++ %s). Installed: the files alone. On a bare Debian: with all that it depends on.\n\n' \
+            "$(g++ -dumpfullversion)"
+        echo '| package | .deb, kB | installed, kB | on a bare Debian | depends on |'
+        echo '|---|---|---|---|---|'
+        for deb in "$build"/*.deb; do
+            name=$(dpkg-deb -f "$deb" Package)
+            echo "| \`$name\` | $(($(stat -c %s "$deb") / 1000))" \
+                "| $(dpkg-deb --fsys-tarfile "$deb" | tar -tv | awk '{ sum += $3 } END { printf "%d", sum / 1000 }')" \
+                "| $(cat "$scratch/needed-$name.txt" 2>/dev/null || echo -)" \
+                "| $(dpkg-deb -f "$deb" Depends | sed -E 's/ \([^)]*\)//g; s/^python3, //') |"
+        done
+        printf '\n| file, stripped; programs are linked with static libraries | kB |\n|---|---|\n'
+        awk -F '|' '{ printf "| %s | %d |\n", $1, $2 / 1000 }' "$1/sizes.txt"
+    } >"$scratch/sizes.md"
+    cat "$scratch/sizes.md"
 }
 
 # install_packages PART PACKAGES: in the chroot, and uses them.

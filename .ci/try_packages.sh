@@ -47,8 +47,11 @@ try_development() {
     # What a program weighs, stripped.
     strip -o "$work/hang.stripped" "$work/consumer/hang"
     strip -o "$work/example.stripped" "$work/consumer/readme_example"
-    echo "stripped, in bytes: libpercale $(stat -L -c %s "$library/libpercale.so"), a program on percale::engine" \
-        "$(stat -c %s "$work/hang.stripped"), on percale::fcl $(stat -c %s "$work/example.stripped")"
+    {
+        echo "libpercale.so|$(stat -L -c %s "$library/libpercale.so")"
+        echo ".ci/consumer/hang.cpp on percale::engine|$(stat -c %s "$work/hang.stripped")"
+        echo "the README's example on percale::fcl|$(stat -c %s "$work/example.stripped")"
+    } | tee "$work/sizes.txt"
 }
 
 try_python() {
