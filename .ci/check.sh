@@ -239,7 +239,7 @@ stage_consumer() {
 # The Debian packages, by a build of their own: contents, pip, Percale as another project's folder, and use of each package.
 stage_packages() {
     local scratch=$root/build/ci-packages-try
-    configure build/ci-packages --preset packages -DPERCALE_WERROR=ON
+    configure build/ci-packages --preset packages
     rm -f build/ci-packages/*.deb
     cmake --build build/ci-packages --target package
     rm -rf "$scratch"
