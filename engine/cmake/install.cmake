@@ -60,7 +60,8 @@ foreach(folder scenes meshes patterns)
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/examples DESTINATION ${percale_data_dir} COMPONENT development
   PATTERN *.py EXCLUDE PATTERN __pycache__ EXCLUDE)
-install(FILES ${CMAKE_CURRENT_LIST_DIR}/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+# CMAKE_INSTALL_DOCDIR may be named after a host project.
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/debian/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/percale COMPONENT program)
 
 # The Python module. Where Python looks goes by the prefix, which may be given as late as to `cmake --install`.
 if(TARGET percale_python)
