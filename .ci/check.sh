@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # All that a change must pass, in order; stops at the first stage that fails: .ci/check.sh [STAGE...]
-# Stages: format layers release scenes python perf consumer engine_only alone sanitizers fuzz; only on demand: night. Builds are kept under build/ci-*.
+# Stages: format layers release scenes python perf consumer engine_only alone sanitizers fuzz; only on demand: night packages. Builds are kept under build/ci-*.
 # Each compiler builds what it tests once, in batches: g++ all, as the README says; clang++ the tests, under sanitizers. That no source
 # leans on its batch is seen by engine_only, which builds the engine file by file, and by alone, which reads the other layers' sources.
 set -uo pipefail
@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 root=$PWD
 
 stages=(format layers release scenes python perf consumer engine_only alone sanitizers fuzz)
-on_demand=(night)
+on_demand=(night packages)
 release_copy="$root/build/ci-release/a path with a space"
 jobs=${PERCALE_JOBS:-2}
 export CMAKE_BUILD_PARALLEL_LEVEL=$jobs CTEST_PARALLEL_LEVEL=$jobs CTEST_OUTPUT_ON_FAILURE=1
@@ -202,15 +202,20 @@ stage_night() {
     PERCALE_FUZZ_SECONDS=${PERCALE_FUZZ_SECONDS:-300} stage_fuzz
 }
 
+# copy_consumer FOLDER: with the README's example.
+copy_consumer() {
+    cp -r .ci/consumer "$1"
+    readme_block embed >"$1/readme_example.cpp"
+    [ -s "$1/readme_example.cpp" ] || { echo "README.md has no block behind <!-- ci:embed -->"; return 1; }
+}
+
 # Installs into a fresh prefix and builds somebody else's program against it, by CMake and by pkg-config.
 stage_consumer() {
     local prefix=$root/build/ci-install scratch=$root/build/ci-consumer pc_path
     [ -d "$release_copy/build" ] || { echo "$release_copy/build is missing: run the stage release first"; return 1; }
     rm -rf "$prefix" "$scratch" "$scratch-source"
     cmake --install "$release_copy/build" --prefix "$prefix" >build/ci-install.log
-    cp -r .ci/consumer "$scratch-source"
-    readme_block embed >"$scratch-source/readme_example.cpp"
-    [ -s "$scratch-source/readme_example.cpp" ] || { echo "README.md has no block behind <!-- ci:embed -->"; return 1; }
+    copy_consumer "$scratch-source"
     cmake -S "$scratch-source" -B "$scratch" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release -DREADME_EXAMPLE=readme_example.cpp
     cmake --build "$scratch"
     ctest --test-dir "$scratch" --no-tests=error
@@ -227,6 +232,20 @@ stage_consumer() {
         xargs cc -std=c99 "$scratch-source/c/weigh.c" -o "$scratch/weigh_by_pkg_config" -Wl,-rpath,"$(dirname "$pc_path")" -lm
     "$scratch/weigh_by_pkg_config"
     "$prefix/bin/percale" --version
+    # Percale's sources in a host's own tree: what the host has not asked for it has not got. The stage packages builds it, too.
+    cmake -S "$scratch-source/subdirectory" -B "$scratch/subdirectory" -DPERCALE_SOURCE="$root" >>build/ci-install.log
+}
+
+# The Debian packages, by a build of their own: contents, pip, Percale as another project's folder, and use of each package.
+stage_packages() {
+    local scratch=$root/build/ci-packages-try
+    configure build/ci-packages --preset packages
+    rm -f build/ci-packages/*.deb
+    cmake --build build/ci-packages --target package
+    rm -rf "$scratch"
+    mkdir "$scratch"
+    copy_consumer "$scratch/consumer"
+    .ci/packages.sh build/ci-packages "$scratch/consumer" "$scratch"
 }
 
 selected=("$@")

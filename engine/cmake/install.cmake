@@ -1,4 +1,5 @@
-# What `cmake --install` and `cpack` put where: public headers, libraries, the CMake package `percale`, percale.pc, the program, data.
+# What `cmake --install` puts where, in the components of which packages.cmake makes packages: `program` (with scenes and what they
+# read), `library` (what programs load), `development` (headers, libraries, the CMake package, .pc files, examples), `python`.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -10,22 +11,24 @@ foreach(component engine collision brute_force fcl bullet c c_shared)
   if(TARGET percale_${component})
     list(APPEND percale_components ${component})
     install(TARGETS percale_${component} EXPORT percale_${component}
-      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-    install(EXPORT percale_${component} NAMESPACE percale:: DESTINATION ${percale_package_dir} FILE percale-${component}.cmake)
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
+    install(EXPORT percale_${component} NAMESPACE percale:: DESTINATION ${percale_package_dir} FILE percale-${component}.cmake
+      COMPONENT development)
   endif()
 endforeach()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine/include/ DESTINATION include)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine/include/ DESTINATION include COMPONENT development)
 if(TARGET percale_collision)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/collision/include/ DESTINATION include)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/collision/include/ DESTINATION include COMPONENT development)
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/percale_config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/percaleConfig.cmake
   INSTALL_DESTINATION ${percale_package_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/percaleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/percaleConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/percaleConfigVersion.cmake
-  DESTINATION ${percale_package_dir})
+  DESTINATION ${percale_package_dir} COMPONENT development)
 if(TARGET percale)
-  install(FILES ${CMAKE_CURRENT_LIST_DIR}/percale_scene_tests.cmake DESTINATION ${percale_package_dir})
+  install(FILES ${CMAKE_CURRENT_LIST_DIR}/percale_scene_tests.cmake DESTINATION ${percale_package_dir} COMPONENT development)
 endif()
 
 # percale.pc: the engine and, where built, contact on FCL's trees. FCL's own .pc file would force C++11 on its users, and Percale's
@@ -36,40 +39,55 @@ if(TARGET percale_fcl)
 endif()
 file(RELATIVE_PATH percale_pc_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/percale.pc.in ${CMAKE_CURRENT_BINARY_DIR}/percale.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/percale.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/percale.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 # percale-c.pc: libpercale.so, which needs no other name on the command line.
 if(TARGET percale_c_shared)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/percale_c.pc.in ${CMAKE_CURRENT_BINARY_DIR}/percale-c.pc @ONLY)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/percale-c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/percale-c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endif()
 
 if(TARGET percale)
-  set_target_properties(percale PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-  install(TARGETS percale RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS percale RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   if(BUILD_SHARED_LIBS)
-    install(TARGETS percale_scenes LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    file(RELATIVE_PATH percale_bin_to_lib /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+    set_target_properties(percale PROPERTIES INSTALL_RPATH "$ORIGIN/${percale_bin_to_lib}")
+    install(TARGETS percale_scenes LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_SKIP)
   endif()
 endif()
-foreach(folder scenes meshes examples)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/percale OPTIONAL)
+set(percale_data_dir ${CMAKE_INSTALL_DATADIR}/percale)
+foreach(folder scenes meshes patterns)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/${folder} DESTINATION ${percale_data_dir} COMPONENT program)
 endforeach()
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/examples DESTINATION ${percale_data_dir} COMPONENT development
+  PATTERN *.py EXCLUDE PATTERN __pycache__ EXCLUDE)
+# CMAKE_INSTALL_DOCDIR may be named after a host project.
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/debian/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/percale COMPONENT program)
 
-set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_NAME percale)
-set(CPACK_PACKAGE_CONTACT "Percale contributors")
-set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4)")
-if(TARGET percale_collision)
-  string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", libccd-dev")
+# The Python module. Where Python looks goes by the prefix, which may be given as late as to `cmake --install`.
+if(TARGET percale_python)
+  get_target_property(percale_python_program percale_python PERCALE_PYTHON_PROGRAM)
+  execute_process(COMMAND ${percale_python_program} ${CMAKE_CURRENT_LIST_DIR}/python_folders.py
+    OUTPUT_VARIABLE percale_python_folders OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  list(POP_FRONT percale_python_folders percale_python_system percale_python_local percale_python_other percale_python_minor)
+  install(CODE "
+    set(percale_python_dir \"${percale_python_other}\")
+    if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")
+      set(percale_python_dir \"${percale_python_system}\")
+    elseif(CMAKE_INSTALL_PREFIX STREQUAL \"/usr/local\")
+      set(percale_python_dir \"${percale_python_local}\")
+    endif()" COMPONENT python)
+  if(BUILD_SHARED_LIBS)
+    foreach(folder ${percale_python_system} ${percale_python_local} ${percale_python_other})
+      file(RELATIVE_PATH percale_python_to_lib /${folder}/percale /${CMAKE_INSTALL_LIBDIR})
+      list(APPEND percale_python_rpath "$ORIGIN/${percale_python_to_lib}")
+    endforeach()
+    list(REMOVE_DUPLICATES percale_python_rpath)
+    set_target_properties(percale_python PROPERTIES INSTALL_RPATH "${percale_python_rpath}")
+  endif()
+  # The destinations are read when that code has run.
+  install(TARGETS percale_python LIBRARY DESTINATION "\${percale_python_dir}/percale" COMPONENT python)
+  get_target_property(python_files percale_python PERCALE_PACKAGE_FILES)
+  install(FILES ${python_files} DESTINATION "\${percale_python_dir}/percale" COMPONENT python)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/examples DESTINATION ${percale_data_dir} COMPONENT python
+    FILES_MATCHING PATTERN *.py PATTERN __pycache__ EXCLUDE)
 endif()
-if(TARGET percale_fcl)
-  string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", libfcl-dev")
-endif()
-if(TARGET percale_bullet)
-  string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", libbullet-dev")
-endif()
-include(CPack)

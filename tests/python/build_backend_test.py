@@ -19,7 +19,7 @@ def backend(source_dir, monkeypatch):
     monkeypatch.syspath_prepend(str(source_dir / 'scenes' / 'python' / 'wheel'))
     monkeypatch.delitem(sys.modules, 'build_backend', raising=False)
     import build_backend
-    monkeypatch.setattr(build_backend, 'build_package', lambda: Path(percale.__file__).parent)
+    monkeypatch.setattr(build_backend, 'build_package', lambda settings: Path(percale.__file__).parent)
     return build_backend
 
 
@@ -35,6 +35,7 @@ def test_a_wheel_holds_the_package_and_a_record_that_is_true(backend, tmp_path):
         digest = base64.urlsafe_b64encode(hashlib.sha256(files[row[0]]).digest()).rstrip(b'=').decode()
         assert row[1:] == [f'sha256={digest}', str(len(files[row[0]]))]
     assert {'percale/__init__.py', 'percale/__init__.pyi', 'percale/py.typed', f'{info}/LICENSE', f'{info}/WHEEL'} <= set(files)
+    assert len([file for file in files if file.startswith('percale/')]) == 4  # those and the extension: no bytecode
     metadata = files[f'{info}/METADATA'].decode()
     assert f'Version: {percale.__version__}\n' in metadata and 'Requires-Dist: numpy\n' in metadata
 
@@ -42,10 +43,18 @@ def test_a_wheel_holds_the_package_and_a_record_that_is_true(backend, tmp_path):
 def test_metadata_are_those_of_the_wheel_and_need_no_build(backend, tmp_path, monkeypatch):
     with zipfile.ZipFile(tmp_path / backend.build_wheel(tmp_path)) as wheel:
         files = {info.filename: wheel.read(info) for info in wheel.infolist()}
-    monkeypatch.setattr(backend, 'build_package', lambda: pytest.fail('nothing is to be built'))
+    monkeypatch.setattr(backend, 'build_package', lambda settings: pytest.fail('nothing is to be built'))
     info = backend.prepare_metadata_for_build_wheel(tmp_path)
     for file in ('METADATA', 'WHEEL'):
         assert (tmp_path / info / file).read_bytes() == files[f'{info}/{file}']
+
+
+def test_a_build_folder_may_be_named_and_other_settings_are_refused(backend, source_dir, tmp_path):
+    assert backend.build_folder({'build-dir': 'build/mine'}) == source_dir / 'build' / 'mine'
+    assert backend.build_folder({'build-dir': str(tmp_path)}) == tmp_path
+    assert backend.build_folder(None).parent == source_dir / 'build'
+    with pytest.raises(ValueError, match="no config setting 'builddir'; it has build-dir"):
+        backend.build_folder({'builddir': 'build/mine'})
 
 
 def test_a_wheel_can_be_imported_from_where_it_is_unpacked(backend, tmp_path):

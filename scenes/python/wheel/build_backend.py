@@ -1,12 +1,14 @@
 """What pip calls for `pip install .` (PEP 517): builds the module by CMake and packs it as a wheel.
 
-Standard library alone, so nothing is downloaded. The build is kept in build/pip-TAG of the checkout: a second install is quick.
+Standard library alone, so nothing is downloaded. The build is kept in build/pip-TAG of the checkout, or in the folder that
+`--config-settings build-dir=FOLDER` names (from the checkout): a second install is quick.
 CMake's own environment variables (CXX, CMAKE_GENERATOR, CMAKE_BUILD_PARALLEL_LEVEL) hold.
 """
 import base64
 import hashlib
 import os
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -33,15 +35,26 @@ def platform_tag():
     return re.sub(r'[^A-Za-z0-9]', '_', sysconfig.get_platform())
 
 
-def build_package():
-    """The folder of the package, built."""
-    build = ROOT / 'build' / f'pip-{TAG}-{platform_tag()}'
+def build_folder(config_settings):
+    settings = dict(config_settings or {})
+    build = ROOT / settings.pop('build-dir', f'build/pip-{TAG}-{platform_tag()}')
+    if settings:
+        raise ValueError(f'percale has no config setting {", ".join(map(repr, sorted(settings)))}; it has build-dir')
+    return build
+
+
+def build_package(config_settings=None):
+    """The folder of the package, built and then installed to where nothing else lies."""
+    build = build_folder(config_settings)
     build.mkdir(parents=True, exist_ok=True)
     jobs = os.environ.get('CMAKE_BUILD_PARALLEL_LEVEL', str(os.cpu_count() or 1))
     subprocess.run(['cmake', '-S', ROOT, '-B', build, '-DCMAKE_BUILD_TYPE=Release', '-DPERCALE_PYTHON=ON', '-DPERCALE_TESTS=OFF',
                     f'-DPython3_EXECUTABLE={sys.executable}'], check=True)
     subprocess.run(['cmake', '--build', build, '--target', 'percale_python', '--parallel', jobs], check=True)
-    return build / 'python' / 'percale'
+    stage = build / 'wheel'
+    shutil.rmtree(stage, ignore_errors=True)
+    subprocess.run(['cmake', '--install', build, '--prefix', stage, '--component', 'python', '--strip'], check=True)
+    return Path(sysconfig.get_path('platlib', 'posix_prefix', vars={'base': stage, 'platbase': stage})) / 'percale'
 
 
 def wheel_tag():
@@ -69,9 +82,8 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     name, version, metadata = project()
     info = f'{name}-{version}.dist-info'
-    package = build_package()
-    extension = '_percale' + sysconfig.get_config_var('EXT_SUFFIX')
-    members = {f'percale/{file}': (package / file).read_bytes() for file in ('__init__.py', '__init__.pyi', 'py.typed', extension)}
+    package = build_package(config_settings)
+    members = {f'percale/{file.name}': file.read_bytes() for file in sorted(package.iterdir()) if file.is_file()}
     members[f'{info}/METADATA'] = metadata.encode()
     members[f'{info}/WHEEL'] = wheel_text().encode()
     members[f'{info}/LICENSE'] = (ROOT / 'LICENSE').read_bytes()
