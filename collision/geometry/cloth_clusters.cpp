@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "geometry/morton_order.h"
@@ -14,34 +15,48 @@ namespace {
 /// the one that comes first on the curve, it would follow the axes: a scene that is turned would have other contacts.
 class EdgeOwners {
 public:
-    explicit EdgeOwners(std::span<const Triangle> triangles) : edges_(3 * triangles.size()), bits_(triangles.size(), 0) {
+    explicit EdgeOwners(std::span<const Triangle> triangles)
+        : edges_(3 * triangles.size()), bits_(triangles.size(), 0), across_(triangles.size(), {-1, -1, -1}) {
         std::vector<Side> sides;
         sides.reserve(edges_.size());
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const Triangle& t = triangles[i];
-            for (std::size_t k = 0; k < 3; ++k) sides.push_back({std::minmax(t[k], t[(k + 1) % 3]), 3 * i + k});
+            for (std::size_t k = 0; k < 3; ++k) sides.push_back({std::minmax(t[k], t[(k + 1) % 3]), i, k});
         }
         std::sort(sides.begin(), sides.end());
-        for (std::size_t i = 0; i < sides.size(); ++i) {
-            const auto& [ends, side] = sides[i];
-            const bool first = i == 0 || sides[i - 1].first != ends;
-            if (first) ends_.push_back({triangles[side / 3][side % 3], triangles[side / 3][(side % 3 + 1) % 3]});
-            if (first) bits_[side / 3] = static_cast<unsigned char>(bits_[side / 3] | 1U << side % 3);
-            edges_[side] = static_cast<int>(ends_.size()) - 1;
-        }
+        for (std::size_t i = 0; i < sides.size(); ++i) add(triangles, sides, i);
     }
 
     std::size_t count() const { return ends_.size(); }
     int edge(int triangle, int k) const { return edges_[3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(k)]; }
     const std::array<int, 2>& ends(int edge) const { return ends_[edge]; }  // in the order of their owner's corners
-    std::vector<unsigned char> take_bits() { return std::move(bits_); }
+    void take(ClothClusters& to) {
+        to.edge_owner_bits = std::move(bits_);
+        to.across = std::move(across_);
+    }
 
 private:
-    using Side = std::pair<std::pair<int, int>, std::size_t>;  // an edge's vertices, and where: three times the triangle + k
+    using Side = std::tuple<std::pair<int, int>, std::size_t, std::size_t>;  // an edge's vertices; where: a triangle and k
+
+    /// The sides of one edge follow each other, the owner's first.
+    void add(std::span<const Triangle> triangles, std::span<const Side> sides, std::size_t i) {
+        const auto& [vertices, triangle, k] = sides[i];
+        const Triangle& t = triangles[triangle];
+        if (i == 0 || std::get<0>(sides[i - 1]) != vertices) {
+            ends_.push_back({t[k], t[(k + 1) % 3]});
+            bits_[triangle] = static_cast<unsigned char>(bits_[triangle] | 1U << k);
+        } else {
+            const auto& [same, before, there] = sides[i - 1];
+            across_[triangle][k] = triangles[before][(there + 2) % 3];
+            across_[before][there] = t[(k + 2) % 3];
+        }
+        edges_[3 * triangle + k] = static_cast<int>(ends_.size()) - 1;
+    }
 
     std::vector<int> edges_;
     std::vector<std::array<int, 2>> ends_;
     std::vector<unsigned char> bits_;
+    std::vector<std::array<int, 3>> across_;
 };
 
 /// Gives vertices and edges to the first cluster that asks for them.
@@ -66,7 +81,7 @@ public:
         cluster.all_vertices.assign(all.begin(), all.end());
     }
 
-    std::vector<unsigned char> take_bits() { return owners_.take_bits(); }
+    void take(ClothClusters& to) { owners_.take(to); }
 
 private:
     std::span<const Triangle> triangles_;
@@ -89,7 +104,7 @@ ClothClusters make_clusters(std::span<const Triangle> triangles, std::size_t ver
         cluster.triangles.assign(order.begin() + static_cast<long>(from), order.begin() + static_cast<long>(to));
         ownership.fill(cluster);
     }
-    result.edge_owner_bits = ownership.take_bits();
+    ownership.take(result);
     return result;
 }
 
