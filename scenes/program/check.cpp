@@ -243,6 +243,8 @@ int check(CheckOptions options) {
     if (!options.common.quiet)
         std::printf("%zu of %zu scenes finished, %zu of %zu expectations passed%s\n", finished, scenes.size(), passed,
                     expectations, options.resume.empty() ? "" : ("; " + std::to_string(kept) + " kept from earlier").c_str());
+    if (signals.asked() && !options.resume.empty())
+        std::fprintf(stderr, "percale: %s: stopped; the same command goes on\n", options.resume.c_str());
     return worst;
 }
 
