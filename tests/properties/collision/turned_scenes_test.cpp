@@ -1,8 +1,10 @@
-// No decision of contact follows the axes: a scene that is turned as a whole goes no other way than one that rounding disturbs.
+// No decision of contact follows the axes or the numbers of triangles: a scene that is turned as a whole, or numbered otherwise,
+// leaves the plain one no faster than one that rounding disturbs.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "percale/detectors.h"
 #include "tests/support/catch.h"
@@ -16,6 +18,10 @@ using Matrix = Eigen::Matrix3d;
 
 constexpr double size = 0.5;         // m, of the sheet, to which differences are relative
 constexpr int steps_in_contact = 2;  // looked at after the one in which the sheet meets the body
+
+/// Turning disturbs all positions in every step, the others are disturbed at the start alone; with an owner of edges that follows
+/// the axes these ratios are 2e4 to 5e5.
+constexpr double most_growth = 300.0;
 
 struct Scene {
     const char* name;
@@ -53,6 +59,7 @@ struct Variant {
     Matrix turn = Matrix::Identity();
     double disturbance = 0.0;  // m, of each coordinate at the start
     unsigned seed = 1;
+    bool shuffled = false;  // the order of the sheet's triangles
 };
 
 struct Path {
@@ -72,6 +79,7 @@ Path path_of(const Scene& scene, const Variant& variant, StepSettings settings) 
     Random random(variant.seed);
     for (Vec3& x : sheet.vertices) x = variant.turn * (x + random.point(1.0) * variant.disturbance);
     for (Vec3& x : body.vertices) x = variant.turn * x;
+    if (variant.shuffled) std::shuffle(sheet.triangles.begin(), sheet.triangles.end(), std::mt19937(variant.seed));
     const ClothId cloth = simulation.add_cloth(sheet, sheet_fabric());
     simulation.add_obstacle(body, {}, {.friction = 0.4});
     Path path;
@@ -92,7 +100,7 @@ double apart_after(const Path& a, const Path& b) { return largest_difference(a.a
 
 }  // namespace
 
-TEST_CASE("A turned scene leaves the plain one no faster in contact than a scene that rounding disturbs", "[law]") {
+TEST_CASE("Turned or numbered otherwise a scene leaves the plain one no faster in contact than rounding makes it", "[law]") {
     const auto response = GENERATE(ContactResponse::penalty, ContactResponse::projection);
     const StepSettings settings{.contact_response = response};
     const std::string ending = response == ContactResponse::penalty ? ", penalty: " : ", projection: ";
@@ -116,10 +124,15 @@ TEST_CASE("A turned scene leaves the plain one no faster in contact than a scene
             before = std::max(before, apart_before(plain, path));
             general = std::max(general, apart_after(plain, path));
         }
-        const std::string on = std::string("scene turned, on a ") + scene.name + ending;
+        double numbered = 0.0;
+        for (const unsigned seed : {1U, 2U, 3U}) {
+            numbered = std::max(numbered, apart_after(plain, path_of(scene, {.seed = seed, .shuffled = true}, settings)));
+        }
+        const std::string on = std::string("scene turned, grid on a ") + scene.name + ending;
         check_law(on + "relative difference before it meets the body", before, 1e-12);
-        check_law(on + "difference over that of disturbed scenes, quarter and half turns", exact / disturbed, 30.0);
-        check_law(on + "difference over that of disturbed scenes, other turns", general / disturbed, 300.0);
+        check_law(on + "difference over that of disturbed scenes, quarter and half turns", exact / disturbed, most_growth);
+        check_law(on + "difference over that of disturbed scenes, other turns", general / disturbed, most_growth);
+        check_law(on + "difference over that of disturbed scenes, triangles renumbered", numbered / disturbed, most_growth);
     }
 }
 
