@@ -27,8 +27,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr const char* origin_name = "origin.json";
-
 std::string checksum_text(const std::string& file) {
     char text[24];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(checksum(read_bytes(file))));
@@ -132,7 +130,11 @@ KeptRun::KeptRun(std::string folder, const Scene& scene, const RunMarks& marks, 
 
 void KeptRun::look(const Scene& scene) {
     const std::string origin = folder_ + "/" + origin_name, checkpoint = folder_ + "/" + checkpoint_name;
-    if (!fs::exists(origin)) return;
+    if (!fs::exists(origin)) {
+        for (const std::string& other : {folder_ + "/report.json", checkpoint})
+            if (fs::exists(other)) throw SceneError(other + ": is of a run that is not kept here; name another folder");
+        return;
+    }
     why_again_ = changed_origin(origin_, read_text(origin));
     if (!why_again_.empty()) return;
     ended_ = ended_run(folder_);

@@ -42,7 +42,8 @@ std::string program_mark();
 /// holds origin.json, and a checkpoint until the run has ended.
 class KeptRun {
 public:
-    /// Looks at what the folder holds; changes nothing. Throws SceneError for what run_origin does.
+    /// Looks at what the folder holds; changes nothing. Throws SceneError for what run_origin does, and for the folder of a run
+    /// that was made otherwise.
     KeptRun(std::string folder, const Scene& scene, const RunMarks& marks, const std::string& program);
 
     const std::optional<EndedRun>& ended() const { return ended_; }

@@ -157,6 +157,24 @@ TEST_CASE("a checkpoint that is damaged is told, and the run begins anew") {
     CHECK(result.resumed_at.empty());
 }
 
+TEST_CASE("a folder that another run was made into is not taken for a kept one, and left as it is") {
+    const TestFolder folder;
+    const Scene scene = plain_scene(folder);
+    const std::string into = folder.path("kept");
+    KeptRun first(into, scene, {}, "1");
+    run(first, scene);
+    BuiltScene built = build_scene(scene);
+    RunFolder other(into, scene, false);
+    RunHooks hooks;
+    hooks.begin = [&] { other.begin(); };
+    hooks.step = [&](const StepReport& report, const Simulation& simulation) { other.add(report, simulation); };
+    other.finish(built, run_scene(built, hooks), {});
+    CHECK_FALSE(folder.holds("kept/origin.json"));
+    const std::string report = folder.read("kept/report.json");
+    CHECK_THROWS_WITH(KeptRun(into, scene, {}, "1"), Catch::Contains("kept/report.json: is of a run that is not kept here"));
+    CHECK(folder.read("kept/report.json") == report);
+}
+
 TEST_CASE("the mark of a program is its version and its file's checksum") {
     const std::string mark = program_mark();
     CHECK(mark.starts_with(PERCALE_VERSION " "));
