@@ -1,6 +1,7 @@
 #include "common/own_program.h"
 
 #include <filesystem>
+#include <system_error>
 
 #include "percale/error.h"
 
