@@ -151,6 +151,12 @@ constexpr double torn_strain = 1.0;
 /// Share of a strain limit by which cloth may pass it untold.
 constexpr double passed_limit_share = 0.1;
 
+// ---- export/
+
+/// Checkpoints of a run that is kept, over the longest that its scene may take. Fewer: more is run again after a kill. More: a
+/// short scene spends its time writing.
+constexpr double checkpoints_of_kept_run = 20.0;
+
 // ---- doctor/: from where on it warns. Smaller or larger: warnings of what is right, or none of what is wrong.
 
 /// Elements that a finding names.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "geometry/morton_order.h"
@@ -10,33 +11,82 @@
 namespace percale {
 namespace {
 
-/// Gives features to the first cluster that asks for them.
+/// Numbers the edges of triangles and says which triangle owns each: of those that have it the one of the lowest index. Were it
+/// the one that comes first on the curve, it would follow the axes: a scene that is turned would have other contacts.
+class EdgeOwners {
+public:
+    explicit EdgeOwners(std::span<const Triangle> triangles)
+        : edges_(3 * triangles.size()), bits_(triangles.size(), 0), across_(triangles.size(), {-1, -1, -1}) {
+        std::vector<Side> sides;
+        sides.reserve(edges_.size());
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const Triangle& t = triangles[i];
+            for (std::size_t k = 0; k < 3; ++k) sides.push_back({std::minmax(t[k], t[(k + 1) % 3]), i, k});
+        }
+        std::sort(sides.begin(), sides.end());
+        for (std::size_t i = 0; i < sides.size(); ++i) add(triangles, sides, i);
+    }
+
+    std::size_t count() const { return ends_.size(); }
+    int edge(int triangle, int k) const { return edges_[3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(k)]; }
+    const std::array<int, 2>& ends(int edge) const { return ends_[edge]; }  // in the order of their owner's corners
+    void take(ClothClusters& to) {
+        to.edge_owner_bits = std::move(bits_);
+        to.across = std::move(across_);
+    }
+
+private:
+    using Side = std::tuple<std::pair<int, int>, std::size_t, std::size_t>;  // an edge's vertices; where: a triangle and k
+
+    /// The sides of one edge follow each other, the owner's first.
+    void add(std::span<const Triangle> triangles, std::span<const Side> sides, std::size_t i) {
+        const auto& [vertices, triangle, k] = sides[i];
+        const Triangle& t = triangles[triangle];
+        if (i == 0 || std::get<0>(sides[i - 1]) != vertices) {
+            ends_.push_back({t[k], t[(k + 1) % 3]});
+            bits_[triangle] = static_cast<unsigned char>(bits_[triangle] | 1U << k);
+        } else {
+            const auto& [same, before, there] = sides[i - 1];
+            across_[triangle][k] = triangles[before][(there + 2) % 3];
+            across_[before][there] = t[(k + 2) % 3];
+        }
+        edges_[3 * triangle + k] = static_cast<int>(ends_.size()) - 1;
+    }
+
+    std::vector<int> edges_;
+    std::vector<std::array<int, 2>> ends_;
+    std::vector<unsigned char> bits_;
+    std::vector<std::array<int, 3>> across_;
+};
+
+/// Gives vertices and edges to the first cluster that asks for them.
 class Ownership {
 public:
-    Ownership(std::size_t vertices, std::size_t triangles) : vertex_taken_(vertices, false), bits_(triangles, 0) {}
+    Ownership(std::size_t vertices, std::span<const Triangle> triangles)
+        : triangles_(triangles), owners_(triangles), vertex_taken_(vertices, false), edge_taken_(owners_.count(), false) {}
 
-    void fill(ClothCluster& cluster, std::span<const Triangle> triangles) {
+    void fill(ClothCluster& cluster) {
         std::set<int> all;
         for (const int index : cluster.triangles) {
-            const Triangle& t = triangles[index];
+            const Triangle& t = triangles_[index];
             for (int k = 0; k < 3; ++k) {
                 all.insert(t[k]);
                 if (!vertex_taken_[t[k]]) cluster.vertices.push_back(t[k]);
                 vertex_taken_[t[k]] = true;
-                if (!edges_taken_.insert(std::minmax(t[k], t[(k + 1) % 3])).second) continue;
-                cluster.edges.push_back({t[k], t[(k + 1) % 3]});
-                bits_[index] = static_cast<unsigned char>(bits_[index] | 1U << k);
+                const int edge = owners_.edge(index, k);
+                if (!edge_taken_[edge]) cluster.edges.push_back(owners_.ends(edge));
+                edge_taken_[edge] = true;
             }
         }
         cluster.all_vertices.assign(all.begin(), all.end());
     }
 
-    std::vector<unsigned char> take_bits() { return std::move(bits_); }
+    void take(ClothClusters& to) { owners_.take(to); }
 
 private:
-    std::vector<bool> vertex_taken_;
-    std::set<std::pair<int, int>> edges_taken_;
-    std::vector<unsigned char> bits_;
+    std::span<const Triangle> triangles_;
+    EdgeOwners owners_;
+    std::vector<bool> vertex_taken_, edge_taken_;
 };
 
 }  // namespace
@@ -47,14 +97,14 @@ ClothClusters make_clusters(std::span<const Triangle> triangles, std::span<const
 
 ClothClusters make_clusters(std::span<const Triangle> triangles, std::size_t vertices, std::span<const int> order) {
     ClothClusters result;
-    Ownership ownership(vertices, triangles.size());
+    Ownership ownership(vertices, triangles);
     for (std::size_t from = 0; from < order.size(); from += tolerances::triangles_per_cluster) {
         ClothCluster& cluster = result.clusters.emplace_back();
         const std::size_t to = std::min(order.size(), from + tolerances::triangles_per_cluster);
         cluster.triangles.assign(order.begin() + static_cast<long>(from), order.begin() + static_cast<long>(to));
-        ownership.fill(cluster, triangles);
+        ownership.fill(cluster);
     }
-    result.edge_owner_bits = ownership.take_bits();
+    ownership.take(result);
     return result;
 }
 

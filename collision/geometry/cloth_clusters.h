@@ -17,10 +17,13 @@ struct ClothCluster {
 };
 
 /// Cloth features grouped by nearness along the order of the triangles' centres on a space-filling (Morton) curve of `positions`.
-/// `edge_owner_bits[t]` has bit k set if triangle t owns its edge k (corners k, k + 1).
+/// `edge_owner_bits[t]` has bit k set if triangle t owns its edge k (corners k, k + 1): of those that have the edge the one of
+/// the lowest index, however the cloth is turned. The two vertices of an edge come in that triangle's order. `across[t][k]` is
+/// the corner off that edge of the other triangle that has it; -1: there is none.
 struct ClothClusters {
     std::vector<ClothCluster> clusters;
     std::vector<unsigned char> edge_owner_bits;
+    std::vector<std::array<int, 3>> across;
 };
 
 ClothClusters make_clusters(std::span<const Triangle> triangles, std::span<const Vec3> positions);

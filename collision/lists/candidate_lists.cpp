@@ -188,6 +188,7 @@ void CandidateLists::add_features(std::size_t cluster, int obstacle_number, cons
         add_packs({.kind = PairKind::face_vertex,
                    .cloth = triangles_[face],
                    .edge_bits = clusters_.edge_owner_bits[face],
+                   .across = clusters_.across[face],
                    .obstacle = obstacle_number},
                   move, obstacle, list, build);
     }

@@ -15,7 +15,7 @@ void exchange(Archive& archive, Value& box) {
 template <class Archive, OfType<ContactPair> Value>
 void exchange(Archive& archive, Value& pair) {
     archive.choice(pair.kind, 3);
-    archive(pair.cloth, pair.edge_bits, pair.obstacle);
+    archive(pair.cloth, pair.edge_bits, pair.across, pair.obstacle);
 }
 
 template <class Archive, OfType<ListedPack> Value>
@@ -71,7 +71,10 @@ bool is_good(const ContactPair& pair, std::size_t vertices, const Obstacles& obs
                                    [&](int vertex) { return vertex >= 0 && static_cast<std::size_t>(vertex) < vertices; });
     const bool rest_unused =
         std::all_of(pair.cloth.begin() + pair.cloth_count(), pair.cloth.end(), [](int v) { return v == -1; });
-    return known && rest_unused && pair.obstacle >= 0 && static_cast<std::size_t>(pair.obstacle) < obstacles.size();
+    const bool across_known = std::all_of(pair.across.begin(), pair.across.end(),
+                                          [&](int v) { return v == -1 || (v >= 0 && static_cast<std::size_t>(v) < vertices); });
+    return known && rest_unused && across_known && pair.obstacle >= 0 &&
+           static_cast<std::size_t>(pair.obstacle) < obstacles.size();
 }
 
 /// Whether all arrays are of one length and the packs are those of the features, one after the other.

@@ -82,6 +82,15 @@ PairContact edge_edge_contact(const ContactPair& pair, std::span<const Vec3> clo
     return contact;
 }
 
+/// Whether a closest point on an edge of a cloth triangle is this triangle's to report: the edge is its own, and cloth across it
+/// comes no nearer. Without the second, what touches beside an edge would push twice, or once, by how triangles are numbered.
+bool cloth_edge_reports(const ContactPair& pair, int edge, std::span<const Vec3> cloth, const PairContact& contact) {
+    if ((pair.edge_bits >> edge & 1U) == 0) return false;
+    if (pair.across[edge] < 0) return true;
+    const Vec3 away = cloth[pair.across[edge]] - contact.cloth_point;
+    return away.dot(contact.direction) >= -tolerances::rising_sine * away.norm();
+}
+
 PairContact face_vertex_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {
     const PointTriangle closest = vertex_on_cloth(pair, cloth, obstacle, fraction);
     PairContact contact{.weight = {closest.weight[0], closest.weight[1], closest.weight[2], 0.0},
@@ -91,7 +100,7 @@ PairContact face_vertex_contact(const ContactPair& pair, std::span<const Vec3> c
     set_direction(contact);
     // A closest point at a cloth vertex is the vertex's own contact with the obstacle's faces.
     const bool own = closest.region == TriangleRegion::face ||
-                     (closest.region == TriangleRegion::edge && (pair.edge_bits >> closest.corner & 1U) != 0);
+                     (closest.region == TriangleRegion::edge && cloth_edge_reports(pair, closest.corner, cloth, contact));
     const auto at = [&](int vertex) { return obstacle.at(vertex, fraction); };
     contact.local_minimum = own && obstacle.surface().vertex_can_touch[pair.feature] &&
                             vertex_faces(obstacle.surface(), pair.feature, contact.direction, at);

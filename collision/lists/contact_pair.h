@@ -13,8 +13,9 @@ namespace percale {
 /// A cloth feature and an obstacle feature that may come near each other.
 struct ContactPair {
     PairKind kind = PairKind::vertex_face;
-    std::array<int, 3> cloth{-1, -1, -1};  // vertices: 1, 2 or 3
-    unsigned char edge_bits = 7;           // face_vertex: which edges of the cloth triangle it owns
+    std::array<int, 3> cloth{-1, -1, -1};   // vertices: 1, 2 or 3
+    unsigned char edge_bits = 7;            // face_vertex: which edges of the cloth triangle it owns
+    std::array<int, 3> across{-1, -1, -1};  // face_vertex: what lies across each edge in cloth, a vertex; -1: nothing
     int obstacle = 0;
     int feature = 0;  // obstacle triangle, edge or vertex
 
@@ -55,7 +56,8 @@ double row_share(const PairContact& contact, double thickness);
 
 /// Everything about the closest points. A contact belongs to exactly one pair: closest points inside a face or inside two edges
 /// belong to that pair, those on an edge or vertex of the obstacle to the feature's owner and only if the feature faces the
-/// cloth, those on a cloth edge to the triangle that owns it.
+/// cloth, those on a cloth edge to the triangle that owns it, unless the one
+/// across comes nearer: then its inside or another edge of it is the contact.
 PairContact pair_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction);
 
 /// Asks memory for what pair_contact reads of the obstacle. Each depth reads what the one before has asked for.

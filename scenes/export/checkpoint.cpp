@@ -78,33 +78,6 @@ void exchange(Archive& archive, Value& checkpoint) {
 
 namespace {
 
-/// A setting as people write it: /step/time_step is step.time_step.
-std::string key_of(const std::string& pointer) {
-    std::string key = pointer.empty() ? "" : pointer.substr(1);
-    for (char& letter : key)
-        if (letter == '/') letter = '.';
-    return key;
-}
-
-std::string value_text(const nlohmann::json& settings, const std::string& pointer) {
-    const nlohmann::json::json_pointer place(pointer);
-    return settings.contains(place) ? settings.at(place).dump() : "nothing";
-}
-
-/// The first settings that differ, at most three; empty where all are equal.
-std::string differences(const nlohmann::json& here, const nlohmann::json& saved) {
-    std::string text;
-    int count = 0;
-    for (const nlohmann::json& change : nlohmann::json::diff(here, saved)) {
-        const std::string path = change.at("path");
-        if (path == "/step/threads") continue;
-        if (++count > 3) return text + "; and more";
-        text += (text.empty() ? "" : "; ") + key_of(path) + " is " + value_text(here, path) + ", in the checkpoint " +
-                value_text(saved, path);
-    }
-    return text;
-}
-
 void check_option(const std::string& file, const char* option, bool here, bool saved) {
     if (here == saved) return;
     throw SceneError(file + ": cannot be resumed: it was made " + (saved ? "with " : "without ") + option +
@@ -117,6 +90,15 @@ void write_checkpoint(const std::string& file, const Checkpoint& checkpoint) {
     StateWriter writer;
     writer(checkpoint);
     write_durable_file(file, sealed(checkpoint_seal, writer.take()));
+}
+
+void save_run(const std::string& file, const Scene& scene, const RunState& state, const RunMarks& marks, RunFolder& folder) {
+    write_checkpoint(file, {.settings = settings_text(scene),
+                            .certify_steps = marks.certify_steps,
+                            .replay_hash = marks.replay_hash,
+                            .run = state,
+                            .folder = folder.state()});
+    folder.keep();
 }
 
 Checkpoint read_checkpoint(const std::string& file) {
@@ -134,7 +116,7 @@ Checkpoint read_checkpoint(const std::string& file) {
 
 void check_same_run(const std::string& file, const Checkpoint& checkpoint, const Scene& scene, bool certify_steps,
                     bool replay_hash) {
-    const std::string what = differences(nlohmann::json::parse(settings_text(scene)), nlohmann::json::parse(checkpoint.settings));
+    const std::string what = different_settings(settings_text(scene), checkpoint.settings, "in the checkpoint");
     if (!what.empty()) throw SceneError(file + ": is of another run and cannot be resumed: " + what);
     check_option(file, "--certify-steps", certify_steps, checkpoint.certify_steps);
     check_option(file, "--replay-hash", replay_hash, checkpoint.replay_hash);

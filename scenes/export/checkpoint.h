@@ -18,6 +18,14 @@ struct Checkpoint {
 /// Writes it as a whole file that survives a loss of power. Throws SceneError naming a file that cannot be written.
 void write_checkpoint(const std::string& file, const Checkpoint& checkpoint);
 
+/// What a run is asked for beside its scene.
+struct RunMarks {
+    bool certify_steps = false, replay_hash = false;
+};
+
+/// The checkpoint of a run in its folder, which then holds what is needed to go on. Throws like write_checkpoint.
+void save_run(const std::string& file, const Scene& scene, const RunState& state, const RunMarks& marks, RunFolder& folder);
+
 /// Throws SceneError naming the file where it is no checkpoint, of another version, cut off or damaged.
 Checkpoint read_checkpoint(const std::string& file);
 

@@ -101,6 +101,7 @@ void RunFolder::begin() {
     remove_earlier_run(folder_, writer_);
     remove_killed_run(folder_, writer_);
     remove_file(fs::path(folder_) / checkpoint_name);
+    remove_file(fs::path(folder_) / origin_name);
     steps_.emplace(folder_ + "/steps.csv");
 }
 
@@ -116,6 +117,7 @@ void RunFolder::begin_from(const FolderState& state, const std::string& other) {
     }
     for (const GrownFile& file : state.grown) writer_.files().go_on(other, file, here);
     remove_page(folder_);
+    if (!here) remove_file(fs::path(folder_) / origin_name);
     for (const char* name : {"report.json", "steps.csv"}) remove_file(fs::path(folder_) / name);
     for (const char* name : {"report.json", checkpoint_name}) remove_leftover(folder_, name);
     writer_.remove_from(static_cast<int>(state.frames.size()));

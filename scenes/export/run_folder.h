@@ -23,6 +23,9 @@ struct FolderState {
 /// The name of the checkpoint in a run's folder.
 constexpr const char* checkpoint_name = "checkpoint.percale";
 
+/// What a run that is kept (kept_run.h) follows from; every other run into the folder takes it away.
+constexpr const char* origin_name = "origin.json";
+
 /// The page of a run where nothing else is asked for, and what pages begin with.
 std::string page_in(const std::string& folder);
 constexpr std::string_view page_mark = "<!DOCTYPE html><!-- the page of a run, by percale -->";

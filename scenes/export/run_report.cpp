@@ -111,7 +111,8 @@ ordered_json expectation_list(std::span<const ExpectationResult> results) {
         ordered_json entry = {{"measure", result.expectation.measure},
                               {"value", result.value ? ordered_json(*result.value) : ordered_json(nullptr)},
                               {"limit", limit_text(result.expectation)},
-                              {"passed", result.passed}};
+                              {"passed", result.passed},
+                              {"text", result.text}};
         if (result.expectation.at) entry["at"] = *result.expectation.at;
         if (result.expectation.during) entry["during"] = *result.expectation.during;
         list.push_back(entry);

@@ -1,12 +1,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <thread>
 
 #include "common/whole_file.h"
 #include "export/junit.h"
+#include "export/kept_run.h"
 #include "export/reference_files.h"
 #include "percale/error.h"
 #include "program/commands.h"
@@ -27,6 +32,8 @@ struct CheckOptions {
     CommonOptions common;
     std::vector<std::string> scenes;
     std::string junit;
+    std::string resume;   // folder in which results are kept; "": none are
+    std::string program;  // program_mark, with `resume`
     int jobs = 1;
     bool update = false;
 };
@@ -37,8 +44,16 @@ struct Outcome {
     std::string ending;                    // "finished: 60 steps, 1 s"
     std::vector<std::string> start_moves;  // what was moved out of obstacles
     std::vector<std::string> updates;      // files of `matches` that were written
-    std::uint64_t state_hash = 0;          // of the last state
+    std::string state_hash;                // of the last state
+    bool kept = false;                     // from an earlier call
 };
+
+/// A scene's folder in that of --resume: its path in one word.
+std::string kept_folder(const CheckOptions& options, const std::string& file) {
+    std::string name = std::filesystem::path(file).lexically_normal().replace_extension().string();
+    std::ranges::replace(name, '/', '_');
+    return options.resume + "/" + name;
+}
 
 std::string rounded_text(double value) {
     char text[32];
@@ -46,27 +61,67 @@ std::string rounded_text(double value) {
     return text;
 }
 
+std::string hash_text(std::uint64_t hash) {
+    char text[24];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+void judge_outcome(Outcome& outcome, RunStatus status) {
+    outcome.exit_code = outcome.scene.failed() > 0 ? not_as_expected : all_well;
+    if (status == RunStatus::stopped) outcome.exit_code = stopped_by_signal;
+}
+
+/// What an earlier call found.
+void take_kept(Outcome& outcome, const KeptRun& kept, std::span<const Expectation> expected) {
+    const EndedRun& run = *kept.ended();
+    outcome.kept = true;
+    outcome.ending =
+        "kept: " + run.status + " earlier: " + std::to_string(run.steps) + " steps, " + rounded_text(run.simulated_s) + " s";
+    outcome.scene.reason = run.reason;
+    outcome.scene.wall_s = run.wall_s;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        outcome.scene.expectations.push_back(
+            {.expectation = expected[i], .value = {}, .passed = run.expectations[i].passed, .text = run.expectations[i].text});
+    outcome.state_hash = kept.state_hash();
+    judge_outcome(outcome, RunStatus::finished);
+}
+
+/// "finished: 60 steps, 1 s, resumed at 0.5 s; run again: ball.obj has changed"
+std::string ending_text(const RunResult& result, const std::string& why_again) {
+    std::string text = std::string(status_word(result.status)) + ": " + std::to_string(result.totals.steps) + " steps, " +
+                       rounded_text(result.totals.simulated_s) + " s";
+    if (!result.resumed_at.empty()) text += ", resumed at " + rounded_text(result.resumed_at.back()) + " s";
+    return why_again.empty() ? text : text + "; run again: " + why_again;
+}
+
 void run_into(Outcome& outcome, const CheckOptions& check, const StopSignals& signals) {
     const CommonOptions& options = check.common;
     Scene scene = load_scene(outcome.scene.file, scene_overrides(options));
+    const std::vector<Expectation> expected = expected_of(scene, options);
+    std::optional<KeptRun> kept;
+    if (!check.resume.empty())
+        kept.emplace(kept_folder(check, outcome.scene.file), scene, RunMarks{options.certify_steps, options.replay_hash},
+                     check.program);
+    if (kept && kept->ended() && kept->ended()->expectations.size() == expected.size())
+        return take_kept(outcome, *kept, expected);
     if (check.jobs > 1 && scene.step.threads == 0) scene.step.threads = 1;  // the jobs use the cores
     BuiltScene built = build_scene(scene);
     for (const StartMove& move : built.simulation.start_repair()) outcome.start_moves.push_back(start_move_text(move));
     RunHooks hooks;
     hooks.stop_asked = [&] { return signals.asked(); };
-    const RunResult result = run_scene(built, hooks, {.certify_steps = options.certify_steps, .compare = !check.update});
+    const RunResult result = kept ? kept->run(built, hooks.stop_asked, expected)
+                                  : run_scene(built, hooks, {.certify_steps = options.certify_steps, .compare = !check.update});
     outcome.scene.reason = result.reason;
-    outcome.ending = std::string(status_word(result.status)) + ": " + std::to_string(result.totals.steps) + " steps, " +
-                     rounded_text(result.totals.simulated_s) + " s";
+    outcome.ending = ending_text(result, kept ? kept->why_again() : "");
     outcome.scene.wall_s = result.totals.wall_s;
-    outcome.scene.expectations = judge(expected_of(built.scene, options), measure_values(result.measures), result.timed);
+    outcome.scene.expectations = judge(expected, measure_values(result.measures), result.timed);
     if (check.update) {
         std::erase_if(outcome.scene.expectations, [](const ExpectationResult& r) { return r.expectation.measure == "matches"; });
         if (result.status == RunStatus::finished) outcome.updates = update_references(built, result);
     }
-    outcome.state_hash = built.simulation.state_hash();
-    outcome.exit_code = outcome.scene.failed() > 0 ? not_as_expected : all_well;
-    if (result.status == RunStatus::stopped) outcome.exit_code = stopped_by_signal;
+    outcome.state_hash = hash_text(built.simulation.state_hash());
+    judge_outcome(outcome, result.status);
 }
 
 Outcome check_scene(const std::string& file, const CheckOptions& options, const StopSignals& signals) {
@@ -96,7 +151,7 @@ void print_outcome(const CheckOptions& options, const Outcome& outcome) {
         std::printf("  no expectations: the scene passes if its run finishes\n");
     for (const ExpectationResult& expectation : scene.expectations) std::printf("  %s\n", expectation.text.c_str());
     for (const std::string& update : outcome.updates) std::printf("  %s\n", update.c_str());
-    if (options.common.replay_hash) std::printf("  state_hash %016llx\n", static_cast<unsigned long long>(outcome.state_hash));
+    if (options.common.replay_hash) std::printf("  state_hash %s\n", outcome.state_hash.c_str());
     std::fflush(stdout);
 }
 
@@ -154,26 +209,42 @@ void check_options(const CheckOptions& options) {
     if (!options.junit.empty()) const WholeFile probe(options.junit);  // found before the work, not after it
     if (options.jobs < 1 || options.jobs > 256)
         throw SceneError("--jobs " + std::to_string(options.jobs) + " is outside the allowed range 1 ... 256");
+    if (options.resume.empty()) return;
+    const OutputFolder probe(options.resume);
+    std::map<std::string, std::string> scene_of;
+    for (const std::string& file : options.scenes) {
+        const auto [entry, added] = scene_of.try_emplace(kept_folder(options, file), file);
+        if (!added)
+            throw SceneError("--resume " + options.resume + ": " + entry->second + " and " + file +
+                             " would be kept in one folder, " + entry->first);
+    }
 }
 
-int check(const CheckOptions& options) {
+int check(CheckOptions options) {
     check_options(options);
+    if (!options.resume.empty()) {
+        options.common.frames = "none";
+        options.program = program_mark();
+    }
     const StopSignals signals;
     const std::vector<Outcome> outcomes = Checker(options, signals).check_all();
     std::vector<CheckedScene> scenes;
-    std::size_t finished = 0, expectations = 0, passed = 0;
+    std::size_t finished = 0, expectations = 0, passed = 0, kept = 0;
     int worst = all_well;
     for (const Outcome& outcome : outcomes) {
         scenes.push_back(outcome.scene);
         finished += outcome.scene.finished() ? 1 : 0;
+        kept += outcome.kept ? 1 : 0;
         expectations += outcome.scene.expectations.size();
         passed += static_cast<std::size_t>(outcome.scene.passed());
         worst = std::max(worst, outcome.exit_code);
     }
     if (!options.junit.empty()) write_whole_file(options.junit, junit_text(scenes));
     if (!options.common.quiet)
-        std::printf("%zu of %zu scenes finished, %zu of %zu expectations passed\n", finished, scenes.size(), passed,
-                    expectations);
+        std::printf("%zu of %zu scenes finished, %zu of %zu expectations passed%s\n", finished, scenes.size(), passed,
+                    expectations, options.resume.empty() ? "" : ("; " + std::to_string(kept) + " kept from earlier").c_str());
+    if (signals.asked() && !options.resume.empty())
+        std::fprintf(stderr, "percale: %s: stopped; the same command goes on\n", options.resume.c_str());
     return worst;
 }
 
@@ -182,11 +253,18 @@ int check(const CheckOptions& options) {
 void add_check_command(CLI::App& program, Action& action) {
     auto options = std::make_shared<CheckOptions>();
     CLI::App* command = program.add_subcommand("check", "Run scenes and compare them with their [expect] sections");
-    command->footer("Example: percale check data/scenes/*.toml --jobs 2");
+    command->footer(
+        "Examples: percale check data/scenes/*.toml --jobs 2\n          percale check data/scenes/*.toml --resume checked");
     command->add_option("SCENE", options->scenes, "Scene files (TOML)")->required();
     command->add_option("--junit", options->junit, "Also write the outcome as JUnit XML")->type_name("FILE");
     command->add_flag("--update", options->update,
                       "Write the files that `matches` names from this run, instead of comparing with them");
+    command
+        ->add_option("--resume", options->resume,
+                     "Keep results in DIR, and take up what is there: scenes that have ended are not run again, one that was "
+                     "interrupted goes on; what was made from other files or by another program is run anew")
+        ->type_name("DIR")
+        ->excludes("--update");
     command->add_option("--jobs", options->jobs, "Scenes run at a time (default 1)")->type_name("N");
     add_common_options(*command, options->common);
     command->callback([options, &action] { action = [options] { return check(*options); }; });

@@ -11,7 +11,6 @@
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "export/checkpoint.h"
-#include "export/run_settings.h"
 #include "format/expectations.h"
 #include "meshes/obj_file.h"
 #include "page/run_page.h"
@@ -136,16 +135,6 @@ int verdict(const RunOptions& options, const RunResult& result, std::span<const 
     return not_as_expected;
 }
 
-void save(const RunOptions& options, const Scene& scene, const RunState& state, RunFolder& folder) {
-    const Checkpoint checkpoint{.settings = settings_text(scene),
-                                .certify_steps = options.common.certify_steps,
-                                .replay_hash = options.common.replay_hash,
-                                .run = state,
-                                .folder = folder.state()};
-    write_checkpoint(options.folder + "/" + checkpoint_name, checkpoint);
-    folder.keep();
-}
-
 void leave_page(const RunOptions& options) {
     const std::string file = page_in(options.folder);
     const PageSummary page = write_run_page(options.folder, file);
@@ -175,7 +164,10 @@ int run(RunOptions options) {
         bar.show(simulation.time());
     };
     hooks.stop_asked = [&] { return signals.asked(); };
-    if (interval > 0.0) hooks.checkpoint = [&](const RunState& state) { save(options, built.scene, state, folder); };
+    const std::string checkpoint = options.folder + "/" + checkpoint_name;
+    const RunMarks marks{options.common.certify_steps, options.common.replay_hash};
+    if (interval > 0.0)
+        hooks.checkpoint = [&](const RunState& state) { save_run(checkpoint, built.scene, state, marks, folder); };
     const RunResult result = run_scene(built, hooks,
                                        {.certify_steps = options.common.certify_steps,
                                         .checkpoint_every = interval,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "common/own_program.h"
 #include "common/text.h"
 #include "common/whole_file.h"
 #include "percale/error.h"
@@ -29,13 +30,6 @@ struct SweepOptions {
     int jobs = 1;
     bool slurm = false, collect = false, quiet = false;
 };
-
-std::string own_path() {
-    std::error_code error;
-    const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (error) throw SceneError("percale sweep: the program's own path cannot be read: " + error.message());
-    return path.string();
-}
 
 /// A study file, or the folder of a study that was begun.
 struct OpenStudy {
@@ -73,7 +67,7 @@ std::vector<std::size_t> wanted_runs(const SweepOptions& options, const OpenStud
 }
 
 void write_batch_files(const OpenStudy& open) {
-    const BatchFiles files = batch_files(open.study, open.folder, own_path());
+    const BatchFiles files = batch_files(open.study, open.folder, own_program());
     write_whole_file(open.folder.file("slurm.sh"), files.slurm);
     write_whole_file(open.folder.file("Makefile"), files.makefile);
     write_whole_file(open.folder.file("commands.txt"), files.commands);
@@ -95,7 +89,7 @@ std::string output_of(const std::string& command) {
 int submit(const SweepOptions& options, const OpenStudy& open) {
     const std::string script = open.folder.file("slurm.sh");
     const std::string job = output_of("sbatch --parsable " + shell_word(script));
-    const std::string collect = shell_word(own_path()) + " sweep " +
+    const std::string collect = shell_word(own_program()) + " sweep " +
                                 shell_word(std::filesystem::absolute(open.folder.path()).string()) + " --collect --quiet";
     const std::string after =
         output_of("sbatch --parsable --output=/dev/null --dependency=afterany:" + job + " --wrap " + shell_word(collect));
@@ -141,7 +135,7 @@ int sweep(const SweepOptions& options) {
     ProgressBar bar(!options.quiet, static_cast<double>(runs.size()), {"runs", 0});
     std::vector<std::size_t> failed;
     double ended = 0.0;
-    StudyWork work{.program = own_path(), .jobs = options.jobs, .ended = {}, .stop_asked = {}};
+    StudyWork work{.program = own_program(), .jobs = options.jobs, .ended = {}, .stop_asked = {}};
     work.ended = [&](const WorkerEnd& end) {
         if (!open.folder.is_done(end.run) && !signals.asked()) failed.push_back(end.run);
         bar.show(++ended);

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "common/whole_file.h"
+#include "export/kept_run.h"
 #include "percale/error.h"
 
 namespace percale::scenes {
@@ -30,12 +30,7 @@ void StudyFolder::begin(const Study& study) const {
             path_ + ": holds another study, or this one before its file or its scene was changed; name another folder with -o");
 }
 
-bool StudyFolder::is_done(std::size_t run) const {
-    std::ifstream in(folder_of(run) + "/report.json");
-    if (!in) return false;
-    const auto json = nlohmann::json::parse(in, nullptr, false);
-    return json.is_object() && json.value("status", "") != "stopped";
-}
+bool StudyFolder::is_done(std::size_t run) const { return ended_run(folder_of(run)).has_value(); }
 
 std::vector<std::size_t> StudyFolder::left(const Study& study) const {
     std::vector<std::size_t> runs;

@@ -83,6 +83,41 @@ TEST_CASE("the owner bits name one triangle for every edge") {
     for (const auto& [edge, count] : owners) CHECK(count == 1);
 }
 
+TEST_CASE("an edge belongs to the first triangle that has it and runs as there, however the cloth is turned") {
+    const TriangleMesh cloth = cloth_number(GENERATE(0, 1, 2, 3, 6));
+    std::map<Edge, std::pair<int, std::array<int, 2>>> first;  // triangle, vertices
+    for (int t = 0; t < static_cast<int>(cloth.triangles.size()); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const std::array<int, 2> ends{cloth.triangles[t][k], cloth.triangles[t][(k + 1) % 3]};
+            first.try_emplace(std::minmax(ends[0], ends[1]), t, ends);
+        }
+    }
+    std::map<Edge, std::vector<std::pair<int, int>>> sides;  // triangle, corner off the edge
+    for (int t = 0; t < static_cast<int>(cloth.triangles.size()); ++t) {
+        const Triangle& x = cloth.triangles[t];
+        for (int k = 0; k < 3; ++k) sides[std::minmax(x[k], x[(k + 1) % 3])].emplace_back(t, x[(k + 2) % 3]);
+    }
+    const Rotation about_y{0, 0, 1, 0}, any{0.5, 0.5, -0.1, 0.7};
+    for (const Rotation& turn : {Rotation{}, about_y, any}) {
+        const ClothClusters made = make_clusters(cloth.triangles, transform({.rotation = turn}, cloth.vertices));
+        for (const auto& [edge, owner] : first) {
+            const Triangle& t = cloth.triangles[owner.first];
+            const int k = static_cast<int>(std::find(t.begin(), t.end(), owner.second[0]) - t.begin());
+            CHECK((made.edge_owner_bits[owner.first] >> k & 1) == 1);
+        }
+        for (int t = 0; t < static_cast<int>(cloth.triangles.size()); ++t) {
+            for (int k = 0; k < 3; ++k) {
+                const auto& at = sides[std::minmax(cloth.triangles[t][k], cloth.triangles[t][(k + 1) % 3])];
+                REQUIRE(at.size() <= 2);
+                CHECK(made.across[t][k] == (at.size() < 2 ? -1 : at[0].first == t ? at[1].second : at[0].second));
+            }
+        }
+        for (const ClothCluster& cluster : made.clusters) {
+            for (const auto& ends : cluster.edges) CHECK(first.at(std::minmax(ends[0], ends[1])).second == ends);
+        }
+    }
+}
+
 TEST_CASE("a cluster of a sheet is a small patch of it") {
     const TriangleMesh sheet = make_grid(1.0, 1.0, 65, 65);
     const ClothClusters made = make_clusters(sheet.triangles, sheet.vertices);

@@ -285,6 +285,34 @@ TEST_CASE("an obstacle vertex under a cloth edge is reported by the triangle tha
     CHECK_FALSE(reported({3, 1, 0}, 5));
 }
 
+TEST_CASE("an obstacle vertex beside a cloth edge is one contact, whichever triangle owns the edge") {
+    const Obstacle spike = make({.vertices = {{0, 1, 0}, {0.1, 0, 0.1}, {-0.1, 0, 0.1}, {0, 0, -0.1}},
+                                 .triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}});
+    const Triangle left{0, 1, 2}, right{1, 0, 3};
+    Random random(91);
+    // Flat cloth, a ridge or a valley over the spike; the edge off it by `aside`.
+    for (int i = 0; i < 2000; ++i) {
+        const double aside = random.number(-0.3, 0.3), slope = i % 3 == 0 ? 0.0 : random.number(-0.5, 0.5);
+        const std::vector<Vec3> cloth{
+            {-1, 1.2, aside}, {1, 1.2, aside}, {0, 1.2 + slope, 1 + aside}, {0, 1.2 + slope, -1 + aside}};
+        std::array<int, 2> reports{0, 0};  // where the left one owns the edge, where the right one does
+        for (const bool left_owns : {true, false}) {
+            for (const bool of_left : {true, false}) {
+                const ContactPair pair{.kind = PairKind::face_vertex,
+                                       .cloth = of_left ? left : right,
+                                       .edge_bits = static_cast<unsigned char>(of_left == left_owns ? 7 : 6),
+                                       .across = {of_left ? 3 : 2, -1, -1},
+                                       .feature = 0};
+                reports[left_owns ? 0 : 1] += pair_contact(pair, cloth, spike, 0.0).local_minimum ? 1 : 0;
+            }
+        }
+        CAPTURE(aside, slope);
+        CHECK(reports[0] == reports[1]);
+        // Above a spike both slopes of a valley, which is a roof seen from below, can be nearest.
+        CHECK((reports[0] == 1 || (reports[0] == 2 && slope < 0.0)));
+    }
+}
+
 TEST_CASE("the four moving points of a pair start and end where cloth and obstacle do") {
     Random random(100);
     const Obstacle obstacle = moving_obstacle(2, random);

@@ -122,23 +122,28 @@ std::vector<Way> default_ways() {
             {"woven, on a ball", {.settings = {}, .self_contact = true, .bends = true}, 60}};
 }
 
-/// Solved as exactly as doubles allow.
+/// Solved as exactly as doubles allow. Multigrid coarsens in the order in which a free mesh lies in memory, which follows the
+/// axes. Another path of Newton finds other contacts on its way, which then stand until the step ends: it is no rounding.
 StepSettings tight(Scheme scheme, ContactResponse response = ContactResponse::penalty) {
-    return {.scheme = scheme, .newton_tolerance = 1e-11, .newton_iterations = 500, .contact_response = response};
+    return {.scheme = scheme,
+            .newton_tolerance = 1e-11,
+            .newton_iterations = 500,
+            .linear_solver = LinearSolver::cg,
+            .contact_response = response};
 }
 
 struct TightWay : Way {
     double limit = 1e-9;  // relative to the size of the sheet
 };
 
-/// Rounds of projected contact end when the multipliers are known to 2e-4 of the thickness; which round that is, rounding
-/// decides.
+/// In contact rounding grows tenfold in 0.1 s. Rounds of projected contact end when the multipliers are known to 2e-4 of the
+/// thickness; which round that is, rounding decides.
 std::vector<TightWay> tight_ways() {
     return {{{"hanging, backward Euler", {.settings = tight(Scheme::backward_euler), .ball = false}, 30}},
             {{"hanging, TR-BDF2", {.settings = tight(Scheme::tr_bdf2), .ball = false}, 30}},
-            {{"on a ball, penalty", {.settings = tight(Scheme::backward_euler)}, 20}},
-            {{"on a ball, projection", {.settings = tight(Scheme::backward_euler, ContactResponse::projection)}, 20}, 1e-4},
-            {{"on a ball, TR-BDF2", {.settings = tight(Scheme::tr_bdf2)}, 10}}};
+            {{"on a ball, penalty", {.settings = tight(Scheme::backward_euler)}, 20}, 1e-8},
+            {{"on a ball, projection", {.settings = tight(Scheme::backward_euler, ContactResponse::projection)}, 20}, 1e-6},
+            {{"on a ball, TR-BDF2", {.settings = tight(Scheme::tr_bdf2)}, 10}, 1e-8}};
 }
 
 constexpr double size = 0.4;  // m, of the sheet, to which differences are relative
@@ -158,7 +163,8 @@ TEST_CASE("Lengths in other units, times a power of two, give the same bits", "[
     }
 }
 
-TEST_CASE("A scene in millimetres, turned or renumbered moves the same to 1e-9 within 0.5 s, contact included", "[law]") {
+TEST_CASE("A scene in millimetres, turned or renumbered moves the same: to 1e-9 for 0.5 s, in contact to 1e-8 for 0.3 s",
+          "[law]") {
     for (const TightWay& way : tight_ways()) {
         CAPTURE(way.name);
         const std::vector<Vec3> plain = run(way.variant, way.steps);
@@ -169,8 +175,7 @@ TEST_CASE("A scene in millimetres, turned or renumbered moves the same to 1e-9 w
         const auto difference = [&](const Variant& variant) { return largest_difference(plain, run(variant, way.steps)) / size; };
         const std::string name = std::string(", ") + way.name + ": relative difference";
         check_law("lengths in mm" + name, difference(small), way.limit);
-        // Which of two triangles reports a contact on their common edge depends on the axes.
-        if (!way.variant.ball) check_law("scene turned" + name, difference(turned), way.limit);
+        check_law("scene turned" + name, difference(turned), way.limit);
         check_law("scene renumbered" + name, difference(mixed), way.limit);
     }
 }

@@ -228,10 +228,13 @@ TEST_CASE("expectations are listed with measure, value, limit and outcome") {
                         .place = {}};
     good.value = 0.25;
     good.passed = true;
+    good.text = "largest_strain 0.25, expected < 0.3: passed";
     unmeasured.expectation.measure = "matches";
     const ordered_json list = report_of(built(falling_sheet()), RunResult{}, {}, {good, unmeasured}).at("expectations");
     REQUIRE(list.size() == 2);
-    CHECK(list[0] == ordered_json{{"measure", "largest_strain"}, {"value", 0.25}, {"limit", "< 0.3"}, {"passed", true}});
+    CHECK(
+        list[0] ==
+        ordered_json{{"measure", "largest_strain"}, {"value", 0.25}, {"limit", "< 0.3"}, {"passed", true}, {"text", good.text}});
     CHECK(list[1].at("value").is_null());
     CHECK(list[1].at("passed") == false);
 }

@@ -1,4 +1,6 @@
-#include "tests/scenes/program/run_program.h"
+#include <filesystem>
+
+#include "tests/scenes/program/started_run.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
@@ -10,6 +12,17 @@ namespace {
 
 bool ends_with(const std::string& text, const std::string& end) {
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// With what differs from call to call taken out: how each scene's result came about.
+std::string results(std::string text) {
+    for (const std::string part : {"kept: finished earlier", ", resumed at", "; run again: "}) {
+        for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part)) {
+            const std::size_t end = part.front() == 'k' ? at + part.size() : text.find('\n', at);
+            text.replace(at, end - at, part.front() == 'k' ? "finished" : "");
+        }
+    }
+    return text.substr(0, text.rfind("; "));
 }
 
 }  // namespace
@@ -136,4 +149,110 @@ TEST_CASE("with --certify-steps two more expectations are judged: no crossing an
     CHECK(run.out.find("intersections_at_every_step 0, expected = 0: passed") != std::string::npos);
     CHECK(run.out.find("deepest_penetration_at_every_step 0, expected = 0: passed") != std::string::npos);
     CHECK(ends_with(run.out, "1 of 1 scenes finished, 3 of 3 expectations passed\n"));
+}
+
+TEST_CASE("with --resume what has ended is kept, verdicts, hash and JUnit too, and only what is missing is run") {
+    const TestFolder folder;
+    folder.write("good.toml", sheet_on_box() + "[expect]\nintersections = 0\nsmallest_distance = { above = 0.001 }\n");
+    folder.write("bad.toml",
+                 falling_sheet() + "[expect]\nspeed_at_end = { below = 0.05 }\nsmallest_distance = { below = 1.0 }\n");
+    const std::vector<std::string> two = {"check", "good.toml", "bad.toml", "--replay-hash", "--certify-steps"};
+    const auto check = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), two.begin(), two.end());
+        return run_program(more, folder.path());
+    };
+    const ProgramRun plain = check({});
+    const ProgramRun first = check({"--resume", "kept", "--junit", "one.xml"});
+    CHECK(first.exit_code == 1);
+    CHECK(ends_with(first.out, "; 0 kept from earlier\n"));
+    CHECK(results(first.out) + "\n" == plain.out);
+    const ProgramRun second = check({"--resume", "kept", "--junit", "two.xml", "--jobs", "2"});
+    CHECK(second.exit_code == 1);
+    CHECK(second.error == first.error);
+    CHECK(second.out.find("good.toml: kept: finished earlier: 12 steps, 0.2 s\n") != std::string::npos);
+    CHECK(ends_with(second.out, "; 2 kept from earlier\n"));
+    CHECK(results(second.out) == results(first.out));
+    CHECK(folder.read("two.xml") == folder.read("one.xml"));
+    std::filesystem::remove_all(folder.path("kept/bad"));
+    const ProgramRun third = check({"--resume", "kept"});
+    CHECK(third.out.find("bad.toml: finished: 10 steps") != std::string::npos);
+    CHECK(ends_with(third.out, "; 1 kept from earlier\n"));
+}
+
+TEST_CASE("with --resume a scene is run again, and says why, where a file, a setting or an option has changed") {
+    const TestFolder folder;
+    const std::string mesh = "v 0 2 0\nv 0.3 2 0\nv 0 2 0.3\nv 0.3 2.05 0.3\nf 1 3 2\nf 2 3 4\n";
+    std::string text = falling_sheet();
+    text.replace(text.find("grid = "), text.find("\n", text.find("grid = ")) - text.find("grid = "), "mesh = \"sheet.obj\"");
+    text.replace(text.find("shear = 0.5, "), 13, "");
+    folder.write("sheet.obj", mesh);
+    folder.write("a.toml", text);
+    const auto check = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"check", "a.toml", "--resume", "kept"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramRun run = run_program(words, folder.path());
+        CHECK(run.exit_code == 0);
+        return run.out.substr(0, run.out.find('\n'));
+    };
+    CHECK(check({}) == "a.toml: finished: 10 steps, 0.1 s");
+    CHECK(check({"--threads", "2"}) == "a.toml: kept: finished earlier: 10 steps, 0.1 s");
+    folder.write("sheet.obj", mesh + "# a comment\n");
+    CHECK(check({}) == "a.toml: finished: 10 steps, 0.1 s; run again: sheet.obj has changed");
+    CHECK(check({}) == "a.toml: kept: finished earlier: 10 steps, 0.1 s");
+    CHECK(check({"--set", "duration=0.05"}) == "a.toml: finished: 5 steps, 0.05 s; run again: duration is 0.05, was 0.1");
+    CHECK(check({"--set", "duration=0.05", "--certify-steps"}) ==
+          "a.toml: finished: 5 steps, 0.05 s; run again: it was made without --certify-steps");
+    folder.write("a.toml", text + "# a comment\n");
+    CHECK(check({"--set", "duration=0.05", "--certify-steps"}) ==
+          "a.toml: finished: 5 steps, 0.05 s; run again: a.toml has changed");
+}
+
+TEST_CASE("a check that is killed goes on with --resume: what had ended is kept, the scene in its midst resumed, the rest run") {
+    const TestFolder folder;
+    const std::string expect = "[expect]\nspeed_at_end = { below = 10.0 }\n";
+    folder.write("short.toml", falling_sheet() + expect);
+    folder.write("long.toml", falling_sheet() + expect);
+    folder.write("later.toml", falling_sheet() + expect);
+    // The one in the middle is long enough to be interrupted.
+    std::string text = folder.read("long.toml");
+    text.replace(text.find("time_step = 0.01"), 16, "time_step = 5e-6");
+    folder.write("long.toml", text);
+    const std::vector<std::string> words = {"check", "short.toml", "long.toml", "later.toml", "--replay-hash"};
+    std::vector<std::string> resumed = words;
+    resumed.insert(resumed.end(), {"--resume", "kept"});
+    for (const int signal : {SIGKILL, SIGTERM}) {
+        CAPTURE(signal);
+        std::filesystem::remove_all(folder.path("kept"));
+        {
+            StartedRun run(folder, resumed);
+            run.wait_for(folder, "kept/long/checkpoint.percale");
+            CHECK(run.end(signal) == (signal == SIGKILL ? -1 : 130));
+        }
+        CHECK(folder.holds("kept/short/report.json"));
+        CHECK(folder.holds("kept/long/report.json") == (signal == SIGTERM));
+        const ProgramRun again = run_program(resumed, folder.path());
+        CHECK(again.exit_code == 0);
+        CHECK(again.out.find("short.toml: kept: finished earlier: 10 steps") != std::string::npos);
+        CHECK(again.out.find("long.toml: finished: 20000 steps, 0.1 s, resumed at 0.") != std::string::npos);
+        CHECK(again.out.find("later.toml: finished: 10 steps, 0.1 s") != std::string::npos);
+        CHECK(results(again.out) + "\n" == run_program(words, folder.path()).out);
+        CHECK_FALSE(folder.holds("kept/long/checkpoint.percale"));
+    }
+}
+
+TEST_CASE("what check --resume cannot keep is refused before anything is run") {
+    const TestFolder folder;
+    folder.write("a_b.toml", falling_sheet());
+    std::filesystem::create_directories(folder.path("a"));
+    folder.write("a/b.toml", falling_sheet());
+    CHECK(refused(run_program({"check", "a_b.toml", "a/b.toml", "--resume", "kept"}, folder.path()),
+                  "a_b.toml and a/b.toml would be kept in one folder, kept/a_b"));
+    CHECK(refused(run_program({"check", "a_b.toml", "--resume", "a_b.toml"}, folder.path()), "a_b.toml"));
+    CHECK(run_program({"check", "a_b.toml", "--resume", "kept", "--update"}, folder.path()).exit_code == 2);
+    CHECK_FALSE(folder.holds("kept"));
+    const ProgramRun wrong = run_program({"check", "absent.toml", "a_b.toml", "--resume", "kept"}, folder.path());
+    CHECK(wrong.exit_code == 2);
+    CHECK(wrong.out.find("absent.toml: did not run\n") != std::string::npos);
+    CHECK(wrong.out.find("a_b.toml: finished") != std::string::npos);
+    CHECK_FALSE(folder.holds("kept/absent"));
 }

@@ -1,0 +1,186 @@
+#include "export/kept_run.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "bodies/mesh_sequence.h"
+#include "common/own_program.h"
+#include "common/whole_file.h"
+#include "export/run_folder.h"
+#include "export/run_settings.h"
+#include "format/expectations.h"
+#include "garment/cloth_shape.h"
+#include "measures/measures.h"
+#include "percale/error.h"
+#include "percale/saved_state.h"
+#include "tolerances.h"
+
+namespace percale::scenes {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+namespace {
+
+std::string checksum_text(const std::string& file) {
+    char text[24];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(checksum(read_bytes(file))));
+    return text;
+}
+
+void add_files(const Scene& scene, const ObstacleSpec& obstacle, std::set<std::string>& names) {
+    names.insert({obstacle.cache, obstacle.start_mesh});
+    if (!obstacle.frames) {
+        names.insert(obstacle.mesh);
+        return;
+    }
+    const FramePattern pattern = frame_pattern(path_beside(scene, obstacle.mesh));
+    for (int frame = (*obstacle.frames)[0]; frame <= (*obstacle.frames)[1]; ++frame) {
+        names.insert(fs::absolute(pattern.name_of(frame)).lexically_normal().string());
+    }
+}
+
+/// Names as the scene has them, or absolute.
+std::set<std::string> named_files(const Scene& scene) {
+    std::set<std::string> names;
+    for (const ClothSpec& cloth : scene.cloths) {
+        names.insert({cloth.mesh, cloth.pattern});
+        if (cloth.rest != "uv") names.insert(cloth.rest);
+    }
+    for (const ObstacleSpec& obstacle : scene.obstacles) add_files(scene, obstacle, names);
+    for (const SeamSpec& seam : scene.seams) {
+        if (seam.file != "mesh") names.insert(seam.file);
+    }
+    for (const Expectation& expectation : scene.expectations) names.insert(expectation.file);
+    names.erase("");
+    return names;
+}
+
+/// What is in an origin beside its settings, the first difference in words.
+std::string changed_mark(const ordered_json& now, const ordered_json& before) {
+    if (now.at("program") != before.at("program")) return "it was made by another program";
+    for (const char* option : {"--certify-steps", "--replay-hash"}) {
+        const bool asked = now.at(option);
+        if (asked != before.at(option).get<bool>()) return std::string("it was made ") + (asked ? "without " : "with ") + option;
+    }
+    for (const auto& [file, sum] : now.at("files").items()) {
+        if (!before.at("files").contains(file) || before.at("files").at(file) != sum) return file + " has changed";
+    }
+    return now.at("files") == before.at("files") ? "" : "it read other files";
+}
+
+}  // namespace
+
+std::optional<EndedRun> ended_run(const std::string& folder) {
+    std::ifstream in(folder + "/report.json");
+    if (!in) return std::nullopt;
+    try {
+        const auto json = nlohmann::json::parse(in);
+        EndedRun run;
+        run.status = json.at("status");
+        run.reason = json.value("reason", "");
+        run.steps = json.value("steps", 0);
+        run.simulated_s = json.value("simulated_s", 0.0);
+        run.wall_s = json.value("wall_s", 0.0);
+        // Reports of earlier builds have no texts.
+        for (const auto& one : json.value("expectations", nlohmann::json::array()))
+            run.expectations.push_back({one.at("passed"), one.value("text", "")});
+        if (run.status == status_word(RunStatus::stopped)) return std::nullopt;
+        return run;
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
+}
+
+std::string program_mark() { return std::string(PERCALE_VERSION) + " " + checksum_text(own_program()); }
+
+std::string run_origin(const Scene& scene, const RunMarks& marks, const std::string& program) {
+    ordered_json files = {{fs::path(scene.file).filename().string(), checksum_text(scene.file)}};
+    for (const std::string& name : named_files(scene)) {
+        const std::string path = path_beside(scene, name);
+        files[name] = fs::is_regular_file(path) ? checksum_text(path) : "missing";
+    }
+    const ordered_json json = {{"program", program},
+                               {"--certify-steps", marks.certify_steps},
+                               {"--replay-hash", marks.replay_hash},
+                               {"files", files},
+                               {"settings", ordered_json::parse(settings_text(scene))}};
+    return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string changed_origin(const std::string& now, const std::string& before) {
+    try {
+        const ordered_json here = ordered_json::parse(now), there = ordered_json::parse(before);
+        const std::string settings = different_settings(here.at("settings").dump(), there.at("settings").dump(), "was");
+        return settings.empty() ? changed_mark(here, there) : settings;
+    } catch (const ordered_json::exception&) {
+        return std::string(origin_name) + " is damaged";
+    }
+}
+
+KeptRun::KeptRun(std::string folder, const Scene& scene, const RunMarks& marks, const std::string& program)
+    : folder_(std::move(folder)), origin_(run_origin(scene, marks, program)), marks_(marks) {
+    look(scene);
+}
+
+void KeptRun::look(const Scene& scene) {
+    const std::string origin = folder_ + "/" + origin_name, checkpoint = folder_ + "/" + checkpoint_name;
+    if (!fs::exists(origin)) {
+        for (const std::string& other : {folder_ + "/report.json", checkpoint})
+            if (fs::exists(other)) throw SceneError(other + ": is of a run that is not kept here; name another folder");
+        return;
+    }
+    why_again_ = changed_origin(origin_, read_text(origin));
+    if (!why_again_.empty()) return;
+    ended_ = ended_run(folder_);
+    if (ended_ || !fs::exists(checkpoint)) return;
+    try {
+        from_ = read_checkpoint(checkpoint);
+        check_same_run(checkpoint, *from_, scene, marks_.certify_steps, marks_.replay_hash);
+    } catch (const SceneError& error) {
+        from_.reset();
+        why_again_ = error.what();
+    }
+}
+
+std::string KeptRun::state_hash() const {
+    std::ifstream in(folder_ + "/steps.csv");
+    std::string header, line, last, cell;
+    std::getline(in, header);
+    while (std::getline(in, line)) last = line;
+    std::istringstream names(header), cells(last);
+    for (std::string name; std::getline(names, name, ',') && std::getline(cells, cell, ',');) {
+        if (name == "state_hash") return cell;
+    }
+    return "";
+}
+
+RunResult KeptRun::run(BuiltScene& built, const std::function<bool()>& stop_asked, std::span<const Expectation> expectations) {
+    const std::string checkpoint = folder_ + "/" + checkpoint_name;
+    RunFolder folder(folder_, built.scene, marks_.replay_hash);
+    RunHooks hooks;
+    hooks.begin = [&] {
+        if (from_) return folder.begin_from(from_->folder, folder_);
+        folder.begin();
+        write_whole_file(folder_ + "/" + origin_name, origin_);
+    };
+    hooks.frame = [&](const Frame& frame) { folder.add(frame); };
+    hooks.step = [&](const StepReport& report, const Simulation& simulation) { folder.add(report, simulation); };
+    hooks.stop_asked = stop_asked;
+    hooks.checkpoint = [&](const RunState& state) { save_run(checkpoint, built.scene, state, marks_, folder); };
+    RunSettings settings{.certify_steps = marks_.certify_steps};
+    settings.checkpoint_every = built.scene.latest_end() / checkpoints_of_kept_run;
+    settings.from = from_ ? &from_->run : nullptr;
+    settings.from_file = from_ ? checkpoint : "";
+    RunResult result = run_scene(built, hooks, settings);
+    folder.finish(built, result, judge(expectations, measure_values(result.measures), result.timed));
+    if (result.status != RunStatus::stopped) fs::remove(checkpoint);
+    return result;
+}
+
+}  // namespace percale::scenes
