@@ -141,6 +141,10 @@ constexpr double static_load_factor = 4.0;
 /// Share of h that an obstacle comes or goes in a step; from there on contact stiffness is all that of this step's length.
 /// Smaller: obstacles that hardly move throw up what lies on them. Larger: fast ones meet cloth that is too soft.
 constexpr double moving_obstacle_share = 0.2;
+/// Share of h within which contact in a span shorter than its step stops cloth at the speed of a moving obstacle. Stages of
+/// TR-BDF2 are as stiff as their length makes them where the obstacle moves by moving_obstacle_share. Smaller: adaptive steps
+/// throw cloth.
+constexpr double stopping_share = 1.0 / 12.0;
 
 /// h per second. Below it friction between cloths is a damper. Larger: cloth on cloth creeps. Smaller: it flickers between
 /// sticking and sliding.

@@ -368,4 +368,25 @@ TEST_CASE("In a shorter step the masses make no stiffer contact than in the step
     CHECK(stiffness_of(1e-2, 1e-3, 300.0) == Approx(0.5 * (0.01 / 1e-4 + 300.0)));
 }
 
+TEST_CASE("An obstacle that moves makes contact no stiffer than its speed asks for, however short the span") {
+    Touch touch(1);
+    touch.add_point(Vec3(0, 1, 0), 0.7 * h);
+    touch.step.gravity = Vec3::Zero();
+    touch.step.obstacle_rate = 100.0;  // steps of 0.01 s
+    touch.step.stiffness_dt = 1e-2;
+    const auto stiffness_of = [&](double dt, double moved) {
+        touch.rows.obstacle_displacement[0] = Vec3(0, moved, 0);
+        touch.step.dt = dt;
+        for (const int entry : {0, 3, 5}) touch.set_diagonal(entry, {0.01});
+        touch.evaluate();
+        return touch.terms.largest_stiffness;
+    };
+    const double at_speed = 0.5 * 0.01 * std::pow(100.0 * 0.5 * h / (h / 12.0), 2);  // half the thickness in a step
+    for (const double dt : {1e-5, 1e-7}) CHECK(stiffness_of(dt, 0.5 * h) == Approx(at_speed));
+    CHECK(stiffness_of(1e-7, -0.5 * h) == Approx(at_speed));
+    CHECK(stiffness_of(5e-3, 0.5 * h) == Approx(0.5 * 0.01 / 25e-6));
+    CHECK(stiffness_of(1e-2, 0.5 * h) == Approx(0.5 * 0.01 / 1e-4));
+    CHECK(stiffness_of(1e-7, 0.0) == Approx(0.5 * 0.01 / 1e-4));
+}
+
 }  // namespace percale::test

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "percale/percale.h"
@@ -99,6 +100,30 @@ TEST_CASE("The energy ledger closes through the halved steps of a sheet that a f
     CHECK(ledger.halved > 0);
     check_law("ledger of a sheet hit at 6 m/s, " + std::to_string(ledger.halved) + " steps halved: worst step", ledger.worst,
               1e-10);
+}
+
+TEST_CASE("Adaptive steps on a ball that moves gain no energy but the ball's work, and do not become ever shorter", "[law]") {
+    for (const ContactResponse response : {ContactResponse::penalty, ContactResponse::projection}) {
+        const StepSettings settings{.adaptive = true, .contact_response = response, .measure = StepMeasures::all};
+        Simulation simulation(settings, backends().back().make_detector());
+        const Fabric sheet{.area_density = 0.2, .springs = {.structural = 500.0, .shear = 200.0, .bend = 5.0}};
+        simulation.add_cloth(make_grid(0.4, 0.4, 9, 9), sheet, {.translation = {0.0, 0.14, 0.0}});
+        const ObstacleId ball = simulation.add_obstacle(make_sphere(0.12, 2), {}, {.friction = 0.4, .name = "ball"});
+        simulation.prepare();
+        double energy = simulation.energy().total(), gained = 0.0;
+        const double scale = 0.2 * 0.16 * 9.81 * 0.14;  // J, of the fall
+        for (int n = 1; n <= 40; ++n) {
+            simulation.move_obstacle(ball, {.translation = {0.004 * std::max(0, n - 15), 0.0, 0.0}});
+            const StepReport report = simulation.step();
+            REQUIRE(report.ok());
+            CAPTURE(static_cast<int>(response), n, report.parts, report.smallest_dt, report.contact_stiffness);
+            CHECK(report.smallest_dt > 1e-5);
+            gained = std::max(gained, report.energy.total() - energy - report.energy.work);
+            energy = report.energy.total();
+        }
+        CAPTURE(gained / scale);
+        CHECK(gained < 0.03 * scale);  // 16 times `scale` where stiffness went by the length of the span
+    }
 }
 
 }  // namespace percale::test
