@@ -75,7 +75,7 @@ struct Simulation::Implementation {
     std::vector<StartMove> start_moves;  // with the caller's numbers
     bool keeps_previous = false;
     std::vector<Vec3> previous;  // m, of each vertex before the last step; those that it has not are where they are now
-    std::size_t saved_size = 0;  // bytes, of the last state that was saved
+    SavedSize saved_size;
 
     /// Where a body stands among those of its kind.
     static int index_of(const GivenNumbers& numbers, int number, const std::string& kind) {
@@ -192,12 +192,7 @@ struct Simulation::Implementation {
         world.scene.settings = settings;
     }
 
-    /// Takes memory for somewhat more than the last state.
-    std::vector<std::byte> save() {
-        std::vector<std::byte> bytes = saved_world(world, moves_inside(), saved_size + saved_size / 8);
-        saved_size = bytes.size();
-        return bytes;
-    }
+    std::vector<std::byte> save() { return saved_world(world, moves_inside(), saved_size); }
 
     /// Simulation::save, or nothing where the detector cannot save its state.
     std::vector<std::byte> saved_if_possible() {

@@ -13,10 +13,10 @@
 
 /// Both are stepped here, and only here. Bullet moves the bodies along a step, the cloth meets them there, and what contact gave
 /// the cloth (Simulation::impulse_on) is taken from the bodies as the next step begins: momentum is kept, as far as the cloth's
-/// solver goes (5 % of what is exchanged may be missing at the default tolerance; 1e-10 of it at newton_tolerance = 1e-10).
-/// Bodies feel contact a step late. That is stable while a body is not much lighter than the cloth it touches, and dt^2 k is less
-/// than its mass, k being the stiffness with which that cloth holds it (N/m). Measured: a box on 0.012 kg of a trampoline comes
-/// to rest at 0.01 kg, and is thrown off at 0.003 kg.
+/// solver goes and without kinetic damping (5 % of what is exchanged may be missing at the default tolerance; 1e-10 of it at
+/// newton_tolerance = 1e-10). Bodies feel contact a step late. That is stable while a body is not much lighter than the cloth it
+/// touches, and dt^2 k is less than its mass, k being the stiffness with which that cloth holds it (N/m). Measured: a box on
+/// 0.012 kg of a trampoline comes to rest at 0.01 kg, and is thrown off at 0.003 kg.
 class BulletBodies {
 public:
     /// World and simulation must outlive this.

@@ -90,11 +90,11 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
         if (search.norm == 0.0 || !std::isfinite(search.norm)) return false;
         if (meets_tolerance(equations, report)) return true;
         if (report.newton_iterations >= std::min(settings.newton_iterations, space.iterations_left)) return false;
+        if (next_change_is_small(equations, error, search, report)) return true;
         if (report.newton_iterations > 0 && equations.arrived() && is_past(space.deadline)) {
             report.out_of_time = true;
             return false;
         }
-        if (next_change_is_small(equations, error, search, report)) return true;
 
         const double ratio = report.newton_iterations > 0 ? search.norm / search.last_norm : 1.0;
         const NewtonProgress progress{report.newton_iterations, ratio, report.residual};

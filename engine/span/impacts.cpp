@@ -142,7 +142,7 @@ private:
             const double part = scene_.script.free[vertex] * rows_.weight[row][k] / (scene_.model.mass[vertex] * motion.mobility);
             end_.velocities.add(vertex, part * change * n);
             if (rows_.obstacle[row] < 0 || impulses_.empty()) continue;
-            const Vec3 gain = move_.share * scene_.model.mass[vertex] * part * change * n;
+            const Vec3 gain = move_.weight * scene_.model.mass[vertex] * part * change * n;
             impulses_[rows_.obstacle[row]].take(end_.positions.at(vertex), gain);
         }
         // The impulse p = change/mobility changes the kinetic energy by p times the mean speed, of which the obstacle did its

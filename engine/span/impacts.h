@@ -17,8 +17,8 @@ struct StageMove {
     bool keeps_to_mean = false;
     /// m/s, where the scheme goes on with the change of the stage before, contact's included: what it starts from.
     const Vectors* extrapolated = nullptr;
-    /// How much of what the stage gives the span keeps: the second stage of TR-BDF2 goes on with the first one's change.
-    double share = 1.0;
+    /// By how much what the stage gives counts in the span: the second stage of TR-BDF2 goes on with the first one's change.
+    double weight = 1.0;
 };
 
 /// A vertex whose velocity has jumped.

@@ -221,7 +221,7 @@ private:
                 .length = first,
                 .impulse_time = first,
                 .keeps_to_mean = true,
-                .share = kept / first},
+                .weight = kept / first},
                middle);
         obstacle_work_ += obstacle_work(kept);
         set_end_acceleration(middle, work_.acceleration);
@@ -239,7 +239,7 @@ private:
     }
 
     ImpactFlows settle_with_impulses(const StageMove& move, ClothState& end) {
-        add_contact_impulses(move.contacts, move.share * move.impulse_time, end_.impulses);
+        add_contact_impulses(move.contacts, move.weight * move.impulse_time, end_.impulses);
         return settle_impacts(scene_, move, end, work_.impacts, end_.impulses);
     }
 

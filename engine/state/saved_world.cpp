@@ -18,7 +18,10 @@ namespace percale {
 
 namespace {
 
-SavedWorld state_of(const World& world, std::size_t expected) {
+/// States of one simulation are of much the same size.
+std::size_t with_room(std::size_t bytes) { return bytes + bytes / 32 + 64; }
+
+SavedWorld state_of(const World& world, SavedSize& size) {
     const StepScene& scene = world.scene;
     SavedWorld saved;
     saved.changed = world.changed;
@@ -46,9 +49,10 @@ SavedWorld state_of(const World& world, std::size_t expected) {
     saved.solver_is_set = world.work.newton.solver.is_for(scene.model);
     saved.solver = world.work.newton.solver.choice();
     if (!scene.detector) return saved;
-    StateWriter writer(expected);
+    StateWriter writer(with_room(size.detector));
     scene.detector->save(writer);
     saved.detector = writer.take();
+    size.detector = saved.detector.size();
     return saved;
 }
 
@@ -291,13 +295,16 @@ void restore_detector(const SavedWorld& saved, World& world) {
 
 }  // namespace
 
-std::vector<std::byte> saved_world(const World& world, const std::vector<StartMove>& start_moves, std::size_t expected) {
+std::vector<std::byte> saved_world(const World& world, const std::vector<StartMove>& start_moves, SavedSize& size) {
     const Identity identity = identity_of(world);
-    SavedWorld saved = state_of(world, expected);
+    SavedWorld saved = state_of(world, size);
     saved.start_moves = start_moves;
-    StateWriter writer = begin_sealed(expected);
+    StateWriter writer = begin_sealed(with_room(size.whole));
     writer(identity.numbers, identity.cloth, identity.obstacles, identity.settings, saved);
-    return end_sealed(state_seal, writer);
+    std::vector<std::byte> bytes = end_sealed(state_seal, writer);
+    if (bytes.capacity() > with_room(bytes.size())) bytes.shrink_to_fit();  // hosts hold many
+    size.whole = bytes.size();
+    return bytes;
 }
 
 std::vector<StartMove> restore_world(std::span<const std::byte> bytes, World& world) {

@@ -48,15 +48,20 @@ public:
         for (double at = 0.0; at < 1.0;) {
             const StepStatus status = report_.status;
             const StepEnergy energy = report_.energy;
-            // Once time is up the rest is taken at once, as exact as it comes.
-            const bool late = report_.out_of_time || is_past(work_.deadline);
+            // Once time is up the rest is taken at once, as exact as it comes; an explicit scheme would blow up.
+            const bool late = scene_.plan.implicit && (report_.out_of_time || is_past(work_.deadline));
+            if (late) accepted.past.earlier_length = 0.0;  // BDF2 may not grow its lengths so fast
             const double rest = whole * (1.0 - at), length = late ? rest : next_length(control, rest);
             const double share = length / whole, to = at + share > 1.0 - 1e-9 ? 1.0 : at + share;
             error_ = 0.0;
             StepState* end = cover({at, to}, accepted);
             if (!end) return nullptr;
             const StepAttempt attempt{length, error_, facts_of(scene_.plan.scheme).order, touches()};
-            if (!late && !report_.out_of_time && !accept_attempt(attempt, scene_.settings.tolerance, control)) {
+            StepControl judged = control;
+            const bool exact = accept_attempt(attempt, scene_.settings.tolerance, judged);
+            report_.out_of_time = report_.out_of_time || (late && !exact);
+            if (exact || !report_.out_of_time) control = judged;
+            if (!exact && !report_.out_of_time) {
                 accepted.past.earlier_length = 0.0;  // BDF2 goes on with shorter lengths as from a start
                 report_.status = status;
                 report_.energy = energy;
@@ -65,8 +70,7 @@ public:
                 continue;
             }
             std::swap(accepted, *end);
-            report_.out_of_time = report_.out_of_time || late;
-            if ((control.missed || late) && report_.status == StepStatus::ok) report_.status = StepStatus::tolerance_missed;
+            if ((control.missed || !exact) && report_.status == StepStatus::ok) report_.status = StepStatus::tolerance_missed;
             ++report_.parts;
             shortest = std::min(shortest, length);
             longest = std::max(longest, length);
@@ -123,7 +127,8 @@ private:
             const SpanResult result = advance(next, *at, work_, *end);
             add_figures(result, report_);
             const bool worked_out = report_.newton_iterations >= work_.iterations_left;
-            if (worked_out && (result.end != SpanEnd::solved || count > 0)) {
+            const bool taken = result.end == SpanEnd::solved || (result.out_of_time && result.is_usable(next.last_try));
+            if (worked_out && (!taken || count > 0)) {
                 report_.status = StepStatus::work_limit;
                 return nullptr;
             }

@@ -87,9 +87,9 @@ void check_option(const std::string& file, const char* option, bool here, bool s
 }  // namespace
 
 void write_checkpoint(const std::string& file, const Checkpoint& checkpoint) {
-    StateWriter writer;
+    StateWriter writer = begin_sealed();
     writer(checkpoint);
-    write_durable_file(file, sealed(checkpoint_seal, writer.take()));
+    write_durable_file(file, end_sealed(checkpoint_seal, writer));
 }
 
 void save_run(const std::string& file, const Scene& scene, const RunState& state, const RunMarks& marks, RunFolder& folder) {

@@ -180,6 +180,8 @@ TEST_CASE("Energy, strain, speed, forces, loads and meetings are those of C++") 
     Twin twin("brute_force", {}, {});
     twin.add_cloth(make_grid(0.6, 0.6, 9, 9), {.thickness = 0.02}, {{"thickness", "0.02"}}, {0.0, 0.33, 0.0});
     twin.add_obstacle(make_sphere(0.3, 2));
+    twin.cpp().keep_impulses();
+    well(percale_keep_impulses(twin.c(), 1));
     for (int step = 0; step < 20; ++step) twin.step();
     auto energy = c_struct(percale_init_energy);
     well(percale_energy_now(twin.c(), &energy));
@@ -200,6 +202,13 @@ TEST_CASE("Energy, strain, speed, forces, loads and meetings are those of C++") 
     const Vec3 about(0.1, 0.2, 0.3);
     well(percale_torque_on(twin.c(), 0, about.data(), force));
     CHECK(Vec3(force[0], force[1], force[2]) == twin.cpp().torque_on({0}, about));
+    well(percale_impulse_on(twin.c(), 0, force));
+    CHECK(Vec3(force[0], force[1], force[2]) == twin.cpp().impulse_on({0}));
+    CHECK(Vec3::Map(force).norm() > 0.0);
+    well(percale_angular_impulse_on(twin.c(), 0, about.data(), force));
+    CHECK(Vec3(force[0], force[1], force[2]) == twin.cpp().angular_impulse_on({0}, about));
+    well(percale_keep_impulses(twin.c(), 0));
+    fails(percale_impulse_on(twin.c(), 0, force), PERCALE_INVALID_ARGUMENT, "percale_impulse_on", "keep_impulses");
     const auto loads = twin.cpp().contact_loads({0});
     REQUIRE(!loads.empty());
     std::vector<percale_contact_load> same(loads.size());

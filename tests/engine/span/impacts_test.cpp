@@ -22,7 +22,7 @@ struct Hit {
     ImpactSpace space;
     ImpactFlows flows;
     bool keeps_to_mean = false;
-    double share = 1.0;
+    double weight = 1.0;
     std::vector<ObstacleImpulse> impulses;
 
     explicit Hit(const Vec3& velocity, double force = push, bool between_cloths = false) {
@@ -54,7 +54,7 @@ struct Hit {
         return *this;
     }
     double settle(const Vectors* extrapolated = nullptr) {
-        flows = settle_impacts(scene, {contacts, scene.state, dt, dt, keeps_to_mean, extrapolated, share}, end, space, impulses);
+        flows = settle_impacts(scene, {contacts, scene.state, dt, dt, keeps_to_mean, extrapolated, weight}, end, space, impulses);
         return end.velocities.y[0];
     }
 };
@@ -170,7 +170,7 @@ TEST_CASE("Settling gives an obstacle what it takes from the cloth, where somebo
     Hit hit(Vec3(0.5, 3.0, 0));
     hit.end.positions.set(0, Vec3(0.2, 0, 0));
     hit.impulses.resize(1);
-    hit.share = 1.5;
+    hit.weight = 1.5;
     CHECK(hit.after(-2.0).on(0.5).settle() == Approx(1.0).epsilon(1e-14));
     const double given = 1.5 * mass * 2.0;  // from 3 m/s to 1
     CHECK((hit.impulses[0].linear - Vec3(0, given, 0)).norm() < 1e-14);

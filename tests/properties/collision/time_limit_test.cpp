@@ -83,6 +83,18 @@ TEST_CASE("A step whose time is up is taken as it is: it arrives, crosses nothin
     }
 }
 
+TEST_CASE("Explicit steps do not look at the time limit") {
+    const auto hanging = [](bool adaptive, double limit) {
+        Simulation simulation({.adaptive = adaptive, .scheme = Scheme::rk4});
+        const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 7, 7), {});
+        simulation.pin(cloth, 0);
+        simulation.set_time_limit(limit);
+        for (int n = 0; n < 10; ++n) CHECK_FALSE(simulation.step().out_of_time);
+        return simulation.state_hash();
+    };
+    for (const bool adaptive : {false, true}) CHECK(hanging(adaptive, 1e-6) == hanging(adaptive, 0.0));
+}
+
 TEST_CASE("A time limit that is not reached, or was taken back, changes no bit") {
     Falling none({}), ample({}), taken_back({});
     ample.simulation.set_time_limit(1e3);
