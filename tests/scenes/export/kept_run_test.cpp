@@ -12,6 +12,7 @@
 using namespace percale;
 using namespace percale::scenes;
 using percale::scenes::test::falling_sheet;
+using percale::scenes::test::sheet_on_box;
 using percale::scenes::test::TestFolder;
 
 namespace {
@@ -253,16 +254,18 @@ TEST_CASE("a report with other expectations than the scene is not taken for its 
 
 TEST_CASE("a checkpoint that cannot be removed does not undo a run that has ended") {
     const TestFolder folder;
-    const Scene scene = plain_scene(folder);
+    // At rest long before the first checkpoint is due.
+    const std::vector<Override> until_rest = {{"duration", "rest"}, {"longest", "600"}};
+    const Scene scene = load_scene(folder.write("box.toml", sheet_on_box()), until_rest);
     const std::string into = folder.path("kept");
     KeptRun kept(into, scene, {}, "1");
     const RunResult result = run(kept, scene, [&] {
         // fs::remove refuses a folder with something in it.
-        std::filesystem::remove(folder.path("kept/checkpoint.percale"));
         std::filesystem::create_directories(folder.path("kept/checkpoint.percale/full"));
         return false;
     });
     CHECK(result.status == RunStatus::finished);
+    CHECK(folder.holds("kept/checkpoint.percale"));
     CHECK(KeptRun(into, scene, {}, "1").ended().has_value());
 }
 
