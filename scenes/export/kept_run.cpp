@@ -1,6 +1,5 @@
 #include "export/kept_run.h"
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -170,6 +169,7 @@ void KeptRun::look(const Scene& scene) {
     if (ended_ && ended_->expectations.size() != expected_count(scene, marks_)) {
         ended_.reset();
         why_again_ = "report.json tells of other expectations";
+        return;
     }
     if (ended_ || !is_there(checkpoint)) return;
     try {
