@@ -56,8 +56,8 @@ double row_share(const PairContact& contact, double thickness);
 
 /// Everything about the closest points. A contact belongs to exactly one pair: closest points inside a face or inside two edges
 /// belong to that pair, those on an edge or vertex of the obstacle to the feature's owner and only if the feature faces the
-/// cloth, those on a cloth edge to the triangle that owns it, unless the one
-/// across comes nearer: then its inside or another edge of it is the contact.
+/// cloth, those on a cloth edge to the triangle that owns it, unless the one across comes nearer: then its inside or another edge
+/// of it is the contact.
 PairContact pair_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction);
 
 /// Asks memory for what pair_contact reads of the obstacle. Each depth reads what the one before has asked for.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -20,6 +21,9 @@ std::string counted(long count, const std::string& what);
 
 /// "smallest distance 0.0032 m", or "never near" where it is infinite.
 std::string nearness_text(double smallest_distance);
+
+/// Of a hash or checksum: 16 digits, "00000000075bcd15".
+std::string hexadecimal(std::uint64_t value);
 
 /// "a, b, c".
 std::string joined(std::span<const std::string> words);

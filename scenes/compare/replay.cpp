@@ -14,8 +14,7 @@ namespace {
 
 /// Where a column stands.
 std::size_t column(const std::vector<std::string>& header, const std::string& name, const std::string& file) {
-    const auto found = std::find(header.begin(), header.end(), name);
-    if (found != header.end()) return static_cast<std::size_t>(found - header.begin());
+    if (const std::optional<std::size_t> found = csv_column(header, name)) return *found;
     throw SceneError(file + ":1: is no table of steps: it has no column '" + name + "'");
 }
 

@@ -1,15 +1,14 @@
 #include "export/kept_run.h"
 
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
+#include <system_error>
 
 #include "bodies/mesh_sequence.h"
 #include "common/own_program.h"
+#include "common/text.h"
 #include "common/whole_file.h"
 #include "export/run_folder.h"
 #include "export/run_settings.h"
@@ -18,6 +17,7 @@
 #include "measures/measures.h"
 #include "percale/error.h"
 #include "percale/saved_state.h"
+#include "report/csv.h"
 #include "tolerances.h"
 
 namespace percale::scenes {
@@ -27,32 +27,54 @@ using nlohmann::ordered_json;
 
 namespace {
 
-std::string checksum_text(const std::string& file) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(checksum(read_bytes(file))));
-    return text;
+std::string checksum_text(const std::string& file) { return hexadecimal(checksum(read_bytes(file))); }
+
+/// file_type::not_found where there is none.
+fs::file_type kind_of(const std::string& path) {
+    std::error_code error;
+    const fs::file_type kind = fs::status(path, error).type();
+    if (kind == fs::file_type::none) throw SceneError(path + ": cannot be read: " + error.message());
+    return kind;
 }
 
-void add_files(const Scene& scene, const ObstacleSpec& obstacle, std::set<std::string>& names) {
+bool is_there(const std::string& path) { return kind_of(path) != fs::file_type::not_found; }
+
+std::size_t expected_count(const Scene& scene, const RunMarks& marks) {
+    return marks.certify_steps ? with_every_step(scene.expectations).size() : scene.expectations.size();
+}
+
+/// Every number in all its digits, infinity too.
+ordered_json expectation_list(const Scene& scene) {
+    ordered_json list = ordered_json::array();
+    for (const Expectation& one : scene.expectations)
+        list.push_back({{"measure", one.measure},
+                        {"file", one.file},
+                        {"when", when_text(one)},
+                        {"lowest", number_text(one.lowest)},
+                        {"lowest_included", one.lowest_included},
+                        {"highest", number_text(one.highest)},
+                        {"highest_included", one.highest_included}});
+    return list;
+}
+
+void add_files(const ObstacleSpec& obstacle, std::set<std::string>& names) {
     names.insert({obstacle.cache, obstacle.start_mesh});
     if (!obstacle.frames) {
         names.insert(obstacle.mesh);
         return;
     }
-    const FramePattern pattern = frame_pattern(path_beside(scene, obstacle.mesh));
-    for (int frame = (*obstacle.frames)[0]; frame <= (*obstacle.frames)[1]; ++frame) {
-        names.insert(fs::absolute(pattern.name_of(frame)).lexically_normal().string());
-    }
+    const FramePattern pattern = frame_pattern(obstacle.mesh);
+    for (int frame = (*obstacle.frames)[0]; frame <= (*obstacle.frames)[1]; ++frame) names.insert(pattern.name_of(frame));
 }
 
-/// Names as the scene has them, or absolute.
+/// Names as the scene has them.
 std::set<std::string> named_files(const Scene& scene) {
     std::set<std::string> names;
     for (const ClothSpec& cloth : scene.cloths) {
         names.insert({cloth.mesh, cloth.pattern});
         if (cloth.rest != "uv") names.insert(cloth.rest);
     }
-    for (const ObstacleSpec& obstacle : scene.obstacles) add_files(scene, obstacle, names);
+    for (const ObstacleSpec& obstacle : scene.obstacles) add_files(obstacle, names);
     for (const SeamSpec& seam : scene.seams) {
         if (seam.file != "mesh") names.insert(seam.file);
     }
@@ -62,12 +84,13 @@ std::set<std::string> named_files(const Scene& scene) {
 }
 
 /// What is in an origin beside its settings, the first difference in words.
-std::string changed_mark(const ordered_json& now, const ordered_json& before) {
+std::string changed_beside_settings(const ordered_json& now, const ordered_json& before) {
     if (now.at("program") != before.at("program")) return "it was made by another program";
     for (const char* option : {"--certify-steps", "--replay-hash"}) {
         const bool asked = now.at(option);
         if (asked != before.at(option).get<bool>()) return std::string("it was made ") + (asked ? "without " : "with ") + option;
     }
+    if (now.at("expectations") != before.at("expectations")) return "expectations have changed";
     for (const auto& [file, sum] : now.at("files").items()) {
         if (!before.at("files").contains(file) || before.at("files").at(file) != sum) return file + " has changed";
     }
@@ -97,17 +120,22 @@ std::optional<EndedRun> ended_run(const std::string& folder) {
     }
 }
 
-std::string program_mark() { return std::string(PERCALE_VERSION) + " " + checksum_text(own_program()); }
+std::string program_checksum() {
+    std::string sums;
+    for (const std::string& file : own_files()) sums += checksum_text(file) + " " + fs::path(file).filename().string() + "\n";
+    return std::string(PERCALE_VERSION) + " " + hexadecimal(checksum(std::as_bytes(std::span(sums))));
+}
 
 std::string run_origin(const Scene& scene, const RunMarks& marks, const std::string& program) {
     ordered_json files = {{fs::path(scene.file).filename().string(), checksum_text(scene.file)}};
     for (const std::string& name : named_files(scene)) {
         const std::string path = path_beside(scene, name);
-        files[name] = fs::is_regular_file(path) ? checksum_text(path) : "missing";
+        files[name] = kind_of(path) == fs::file_type::regular ? checksum_text(path) : "missing";
     }
     const ordered_json json = {{"program", program},
                                {"--certify-steps", marks.certify_steps},
                                {"--replay-hash", marks.replay_hash},
+                               {"expectations", expectation_list(scene)},
                                {"files", files},
                                {"settings", ordered_json::parse(settings_text(scene))}};
     return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
@@ -117,7 +145,7 @@ std::string changed_origin(const std::string& now, const std::string& before) {
     try {
         const ordered_json here = ordered_json::parse(now), there = ordered_json::parse(before);
         const std::string settings = different_settings(here.at("settings").dump(), there.at("settings").dump(), "was");
-        return settings.empty() ? changed_mark(here, there) : settings;
+        return settings.empty() ? changed_beside_settings(here, there) : settings;
     } catch (const ordered_json::exception&) {
         return std::string(origin_name) + " is damaged";
     }
@@ -130,15 +158,20 @@ KeptRun::KeptRun(std::string folder, const Scene& scene, const RunMarks& marks, 
 
 void KeptRun::look(const Scene& scene) {
     const std::string origin = folder_ + "/" + origin_name, checkpoint = folder_ + "/" + checkpoint_name;
-    if (!fs::exists(origin)) {
+    if (!is_there(origin)) {
         for (const std::string& other : {folder_ + "/report.json", checkpoint})
-            if (fs::exists(other)) throw SceneError(other + ": is of a run that is not kept here; name another folder");
+            if (is_there(other)) throw SceneError(other + ": is of a run that is not kept here; name another folder");
         return;
     }
     why_again_ = changed_origin(origin_, read_text(origin));
     if (!why_again_.empty()) return;
     ended_ = ended_run(folder_);
-    if (ended_ || !fs::exists(checkpoint)) return;
+    if (ended_ && ended_->expectations.size() != expected_count(scene, marks_)) {
+        ended_.reset();
+        why_again_ = "report.json tells of other expectations";
+        return;
+    }
+    if (ended_ || !is_there(checkpoint)) return;
     try {
         from_ = read_checkpoint(checkpoint);
         check_same_run(checkpoint, *from_, scene, marks_.certify_steps, marks_.replay_hash);
@@ -150,14 +183,12 @@ void KeptRun::look(const Scene& scene) {
 
 std::string KeptRun::state_hash() const {
     std::ifstream in(folder_ + "/steps.csv");
-    std::string header, line, last, cell;
+    std::string header, line, last;
     std::getline(in, header);
     while (std::getline(in, line)) last = line;
-    std::istringstream names(header), cells(last);
-    for (std::string name; std::getline(names, name, ',') && std::getline(cells, cell, ',');) {
-        if (name == "state_hash") return cell;
-    }
-    return "";
+    const std::optional<std::size_t> column = csv_column(csv_cells(header), "state_hash");
+    const std::vector<std::string> cells = csv_cells(last);
+    return column && *column < cells.size() ? cells[*column] : "";
 }
 
 RunResult KeptRun::run(BuiltScene& built, const std::function<bool()>& stop_asked, std::span<const Expectation> expectations) {
@@ -165,9 +196,8 @@ RunResult KeptRun::run(BuiltScene& built, const std::function<bool()>& stop_aske
     RunFolder folder(folder_, built.scene, marks_.replay_hash);
     RunHooks hooks;
     hooks.begin = [&] {
-        if (from_) return folder.begin_from(from_->folder, folder_);
-        folder.begin();
-        write_whole_file(folder_ + "/" + origin_name, origin_);
+        if (from_) return folder.begin_from(from_->folder, folder_, origin_);
+        folder.begin(origin_);
     };
     hooks.frame = [&](const Frame& frame) { folder.add(frame); };
     hooks.step = [&](const StepReport& report, const Simulation& simulation) { folder.add(report, simulation); };
@@ -179,7 +209,9 @@ RunResult KeptRun::run(BuiltScene& built, const std::function<bool()>& stop_aske
     settings.from_file = from_ ? checkpoint : "";
     RunResult result = run_scene(built, hooks, settings);
     folder.finish(built, result, judge(expectations, measure_values(result.measures), result.timed));
-    if (result.status != RunStatus::stopped) fs::remove(checkpoint);
+    // One that stays does no harm: what a report tells of is looked at first, and the next run into the folder takes it away.
+    std::error_code error;
+    if (result.status != RunStatus::stopped) fs::remove(checkpoint, error);
     return result;
 }
 

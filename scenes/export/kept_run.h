@@ -26,20 +26,22 @@ struct EndedRun {
 /// Nothing where a run's folder holds no report, one that is not whole, or one of a run that was stopped.
 std::optional<EndedRun> ended_run(const std::string& folder);
 
-/// All that the result of a run follows from, as JSON: the program, options, settings, and a checksum of the scene file and of
-/// every file that it names. Files that those name in turn (a .gltf's buffers) are not looked at. Throws SceneError where a file
-/// that is there cannot be read.
+/// All that the result of a run follows from, as JSON: the program, options, settings, expectations, and a checksum of the scene
+/// file and of every file that it names. Files that those name in turn (a .gltf's buffers) are not looked at. Throws SceneError
+/// where a file that is there cannot be read.
 std::string run_origin(const Scene& scene, const RunMarks& marks, const std::string& program);
 
-/// What differs between two of them: "step.time_step is 0.01, was 0.02", "ball.obj has changed"; "" where nothing does.
+/// What differs between two of them: "step.time_step is 0.01, was 0.02", "expectations have changed", "ball.obj has changed"; ""
+/// where nothing does.
 std::string changed_origin(const std::string& now, const std::string& before);
 
-/// The version of this program and a checksum of its file. Throws SceneError where that cannot be read.
-std::string program_mark();
+/// The version of this program and a checksum of its file and the libraries of the project that it has loaded (own_files); other
+/// libraries are not looked at. Throws SceneError where a file cannot be read.
+std::string program_checksum();
 
 /// A run whose folder is kept to be taken up again: what has ended is not made again, what was interrupted goes on from its last
-/// checkpoint, and what follows from other files, settings or another program begins anew. Beside what a run leaves the folder
-/// holds origin.json, and a checkpoint until the run has ended.
+/// checkpoint, and what follows from other files, settings, expectations or another program begins anew. Beside what a run leaves
+/// the folder holds origin.json, and a checkpoint until the run has ended.
 class KeptRun {
 public:
     /// Looks at what the folder holds; changes nothing. Throws SceneError for what run_origin does, and for the folder of a run

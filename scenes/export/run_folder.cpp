@@ -19,6 +19,12 @@ void remove_file(const fs::path& path) {
     if (error) throw SceneError(path.string() + ": cannot be replaced: " + error.message());
 }
 
+/// Puts the new one in the place of the old at once, so that a kill leaves no run without its own; "": none.
+void set_origin(const std::string& folder, const std::string& origin) {
+    if (origin.empty()) return remove_file(fs::path(folder) / origin_name);
+    write_whole_file(folder + "/" + origin_name, origin);
+}
+
 /// The page of an earlier run, which would tell of frames that are gone; not what somebody else put there under its name.
 void remove_page(const std::string& folder) {
     std::string start(page_mark.size(), ' ');
@@ -96,16 +102,16 @@ RunFolder::~RunFolder() {
     if (steps_written_ && !resumable_) std::remove((folder_ + "/steps.csv").c_str());
 }
 
-void RunFolder::begin() {
+void RunFolder::begin(const std::string& origin) {
     made_.emplace(folder_);
     remove_earlier_run(folder_, writer_);
     remove_killed_run(folder_, writer_);
     remove_file(fs::path(folder_) / checkpoint_name);
-    remove_file(fs::path(folder_) / origin_name);
+    set_origin(folder_, origin);
     steps_.emplace(folder_ + "/steps.csv");
 }
 
-void RunFolder::begin_from(const FolderState& state, const std::string& other) {
+void RunFolder::begin_from(const FolderState& state, const std::string& other, const std::string& origin) {
     const std::vector<std::string> files = files_of(state, other, writer_);
     made_.emplace(folder_);
     std::error_code error;
@@ -117,7 +123,7 @@ void RunFolder::begin_from(const FolderState& state, const std::string& other) {
     }
     for (const GrownFile& file : state.grown) writer_.files().go_on(other, file, here);
     remove_page(folder_);
-    if (!here) remove_file(fs::path(folder_) / origin_name);
+    set_origin(folder_, origin);
     for (const char* name : {"report.json", "steps.csv"}) remove_file(fs::path(folder_) / name);
     for (const char* name : {"report.json", checkpoint_name}) remove_leftover(folder_, name);
     writer_.remove_from(static_cast<int>(state.frames.size()));

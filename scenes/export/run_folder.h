@@ -23,7 +23,7 @@ struct FolderState {
 /// The name of the checkpoint in a run's folder.
 constexpr const char* checkpoint_name = "checkpoint.percale";
 
-/// What a run that is kept (kept_run.h) follows from; every other run into the folder takes it away.
+/// What a run that is kept (kept_run.h) follows from; every other run into the folder, one that goes on there too, takes it away.
 constexpr const char* origin_name = "origin.json";
 
 /// The page of a run where nothing else is asked for, and what pages begin with.
@@ -43,11 +43,11 @@ public:
     RunFolder& operator=(const RunFolder&) = delete;
 
     /// Makes the folder, or takes what an earlier run's report lists out of it (report.json first: until `finish` there is
-    /// none), and its page. Throws SceneError if that is not possible.
-    void begin();
+    /// none), and its page. `origin`: of a run that is kept (origin_name), else "". Throws SceneError if that is not possible.
+    void begin(const std::string& origin = "");
     /// Goes on where another run left its folder, which may be this one; frames and steps are copied from others. Throws
     /// SceneError if what belongs to the state is not there.
-    void begin_from(const FolderState& state, const std::string& other);
+    void begin_from(const FolderState& state, const std::string& other, const std::string& origin = "");
     /// Brings all steps and frames to the disk.
     FolderState state();
     /// A checkpoint holds what `state` told last.

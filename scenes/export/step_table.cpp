@@ -4,17 +4,9 @@
 #include <cerrno>
 #include <cstdio>
 
+#include "common/text.h"
+
 namespace percale::scenes {
-
-namespace {
-
-std::string hexadecimal(std::uint64_t value) {
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-    return text;
-}
-
-}  // namespace
 
 std::string step_table_header() {
     return "time,dt,newton,linear,residual,contacts,smallest_distance,energy,status,contact_hash,state_hash,dropped";

@@ -9,6 +9,7 @@
 #include <span>
 #include <thread>
 
+#include "common/text.h"
 #include "common/whole_file.h"
 #include "export/junit.h"
 #include "export/kept_run.h"
@@ -33,7 +34,7 @@ struct CheckOptions {
     std::vector<std::string> scenes;
     std::string junit;
     std::string resume;   // folder in which results are kept; "": none are
-    std::string program;  // program_mark, with `resume`
+    std::string program;  // program_checksum, with `resume`
     int jobs = 1;
     bool update = false;
 };
@@ -58,12 +59,6 @@ std::string kept_folder(const CheckOptions& options, const std::string& file) {
 std::string rounded_text(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
-
-std::string hash_text(std::uint64_t hash) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
     return text;
 }
 
@@ -103,8 +98,7 @@ void run_into(Outcome& outcome, const CheckOptions& check, const StopSignals& si
     if (!check.resume.empty())
         kept.emplace(kept_folder(check, outcome.scene.file), scene, RunMarks{options.certify_steps, options.replay_hash},
                      check.program);
-    if (kept && kept->ended() && kept->ended()->expectations.size() == expected.size())
-        return take_kept(outcome, *kept, expected);
+    if (kept && kept->ended()) return take_kept(outcome, *kept, expected);
     if (check.jobs > 1 && scene.step.threads == 0) scene.step.threads = 1;  // the jobs use the cores
     BuiltScene built = build_scene(scene);
     for (const StartMove& move : built.simulation.start_repair()) outcome.start_moves.push_back(start_move_text(move));
@@ -120,7 +114,7 @@ void run_into(Outcome& outcome, const CheckOptions& check, const StopSignals& si
         std::erase_if(outcome.scene.expectations, [](const ExpectationResult& r) { return r.expectation.measure == "matches"; });
         if (result.status == RunStatus::finished) outcome.updates = update_references(built, result);
     }
-    outcome.state_hash = hash_text(built.simulation.state_hash());
+    outcome.state_hash = hexadecimal(built.simulation.state_hash());
     judge_outcome(outcome, result.status);
 }
 
@@ -224,7 +218,7 @@ int check(CheckOptions options) {
     check_options(options);
     if (!options.resume.empty()) {
         options.common.frames = "none";
-        options.program = program_mark();
+        options.program = program_checksum();
     }
     const StopSignals signals;
     const std::vector<Outcome> outcomes = Checker(options, signals).check_all();
@@ -262,7 +256,8 @@ void add_check_command(CLI::App& program, Action& action) {
     command
         ->add_option("--resume", options->resume,
                      "Keep results in DIR, and take up what is there: scenes that have ended are not run again, one that was "
-                     "interrupted goes on; what was made from other files or by another program is run anew")
+                     "interrupted goes on; what was made from other files, expectations or settings, or by another program "
+                     "(its file and the libpercale libraries it has loaded; not other libraries), is run anew")
         ->type_name("DIR")
         ->excludes("--update");
     command->add_option("--jobs", options->jobs, "Scenes run at a time (default 1)")->type_name("N");

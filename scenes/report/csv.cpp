@@ -1,5 +1,6 @@
 #include "report/csv.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -27,6 +28,11 @@ std::vector<std::string> csv_cells(const std::string& line) {
             cells.back() += letter;
     }
     return cells;
+}
+
+std::optional<std::size_t> csv_column(const std::vector<std::string>& header, const std::string& name) {
+    const auto found = std::ranges::find(header, name);
+    return found != header.end() ? std::optional(static_cast<std::size_t>(found - header.begin())) : std::nullopt;
 }
 
 }  // namespace percale::scenes

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,5 +16,8 @@ std::string csv_text(const std::string& text);
 
 /// The cells of a line in which nothing is in quotes.
 std::vector<std::string> csv_cells(const std::string& line);
+
+/// Where a column stands in a header; nothing where it has none of that name.
+std::optional<std::size_t> csv_column(const std::vector<std::string>& header, const std::string& name);
 
 }  // namespace percale::scenes

@@ -48,6 +48,12 @@ TEST_CASE("a distance is told in metres, an infinite one in words") {
     CHECK(nearness_text(std::numeric_limits<double>::infinity()) == "never near");
 }
 
+TEST_CASE("hashes have 16 hexadecimal digits") {
+    CHECK(hexadecimal(0) == "0000000000000000");
+    CHECK(hexadecimal(123456789) == "00000000075bcd15");
+    CHECK(hexadecimal(std::numeric_limits<std::uint64_t>::max()) == "ffffffffffffffff");
+}
+
 TEST_CASE("joined words have commas between them") {
     const std::string words[] = {"a", "b", "c"};
     CHECK(joined(words) == "a, b, c");

@@ -1,5 +1,8 @@
 #include "export/kept_run.h"
 
+#include <cmath>
+#include <filesystem>
+
 #include "format/scene_file.h"
 #include "percale/error.h"
 #include "tests/scenes/small_scenes.h"
@@ -9,6 +12,7 @@
 using namespace percale;
 using namespace percale::scenes;
 using percale::scenes::test::falling_sheet;
+using percale::scenes::test::sheet_on_box;
 using percale::scenes::test::TestFolder;
 
 namespace {
@@ -54,10 +58,10 @@ TEST_CASE("an origin changes with every file that a scene names, and with no oth
     CHECK(changed_origin(run_origin(scene, {}, "1"), before) == "still.obj has changed");
     folder.write("still.obj", triangle);
     folder.write("walk_04.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1.5\nf 1 2 3\n");
-    CHECK(changed_origin(run_origin(scene, {}, "1"), before).ends_with("walk_04.obj has changed"));
+    CHECK(changed_origin(run_origin(scene, {}, "1"), before) == "walk_04.obj has changed");
     folder.write("walk_04.obj", triangle);
     std::filesystem::remove(folder.path("walk_05.obj"));
-    CHECK(changed_origin(run_origin(scene, {}, "1"), before).ends_with("walk_05.obj has changed"));
+    CHECK(changed_origin(run_origin(scene, {}, "1"), before) == "walk_05.obj has changed");
 }
 
 TEST_CASE("an origin says which program, option, setting or line of the scene file is another") {
@@ -77,6 +81,44 @@ TEST_CASE("an origin says which program, option, setting or line of the scene fi
     CHECK(changed_origin(run_origin(scene, {}, "1"), before) == "scene.toml has changed");
     CHECK(changed_origin(before, before.substr(0, before.size() / 2)) == "origin.json is damaged");
     CHECK(changed_origin(before, "{}") == "origin.json is damaged");
+}
+
+TEST_CASE("an origin is the same in another folder with the same files") {
+    const TestFolder here, there;
+    CHECK(run_origin(scene_in(here), {}, "1") == run_origin(scene_in(there), {}, "1"));
+}
+
+TEST_CASE("an origin changes with every part of an expectation") {
+    const TestFolder folder;
+    const Scene scene = plain_scene(folder);
+    const std::string before = run_origin(scene, {}, "1");
+    const auto change = [&](const std::function<void(Expectation&)>& edit) {
+        Scene other = scene;
+        edit(other.expectations.at(0));
+        return changed_origin(run_origin(other, {}, "1"), before);
+    };
+    const std::string changed = "expectations have changed";
+    CHECK(change([](Expectation&) {}).empty());
+    CHECK(change([](Expectation& one) { one.measure = "rms_speed_at_end"; }) == changed);
+    CHECK(change([](Expectation& one) { one.highest = std::nextafter(one.highest, 3.0); }) == changed);
+    CHECK(change([](Expectation& one) { one.highest_included = !one.highest_included; }) == changed);
+    CHECK(change([](Expectation& one) { one.lowest = 0.0; }) == changed);
+    CHECK(change([](Expectation& one) { one.lowest_included = !one.lowest_included; }) == changed);
+    CHECK(change([](Expectation& one) { one.at = 0.1; }) == changed);
+    CHECK(change([](Expectation& one) { one.during = {0.0, 0.1}; }) == changed);
+    CHECK(change([](Expectation& one) { one.file = "other.obj"; }) == changed);
+    Scene none = scene;
+    none.expectations.clear();
+    CHECK(changed_origin(run_origin(none, {}, "1"), before) == changed);
+}
+
+TEST_CASE("a file that cannot be looked at is told by its name") {
+    const TestFolder folder;
+    Scene scene = scene_in(folder);
+    scene.obstacles.at(0).mesh = std::string(300, 'a') + ".obj";
+    CHECK_THROWS_AS(run_origin(scene, {}, "1"), SceneError);
+    CHECK_THROWS_WITH(run_origin(scene, {}, "1"), Catch::Contains("aaa.obj: cannot be read: "));
+    CHECK_THROWS_AS(KeptRun(folder.path(std::string(300, 'b')), plain_scene(folder), {}, "1"), SceneError);
 }
 
 TEST_CASE("a report tells how a run ended, or that it did not") {
@@ -137,6 +179,7 @@ TEST_CASE("a run that was stopped goes on where it stopped, and ends with the sa
     REQUIRE(result.resumed_at.size() == 1);
     CHECK(result.resumed_at[0] == Approx(0.04));
     CHECK(folder.read("kept/steps.csv") == folder.read("whole/steps.csv"));
+    CHECK(folder.holds("kept/origin.json"));
     CHECK(KeptRun(into, scene, {}, "1").ended().has_value());
 }
 
@@ -175,9 +218,60 @@ TEST_CASE("a folder that another run was made into is not taken for a kept one, 
     CHECK(folder.read("kept/report.json") == report);
 }
 
-TEST_CASE("the mark of a program is its version and its file's checksum") {
-    const std::string mark = program_mark();
-    CHECK(mark.starts_with(PERCALE_VERSION " "));
-    CHECK(mark.size() == std::string(PERCALE_VERSION).size() + 17);
-    CHECK(program_mark() == mark);
+TEST_CASE("a run that another command goes on with is not taken for a kept one") {
+    const TestFolder folder;
+    const Scene scene = plain_scene(folder);
+    const std::string into = folder.path("kept");
+    KeptRun first(into, scene, {}, "1");
+    int steps = 0;
+    run(first, scene, [&] { return ++steps == 4; });
+    REQUIRE(folder.holds("kept/origin.json"));
+    const Checkpoint checkpoint = read_checkpoint(folder.path("kept/checkpoint.percale"));
+    BuiltScene built = build_scene(scene);
+    RunFolder other(into, scene, false);
+    RunHooks hooks;
+    hooks.begin = [&] { other.begin_from(checkpoint.folder, into); };
+    hooks.step = [&](const StepReport& report, const Simulation& simulation) { other.add(report, simulation); };
+    other.finish(built, run_scene(built, hooks, {.from = &checkpoint.run, .from_file = "checkpoint"}), {});
+    CHECK(folder.holds("kept/report.json"));
+    CHECK_FALSE(folder.holds("kept/origin.json"));
+    CHECK_THROWS_WITH(KeptRun(into, scene, {}, "1"), Catch::Contains("is of a run that is not kept here"));
+}
+
+TEST_CASE("a report with other expectations than the scene is not taken for its result") {
+    const TestFolder folder;
+    const Scene scene = plain_scene(folder);
+    const std::string into = folder.path("kept");
+    KeptRun first(into, scene, {}, "1");
+    run(first, scene);
+    folder.write("kept/report.json", "{\"status\": \"finished\", \"frames\": []}");
+    KeptRun second(into, scene, {}, "1");
+    CHECK_FALSE(second.ended().has_value());
+    CHECK(second.why_again() == "report.json tells of other expectations");
+    CHECK(run(second, scene).status == RunStatus::finished);
+    CHECK(KeptRun(into, scene, {}, "1").ended().has_value());
+}
+
+TEST_CASE("a checkpoint that cannot be removed does not undo a run that has ended") {
+    const TestFolder folder;
+    // At rest long before the first checkpoint is due.
+    const std::vector<Override> until_rest = {{"duration", "rest"}, {"longest", "600"}};
+    const Scene scene = load_scene(folder.write("box.toml", sheet_on_box()), until_rest);
+    const std::string into = folder.path("kept");
+    KeptRun kept(into, scene, {}, "1");
+    const RunResult result = run(kept, scene, [&] {
+        // fs::remove refuses a folder with something in it.
+        std::filesystem::create_directories(folder.path("kept/checkpoint.percale/full"));
+        return false;
+    });
+    CHECK(result.status == RunStatus::finished);
+    CHECK(folder.holds("kept/checkpoint.percale"));
+    CHECK(KeptRun(into, scene, {}, "1").ended().has_value());
+}
+
+TEST_CASE("a program is told by its version and the checksum of its files") {
+    const std::string first = program_checksum();
+    CHECK(first.starts_with(PERCALE_VERSION " "));
+    CHECK(first.size() == std::string(PERCALE_VERSION).size() + 17);
+    CHECK(program_checksum() == first);
 }

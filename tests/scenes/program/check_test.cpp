@@ -207,6 +207,31 @@ TEST_CASE("with --resume a scene is run again, and says why, where a file, a set
           "a.toml: finished: 5 steps, 0.05 s; run again: a.toml has changed");
 }
 
+TEST_CASE("with --resume a scene is judged anew, and says why, where its expectations have changed") {
+    const TestFolder folder;
+    const std::string text = falling_sheet() + "[expect]\nspeed_at_end = { below = 2.0 }\n";
+    folder.write("a.toml", text);
+    const auto check = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"check", "a.toml", "--resume", "kept"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_program(words, folder.path());
+    };
+    const std::string finished = "a.toml: finished: 10 steps, 0.1 s",
+                      again = finished + "; run again: expectations have changed\n";
+    CHECK(check({}).exit_code == 0);
+    const ProgramRun stricter = check({"--set", "expect.speed_at_end={below=0.05}"});
+    CHECK(stricter.exit_code == 1);
+    CHECK(stricter.out.starts_with(again));
+    CHECK(stricter.out.find("  speed_at_end 0.981, expected < 0.05: failed\n") != std::string::npos);
+    const ProgramRun more = check({"--set", "expect.lowest_vertex={above=0.0}"});
+    CHECK(more.exit_code == 0);
+    CHECK(more.out.starts_with(again));
+    CHECK(more.out.find("2 of 2 expectations passed") != std::string::npos);
+    CHECK(check({"--set", "expect.lowest_vertex={above=0.0}"}).out.starts_with("a.toml: kept: finished earlier"));
+    folder.write("a.toml", text + "lowest_vertex = { above = 0.0 }\n");
+    CHECK(check({}).out.starts_with(finished + "; run again: a.toml has changed\n"));
+}
+
 TEST_CASE("a check that is killed goes on with --resume: what had ended is kept, the scene in its midst resumed, the rest run") {
     const TestFolder folder;
     const std::string expect = "[expect]\nspeed_at_end = { below = 10.0 }\n";

@@ -24,4 +24,11 @@ TEST_CASE("The cells of a line are what its commas part, empty ones included") {
     CHECK(csv_cells("") == std::vector<std::string>{""});
 }
 
+TEST_CASE("A column is found by its whole name, or not at all") {
+    const std::vector<std::string> header = {"time", "contact_hash", "hash"};
+    CHECK(csv_column(header, "hash") == 2u);
+    CHECK(csv_column(header, "time") == 0u);
+    CHECK_FALSE(csv_column(header, "state").has_value());
+}
+
 }  // namespace percale::scenes::test
