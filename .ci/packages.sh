@@ -149,7 +149,7 @@ install_packages() {
     fresh_chroot
     in_chroot sh -c "cd /try && apt-get -qq install -y --no-install-recommends $2" >"$scratch/install-$1.log" 2>&1 ||
         { tail -20 "$scratch/install-$1.log"; return 1; }
-    echo "== $1, in a Debian with $(in_chroot dpkg-query -W -f '${Package}, ' '*percale*' | sed 's/, $//')"
+    echo "== $1, in a Debian with $(in_chroot dpkg-query -W -f '${db:Status-Abbrev}${Package}\n' '*percale*' | sed -n 's/^ii //p' | paste -s -d ' ')"
     in_chroot /try/try_packages.sh "$1" "" /try/consumer /try/work
 }
 
