@@ -234,6 +234,7 @@ stage_consumer() {
     "$prefix/bin/percale" --version
     # Percale's sources in a host's own tree: what the host has not asked for it has not got. The stage packages builds it, too.
     cmake -S "$scratch-source/subdirectory" -B "$scratch/subdirectory" -DPERCALE_SOURCE="$root" >>build/ci-install.log
+    cmake -S "$scratch-source/subdirectory" -B "$scratch/subdirectory-engine" -DPERCALE_SOURCE="$root" -DENGINE_ONLY=ON >>build/ci-install.log
 }
 
 # The Debian packages, by a build of their own: contents, pip, Percale as another project's folder, and use of each package.

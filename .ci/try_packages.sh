@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Uses what the Debian packages hold: .ci/try_packages.sh PART ROOT CONSUMER WORK. Parts: program, development, python.
+# Uses what the Debian packages hold: .ci/try_packages.sh PART ROOT CONSUMER WORK. Parts: development, library, program, python, each
+# without the others' files, and together. The library is used by a program that the part development left in WORK.
 # ROOT is empty where the packages are installed, or the folder that they were unpacked in. CONSUMER is a copy of .ci/consumer with the
 # README's example as readme_example.cpp; WORK a folder for what is made. Nothing here may look into Percale's tree.
 set -euo pipefail
@@ -27,7 +28,7 @@ try_program() {
 try_development() {
     local prefix=() pc_path library
     if [ -n "$root" ]; then prefix=("-DCMAKE_PREFIX_PATH=$root/usr"); fi
-    cmake -S "$consumer" -B "$work/consumer" -DCMAKE_BUILD_TYPE=Release -DREADME_EXAMPLE=readme_example.cpp "${prefix[@]}"
+    cmake -S "$consumer" -B "$work/consumer" -DCMAKE_BUILD_TYPE=Release -DREADME_EXAMPLE=readme_example.cpp -DWITHOUT_PROGRAM=ON "${prefix[@]}"
     cmake --build "$work/consumer"
     ctest --test-dir "$work/consumer" --no-tests=error --output-on-failure
     cmake -S "$consumer/c" -B "$work/c" "${prefix[@]}"
@@ -54,10 +55,24 @@ try_development() {
     } | tee "$work/sizes.txt"
 }
 
+# Where neither a compiler nor anything that came with it is installed.
+try_library() {
+    if [ -n "$root" ]; then LD_LIBRARY_PATH=$(dirname "$(find "$root/usr/lib" -name 'libpercale.so.*' | sed -n 1p)"); export LD_LIBRARY_PATH; fi
+    "$work/weigh"
+}
+
+# With the program, which libpercale-dev recommends, scene files are tests of a project.
+try_together() {
+    local prefix=()
+    if [ -n "$root" ]; then prefix=("-DCMAKE_PREFIX_PATH=$root/usr"); fi
+    cmake -S "$consumer" -B "$work/together" "${prefix[@]}"
+    ctest --test-dir "$work/together" --no-tests=error --output-on-failure -R '^scene_'
+}
+
 try_python() {
     if [ -n "$root" ]; then export PYTHONPATH=$root/usr/lib/python3/dist-packages; fi
     cd "$work"
-    /usr/bin/python3 - "$share/scenes/hang.toml" <<'PYTHON'
+    /usr/bin/python3 - "$consumer/scene.toml" <<'PYTHON'
 import sys
 import percale
 result = percale.run(sys.argv[1], overrides={'duration': 0.25})
@@ -68,6 +83,6 @@ PYTHON
 }
 
 case $part in
-    program | development | python) "try_$part" ;;
-    *) echo "try_packages.sh: no part '$part' (program development python)"; exit 2 ;;
+    development | library | program | python | together) "try_$part" ;;
+    *) echo "try_packages.sh: no part '$part' (development library program python together)"; exit 2 ;;
 esac

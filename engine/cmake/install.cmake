@@ -4,6 +4,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(percale_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/percale)
+set(percale_data_dir ${CMAKE_INSTALL_DATADIR}/percale)
 
 # One export a component, so that a program that only wants percale::engine needs neither FCL nor Bullet. Order: what is needed first.
 set(percale_components "")
@@ -53,15 +54,22 @@ if(TARGET percale)
     set_target_properties(percale PROPERTIES INSTALL_RPATH "$ORIGIN/${percale_bin_to_lib}")
     install(TARGETS percale_scenes LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_SKIP)
   endif()
+  foreach(folder scenes meshes patterns)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/${folder} DESTINATION ${percale_data_dir} COMPONENT program)
+  endforeach()
 endif()
-set(percale_data_dir ${CMAKE_INSTALL_DATADIR}/percale)
-foreach(folder scenes meshes patterns)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/${folder} DESTINATION ${percale_data_dir} COMPONENT program)
-endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/examples DESTINATION ${percale_data_dir} COMPONENT development
   PATTERN *.py EXCLUDE PATTERN __pycache__ EXCLUDE)
-# CMAKE_INSTALL_DOCDIR may be named after a host project.
-install(FILES ${CMAKE_CURRENT_LIST_DIR}/debian/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/percale COMPONENT program)
+# The licence, in each component. CMAKE_INSTALL_DOCDIR may be named after a host project. No file may be in two packages: where packages
+# are made, packages.cmake gives each the licence in a folder of its own.
+set(percale_licensed program library development python)
+if(PROJECT_IS_TOP_LEVEL AND NOT BUILD_SHARED_LIBS AND CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND TARGET percale AND TARGET percale_c_shared)
+  set(percale_makes_packages ON)
+  set(percale_licensed program)
+endif()
+foreach(component ${percale_licensed})
+  install(FILES ${CMAKE_CURRENT_LIST_DIR}/debian/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/percale COMPONENT ${component})
+endforeach()
 
 # The Python module. Where Python looks goes by the prefix, which may be given as late as to `cmake --install`.
 if(TARGET percale_python)

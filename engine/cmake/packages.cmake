@@ -1,7 +1,7 @@
 # Debian packages by `cmake --preset packages && cmake --build --preset packages`: percale, libpercaleX.Y, libpercale-dev and, with
 # PERCALE_PYTHON, python3-percale. The shared library has a package of its own, named after its SONAME, as Debian wants it: a program that
 # loads it then needs neither the program percale nor what that links, and two versions may be installed beside each other.
-if(BUILD_SHARED_LIBS OR NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr" OR NOT TARGET percale OR NOT TARGET percale_c_shared)
+if(NOT percale_makes_packages)
   # Under another prefix libraries would lie beside Debian's own folders.
   file(WRITE ${PROJECT_BINARY_DIR}/CPackConfig.cmake "message(FATAL_ERROR \"packages hold the program and static libraries under /usr: "
     "cmake --preset packages && cmake --build --preset packages\")\n")
