@@ -118,8 +118,8 @@ public:
     void set_time_step(double time_step);  // s, 1e-7 ... 1
     /// StepSettings::work_limit, 0 (none) ... 50000. Steps of a scene at 1/60 s take some 1 to 10 Newton iterations.
     void set_work_limit(int iterations);
-    /// Wall time of a step, s, 1e-6 ... 1e6, or 0 (none, as before the first call): for hosts that have to go on. An implicit step
-    /// that has used it up is taken as it is after the Newton iteration under way, each piece of it after one at least:
+    /// Wall time of a step, s, 1e-6 ... 1e6, or 0 (none, as before the first call): for hosts that have to go on. An implicit
+    /// step that has used it up is taken as it is after the Newton iteration under way, each piece of it after one at least:
     /// StepReport says out_of_time, and not_converged or, of an adaptive step, tolerance_missed. Nothing crosses, pins and
     /// obstacles are where they go; what is missing is that the cloth gave way to all forces. Where no state on the way can be
     /// taken it goes on. The clock starts when `prepare` has done what is to do. Explicit schemes do not look at it: what their
