@@ -41,6 +41,13 @@ RunResult run(KeptRun& kept, const Scene& scene, const std::function<bool()>& st
     return kept.run(built, stop_asked, scene.expectations);
 }
 
+/// As one that is interrupted in its fourth step leaves the folder.
+void begin_run(const std::string& into, const Scene& scene) {
+    KeptRun kept(into, scene, {}, "1");
+    int steps = 0;
+    CHECK(run(kept, scene, [&] { return ++steps == 4; }).status == RunStatus::stopped);
+}
+
 Scene plain_scene(const TestFolder& folder) {
     return load_scene(folder.write("plain.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 2.0 }\n"));
 }
@@ -169,9 +176,7 @@ TEST_CASE("a run that was stopped goes on where it stopped, and ends with the sa
     const std::string into = folder.path("kept");
     KeptRun whole(folder.path("whole"), scene, {}, "1");
     run(whole, scene);
-    KeptRun first(into, scene, {}, "1");
-    int steps = 0;
-    CHECK(run(first, scene, [&] { return ++steps == 4; }).status == RunStatus::stopped);
+    begin_run(into, scene);
     KeptRun second(into, scene, {}, "1");
     CHECK_FALSE(second.ended().has_value());
     const RunResult result = run(second, scene);
@@ -187,9 +192,7 @@ TEST_CASE("a checkpoint that is damaged is told, and the run begins anew") {
     const TestFolder folder;
     const Scene scene = plain_scene(folder);
     const std::string into = folder.path("kept");
-    KeptRun first(into, scene, {}, "1");
-    int steps = 0;
-    run(first, scene, [&] { return ++steps == 4; });
+    begin_run(into, scene);
     std::string bytes = folder.read("kept/checkpoint.percale");
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     folder.write("kept/checkpoint.percale", bytes);
@@ -222,9 +225,7 @@ TEST_CASE("a run that another command goes on with is not taken for a kept one")
     const TestFolder folder;
     const Scene scene = plain_scene(folder);
     const std::string into = folder.path("kept");
-    KeptRun first(into, scene, {}, "1");
-    int steps = 0;
-    run(first, scene, [&] { return ++steps == 4; });
+    begin_run(into, scene);
     REQUIRE(folder.holds("kept/origin.json"));
     const Checkpoint checkpoint = read_checkpoint(folder.path("kept/checkpoint.percale"));
     BuiltScene built = build_scene(scene);
