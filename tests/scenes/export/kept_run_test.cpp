@@ -122,7 +122,7 @@ TEST_CASE("an origin changes with every part of an expectation") {
 TEST_CASE("a file that cannot be looked at is told by its name") {
     const TestFolder folder;
     Scene scene = scene_in(folder);
-    scene.obstacles.at(0).mesh = std::string(300, 'a') + ".obj";
+    scene.obstacles.at(0).mesh = std::string(300, 'a').append(".obj");
     CHECK_THROWS_AS(run_origin(scene, {}, "1"), SceneError);
     CHECK_THROWS_WITH(run_origin(scene, {}, "1"), Catch::Contains("aaa.obj: cannot be read: "));
     CHECK_THROWS_AS(KeptRun(folder.path(std::string(300, 'b')), plain_scene(folder), {}, "1"), SceneError);
