@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "geometry/box.h"
+
 namespace percale {
 namespace {
 
@@ -15,16 +17,16 @@ std::uint64_t spread(std::uint64_t x) {
 }
 
 std::vector<std::uint64_t> morton_codes(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
-    Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-    for (const Vec3& x : positions) {
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
+    // Of these triangles alone: what else there is would move the cells of the curve, and pieces of it would be less compact.
+    Box box;
+    for (const Triangle& triangle : triangles) {
+        for (const int v : triangle) box.add(positions[v]);
     }
     constexpr double most = 1048575.0;
-    const double extent = std::max((high - low).maxCoeff(), 1e-300);
+    const double extent = std::max((box.high - box.low).maxCoeff(), 1e-300);
     std::vector<std::uint64_t> codes;
     for (const auto& [a, b, c] : triangles) {
-        const Vec3 place = ((positions[a] + positions[b] + positions[c]) / 3.0 - low) / extent * most;
+        const Vec3 place = ((positions[a] + positions[b] + positions[c]) / 3.0 - box.low) / extent * most;
         const Vec3 centre = place.cwiseMax(0.0).cwiseMin(most);  // by rounding it may lie outside, far if all are in one point
         codes.push_back(spread(static_cast<std::uint64_t>(centre.x())) | spread(static_cast<std::uint64_t>(centre.y())) << 1 |
                         spread(static_cast<std::uint64_t>(centre.z())) << 2);

@@ -16,19 +16,19 @@ void ClusterTree::refit(std::span<const Box> boxes) {
     }
 }
 
-void ClusterTree::find_pairs(std::vector<std::pair<int, int>>& pairs) const {
+void ClusterTree::find_pairs(std::vector<std::pair<int, int>>& pairs) {
     pairs.clear();
-    std::vector<std::pair<std::size_t, std::size_t>> open{{1, 1}};  // nodes of one level
-    while (!open.empty()) {
-        const auto [a, b] = open.back();
-        open.pop_back();
+    open_.assign({{1, 1}});
+    while (!open_.empty()) {
+        const auto [a, b] = open_.back();
+        open_.pop_back();
         if (!nodes_[a].overlaps(nodes_[b])) continue;
         if (a >= leaves_) {
             pairs.emplace_back(static_cast<int>(a - leaves_), static_cast<int>(b - leaves_));
             continue;
         }
-        open.insert(open.end(), {{2 * a, 2 * b}, {2 * a, 2 * b + 1}, {2 * a + 1, 2 * b + 1}});
-        if (a != b) open.emplace_back(2 * a + 1, 2 * b);
+        open_.insert(open_.end(), {{2 * a, 2 * b}, {2 * a, 2 * b + 1}, {2 * a + 1, 2 * b + 1}});
+        if (a != b) open_.emplace_back(2 * a + 1, 2 * b);
     }
     std::sort(pairs.begin(), pairs.end());
 }

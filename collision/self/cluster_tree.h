@@ -16,11 +16,12 @@ public:
     void refit(std::span<const Box> boxes);
 
     /// All pairs (a, b) with a <= b of items whose boxes overlap, (a, a) included, in ascending order.
-    void find_pairs(std::vector<std::pair<int, int>>& pairs) const;
+    void find_pairs(std::vector<std::pair<int, int>>& pairs);
 
 private:
     std::vector<Box> nodes_;  // node 1 is the root, the children of k are 2k and 2k + 1; leaves begin at leaves_
     std::size_t leaves_ = 0;
+    std::vector<std::pair<std::size_t, std::size_t>> open_;  // nodes of one level
 };
 
 }  // namespace percale

@@ -64,11 +64,11 @@ StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) co
 }
 
 void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) {
-    for (const SelfList& list : lists_.lists()) {
-        for (SelfPair& pair : lists_.pairs(list)) {
+    lists_.for_each([&](const SelfList&, std::span<SelfPair> pairs) {
+        for (SelfPair& pair : pairs) {
             if (pair.zone > 0.0 && has_moved(pair, start)) pair.zone = 0.0;
         }
-    }
+    });
     lists_.cover(start, predicted);
     start_.assign(start.begin(), start.end());
     is_first_ = true;
@@ -77,14 +77,14 @@ void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const 
 double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRows& rows) {
     lists_.cover(positions, positions);
     double smallest = infinity;
-    for (SelfList& list : lists_.lists()) {
-        if (list.smallest_reach - list.travel >= list.thickness) continue;
+    lists_.for_each([&](SelfList& list, std::span<SelfPair> pairs) {
+        if (list.smallest_reach - list.travel >= list.thickness) return;
         list.smallest_reach = infinity;
-        for (SelfPair& pair : lists_.pairs(list)) {
+        for (SelfPair& pair : pairs) {
             if (pair.reach - list.travel < pair.thickness) smallest = std::min(smallest, measure(list, pair, positions, rows));
             list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         }
-    }
+    });
     is_first_ = false;
     return smallest;
 }
@@ -124,15 +124,16 @@ void SelfContactDetection::add_row(const SelfPair& pair, const SelfPairContact& 
 double SelfContactDetection::largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to) {
     double safe = lists_.cover(from, to);
     lists_.set_motion(from, to);
-    for (SelfList& list : lists_.lists()) safe = cut(list, from, to, safe);
+    lists_.for_each([&](const SelfList& list, std::span<SelfPair> pairs) { safe = cut(list, pairs, from, to, safe); });
     return safe;
 }
 
 /// Lowers `safe` where a pair of the list needs it.
-double SelfContactDetection::cut(const SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe) {
+double SelfContactDetection::cut(const SelfList& list, std::span<SelfPair> pairs, std::span<const Vec3> from,
+                                 std::span<const Vec3> to, double safe) {
     const double shrink = lists_.shrink(list);
     if (stays_clear(list.smallest_reach - list.travel, list.thickness, shrink * safe)) return safe;
-    for (SelfPair& pair : lists_.pairs(list)) {
+    for (SelfPair& pair : pairs) {
         if (stays_clear(pair.reach - list.travel, pair.thickness, shrink * safe)) continue;
         const double distance = self_distance(pair, from);
         pair.reach = distance + list.travel;

@@ -37,7 +37,8 @@ public:
     void go_on_from(SelfListsMemory memory) { lists_.set_memory(std::move(memory)); }
 
 private:
-    double cut(const SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe);
+    double cut(const SelfList& list, std::span<SelfPair> pairs, std::span<const Vec3> from, std::span<const Vec3> to,
+               double safe);
     double measure(const SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows);
     void add_row(const SelfPair& pair, const SelfPairContact& contact, ContactRows& rows) const;
 

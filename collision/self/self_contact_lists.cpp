@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -24,6 +26,32 @@ double largest_said(const ClothPairs& pairs, std::optional<int> cloth = {}) {
 
 bool comes_before(const SelfPair& a, const SelfPair& b) { return std::tie(a.shape, a.feature) < std::tie(b.shape, b.feature); }
 
+/// The numbers of cloths that meet cloth, ascending.
+std::vector<int> meeting_cloths(std::span<const int> cloth_of_vertex) {
+    std::vector<int> numbers(cloth_of_vertex.begin(), cloth_of_vertex.end());
+    std::erase_if(numbers, [](int number) { return number < 0; });
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    return numbers;
+}
+
+int place_in(std::span<const int> ascending, int number) {
+    return static_cast<int>(std::lower_bound(ascending.begin(), ascending.end(), number) - ascending.begin());
+}
+
+NearCloths near_cloths(const SelfContact& cloth, std::span<const double> thickness) {
+    const std::vector<int> numbers = meeting_cloths(cloth.cloth);
+    std::vector<NearCloths::Cloth> cloths(numbers.size());
+    for (std::size_t c = 0; c < cloths.size(); ++c) cloths[c].thickness = largest_said(cloth.pairs, numbers[c]);
+    for (int v = 0; v < static_cast<int>(cloth.cloth.size()); ++v) {
+        if (cloth.cloth[v] < 0) continue;
+        NearCloths::Cloth& owner = cloths[place_in(numbers, cloth.cloth[v])];
+        owner.vertices.push_back(v);
+        owner.thickness = std::max(owner.thickness, thickness[v]);
+    }
+    return NearCloths(std::move(cloths));
+}
+
 }  // namespace
 
 SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
@@ -35,23 +63,21 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
       surface_(make_cloth_surface(triangles, vertex_thickness.size())),
       sewn_(surface_, cloth.stitches, rest_,
             std::max(largest(vertex_thickness), largest_said(cloth.pairs)) / tolerances::contact_of_seam),
-      memory_{.start = rest_,
-              .displacement = std::vector<Vec3>(rest_.size(), Vec3::Zero()),
-              .seen = rest_,
-              .lists = {},
-              .pairs = {}} {
-    for (int v = 0; v < static_cast<int>(cloth_.size()); ++v) {
-        if (cloth_[v] >= 0) vertices_.push_back(v);
-    }
+      near_cloths_(near_cloths(cloth, vertex_thickness)),
+      clusters_of_cloth_(near_cloths_.count()),
+      memory_{.start = rest_, .displacement = std::vector<Vec3>(rest_.size(), Vec3::Zero()), .seen = rest_, .groups = {}} {
     // Cloth by cloth, so that sheets that lie on each other do not share clusters.
-    std::vector<int> of_cloth;
+    const std::vector<int> numbers = meeting_cloths(cloth_);
+    std::vector<std::vector<int>> triangles_of(numbers.size());
     for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
         const int owner = cloth_[triangles[t][0]];
-        if (owner >= 0) of_cloth.push_back(t);
-        const bool last = t + 1 == static_cast<int>(triangles.size()) || cloth_[triangles[t + 1][0]] != owner;
-        if (!last || of_cloth.empty()) continue;
-        add_clusters(owner, of_cloth, cloth.rest);
-        of_cloth.clear();
+        if (owner >= 0) triangles_of[place_in(numbers, owner)].push_back(t);
+    }
+    for (std::size_t c = 0; c < numbers.size(); ++c) {
+        const int first = static_cast<int>(clusters_.size());
+        add_clusters(numbers[c], triangles_of[c], cloth.rest);
+        clusters_of_cloth_[c].resize(clusters_.size() - static_cast<std::size_t>(first));
+        std::iota(clusters_of_cloth_[c].begin(), clusters_of_cloth_[c].end(), first);
     }
     cluster_boxes_.resize(clusters_.size());
     vertex_boxes_.resize(rest_.size());
@@ -76,44 +102,87 @@ void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles, s
 }
 
 double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3> to) {
-    if (memory_.made) {
+    if (!memory_.groups.empty()) {
         set_motion(memory_.seen, from);
-        for (SelfList& list : memory_.lists) list.travel += shrink(list);
+        for_each([&](SelfList& list, std::span<SelfPair>) { list.travel += shrink(list); });
     }
     std::copy(from.begin(), from.end(), memory_.seen.begin());
-    if (memory_.made && covers(from) && covers(to)) return 1.0;
-    memory_.made = true;
+    const std::vector<int> stale = take_stale(from, to);
+    if (stale.empty()) return 1.0;
     double fraction = 1.0;
-    old_pairs_ = memory_.pairs;
     std::span<const Vec3> end = to;
-    while (!rebuild(from, end, fraction < tolerances::least_covered)) {
+    while (!rebuild(stale, from, end, fraction < tolerances::least_covered)) {
         fraction *= 0.5;
         shortened_.resize(from.size());
         for (std::size_t i = 0; i < from.size(); ++i) shortened_[i] = from[i] + fraction * (to[i] - from[i]);
         end = shortened_;
     }
-    take_over_zones();
+    keep_fresh();
     return fraction;
 }
 
-Vec3 SelfContactLists::mean_motion(std::span<const Vec3> from, std::span<const Vec3> to) const {
+/// Takes out groups whose lists do not hold for a move. Returns their cloths, ascending: those of all groups that meet, too.
+std::vector<int> SelfContactLists::take_stale(std::span<const Vec3> from, std::span<const Vec3> to) {
+    std::vector<int> stale;
+    old_pairs_.clear();
+    if (memory_.groups.empty()) {
+        stale.resize(cloth_count());
+        std::iota(stale.begin(), stale.end(), 0);
+        return stale;
+    }
+    std::vector<char>& meets = group_meets_;
+    meets.assign(memory_.groups.size(), 0);
+    if (memory_.groups.size() > 1) {
+        group_of_cloth_.resize(cloth_count());
+        for (std::size_t g = 0; g < memory_.groups.size(); ++g) {
+            for (const int cloth : memory_.groups[g].cloths) group_of_cloth_[cloth] = static_cast<int>(g);
+        }
+        near_cloths_.set_motion(from, to);
+        for (const auto& [a, b] : near_cloths_.meeting()) {
+            const int first = group_of_cloth_[a], second = group_of_cloth_[b];
+            if (first != second) meets[first] = meets[second] = 1;
+        }
+    }
+    std::size_t kept = 0;
+    for (std::size_t g = 0; g < memory_.groups.size(); ++g) {
+        SelfGroup& group = memory_.groups[g];
+        if (!meets[g] && covers(group, from) && covers(group, to)) {
+            if (kept != g) std::swap(memory_.groups[kept], group);
+            ++kept;
+            continue;
+        }
+        stale.insert(stale.end(), group.cloths.begin(), group.cloths.end());
+        std::copy_if(group.pairs.begin(), group.pairs.end(), std::back_inserter(old_pairs_),
+                     [](const SelfPair& pair) { return pair.zone > 0.0; });
+    }
+    std::move(memory_.groups.begin() + static_cast<long>(kept), memory_.groups.end(), std::back_inserter(spare_));
+    memory_.groups.resize(kept);
+    std::sort(stale.begin(), stale.end());
+    return stale;
+}
+
+Vec3 SelfContactLists::mean_motion(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to) const {
     Vec3 mean = Vec3::Zero();
-    for (const int v : vertices_) mean += to[v] - from[v];
-    return mean / static_cast<double>(vertices_.size());
+    std::size_t vertices = 0;
+    for_each_vertex(group, [&](int v) { mean += to[v] - from[v], ++vertices; });
+    return mean / static_cast<double>(vertices);
 }
 
 /// Whether a state is start + s displacement + t + e; s and t by least squares.
-bool SelfContactLists::covers(std::span<const Vec3> positions) const {
-    const Vec3 mean = mean_motion(memory_.start, positions);
+bool SelfContactLists::covers(const SelfGroup& group, std::span<const Vec3> positions) const {
+    const Vec3 mean = mean_motion(group, memory_.start, positions);
     double along = 0.0, length = 0.0;
-    for (const int v : vertices_) {
+    for_each_vertex(group, [&](int v) {
         along += memory_.displacement[v].dot(positions[v] - memory_.start[v] - mean);
         length += memory_.displacement[v].squaredNorm();
-    }
+    });
     const double s = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
-    return std::all_of(vertices_.begin(), vertices_.end(), [&](int v) {
+    const auto holds = [&](int v) {
         const double skin = tolerances::self_skin * thickness_[v];
         return (positions[v] - memory_.start[v] - mean - s * memory_.displacement[v]).squaredNorm() <= skin * skin;
+    };
+    return std::all_of(group.cloths.begin(), group.cloths.end(), [&](int cloth) {
+        return std::all_of(near_cloths_.vertices(cloth).begin(), near_cloths_.vertices(cloth).end(), holds);
     });
 }
 
@@ -133,52 +202,87 @@ double SelfContactLists::shrink(const SelfList& list) const {
     return a.spread + b.spread + (a.mean - b.mean).norm();
 }
 
-/// Boxes of all features during the move, as seen from the cloth's mean motion.
-void SelfContactLists::set_boxes() {
-    for (const int v : vertices_) {
+/// Boxes of all features of a group during the move, as seen from its mean motion.
+void SelfContactLists::set_boxes(const SelfGroup& group) {
+    for_each_vertex(group, [&](int v) {
         vertex_boxes_[v] = Box{};
         vertex_boxes_[v].add(memory_.start[v]);
         vertex_boxes_[v].add(memory_.start[v] + memory_.displacement[v]);
-    }
+    });
     const auto box_of = [&](const auto& vertices) {
         Box box;
         for (const int v : vertices) box.add(vertex_boxes_[v]);
         return box;
     };
-    for (std::size_t c = 0; c < clusters_.size(); ++c) {
-        for (const int e : clusters_[c].edges) edge_boxes_[e] = box_of(surface_.edges[e].vertex);
-        for (const int t : clusters_[c].triangles) triangle_boxes_[t] = box_of(surface_.triangles[t]);
-        cluster_boxes_[c] = box_of(clusters_[c].all_vertices);
-        cluster_boxes_[c].grow((0.5 + tolerances::self_skin) * clusters_[c].thickness);
+    tree_clusters_.clear();
+    tree_boxes_.clear();
+    for (const int cloth : group.cloths) {
+        for (const int c : clusters_of_cloth_[cloth]) {
+            for (const int e : clusters_[c].edges) edge_boxes_[e] = box_of(surface_.edges[e].vertex);
+            for (const int t : clusters_[c].triangles) triangle_boxes_[t] = box_of(surface_.triangles[t]);
+            cluster_boxes_[c] = box_of(clusters_[c].all_vertices);
+            cluster_boxes_[c].grow((0.5 + tolerances::self_skin) * clusters_[c].thickness);
+            tree_clusters_.push_back(c);
+            tree_boxes_.push_back(cluster_boxes_[c]);
+        }
     }
 }
 
-/// Makes all lists anew; false (and lists of no use) if that takes too many pairs, unless `whatever_it_takes`.
-bool SelfContactLists::rebuild(std::span<const Vec3> from, std::span<const Vec3> to, bool whatever_it_takes) {
+/// Makes groups and lists of some cloths anew; false (and lists of no use) if that takes too many pairs, unless
+/// `whatever_it_takes`.
+bool SelfContactLists::rebuild(std::span<const int> cloths, std::span<const Vec3> from, std::span<const Vec3> to,
+                               bool whatever_it_takes) {
     const long most = whatever_it_takes ? std::numeric_limits<long>::max()
                                         : tolerances::most_self_pairs +
                                               tolerances::most_self_pairs_per_vertex * static_cast<long>(rest_.size());
-    const Vec3 mean = mean_motion(from, to);
-    for (const int v : vertices_) {
+    considered_ = 0;
+    std::move(fresh_.begin(), fresh_.end(), std::back_inserter(spare_));
+    fresh_.clear();
+    set_motion(from, to);
+    near_cloths_.set_motion(from, to);
+    for (const std::vector<int>& near : near_cloths_.groups(cloths)) {
+        if (spare_.empty()) spare_.emplace_back();
+        SelfGroup& group = fresh_.emplace_back(std::move(spare_.back()));
+        spare_.pop_back();
+        group.cloths = near;
+        if (!fill(group, from, to, most)) return false;
+    }
+    return true;
+}
+
+/// Makes the lists of a group; false once more than `most` pairs were looked at.
+bool SelfContactLists::fill(SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to, long most) {
+    filled_ = &group;
+    group.lists.clear();
+    group.pairs.clear();
+    const Vec3 mean = mean_motion(group, from, to);
+    for_each_vertex(group, [&](int v) {
         memory_.start[v] = from[v];
         memory_.displacement[v] = to[v] - from[v] - mean;
-    }
-    set_motion(from, to);
-    set_boxes();
-    tree_.refit(cluster_boxes_);
+    });
+    set_boxes(group);
+    tree_.refit(tree_boxes_);
     tree_.find_pairs(cluster_pairs_);
-    considered_ = 0;
-    memory_.lists.clear();
-    memory_.pairs.clear();
-    for (const auto& [a, b] : cluster_pairs_) {
+    for (const auto& [first, second] : cluster_pairs_) {
+        const int a = tree_clusters_[first], b = tree_clusters_[second];
         pair_ = cloth_pairs_.of(clusters_[a].cloth, clusters_[b].cloth);
         if (!pair_.contact) continue;
-        SelfList list{.first = a, .second = b, .begin = memory_.pairs.size()};
+        SelfList list{.first = a, .second = b, .begin = group.pairs.size()};
         fill_list(list, from);
-        if (list.end > list.begin) memory_.lists.push_back(list);
+        if (list.end > list.begin) group.lists.push_back(list);
         if (considered_ > most) return false;
     }
     return true;
+}
+
+/// The groups just made are those of their cloths.
+void SelfContactLists::keep_fresh() {
+    std::sort(old_pairs_.begin(), old_pairs_.end(), comes_before);
+    for (SelfGroup& group : fresh_) take_over_zones(group);
+    std::move(fresh_.begin(), fresh_.end(), std::back_inserter(memory_.groups));
+    fresh_.clear();
+    std::sort(memory_.groups.begin(), memory_.groups.end(),
+              [](const SelfGroup& a, const SelfGroup& b) { return a.cloths.front() < b.cloths.front(); });
 }
 
 void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
@@ -191,9 +295,9 @@ void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
     pair_vertices(near_first_, near_second_, {room, limit}, from);
     if (!one) pair_vertices(near_second_, near_first_, {room, limit}, from);
     pair_edges(one, {room, limit}, from);
-    list.end = memory_.pairs.size();
+    list.end = filled_->pairs.size();
     list.smallest_reach = std::numeric_limits<double>::infinity();
-    for (const SelfPair& pair : pairs(list)) {
+    for (const SelfPair& pair : filled_->pairs_of(list)) {
         list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         list.thickness = std::max(list.thickness, pair.thickness);
     }
@@ -274,20 +378,16 @@ void SelfContactLists::consider(SelfPair pair, double room, std::span<const Vec3
     if (through_seam == 0.0) return;
     if (tolerances::contact_of_seam * through_seam < pair.thickness) set_of_seam(pair);
     if (one_cloth) pair.thickness = std::min(pair.thickness, tolerances::contact_of_rest * self_distance(pair, rest_));
-    if (pair.reach < pair.thickness + room) memory_.pairs.push_back(pair);
+    if (pair.reach < pair.thickness + room) filled_->pairs.push_back(pair);
 }
 
 /// What was a contact in the lists being replaced stays one.
-void SelfContactLists::take_over_zones() {
-    std::vector<SelfPair>& old = old_pairs_;
-    std::erase_if(old, [](const SelfPair& pair) { return pair.zone == 0.0; });
-    std::sort(old.begin(), old.end(), comes_before);
-    for (SelfPair& pair : memory_.pairs) {
-        const auto found = std::lower_bound(old.begin(), old.end(), pair, comes_before);
-        if (found != old.end() && !comes_before(pair, *found)) {
-            pair.zone = found->zone;
-            pair.began_apart = found->began_apart;
-        }
+void SelfContactLists::take_over_zones(SelfGroup& group) const {
+    for (SelfPair& pair : group.pairs) {
+        const auto found = std::lower_bound(old_pairs_.begin(), old_pairs_.end(), pair, comes_before);
+        if (found == old_pairs_.end() || comes_before(pair, *found)) continue;
+        pair.zone = found->zone;
+        pair.began_apart = found->began_apart;
     }
 }
 

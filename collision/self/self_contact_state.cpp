@@ -1,6 +1,7 @@
 #include "self/self_contact_state.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace percale {
 
@@ -13,6 +14,11 @@ template <class Archive, OfType<SelfPair> Value>
 void exchange(Archive& archive, Value& pair) {
     archive.choice(pair.shape, 2);
     archive(pair.vertex, pair.feature, pair.thickness, pair.of_seam, pair.zone, pair.began_apart, pair.reach);
+}
+
+template <class Archive, OfType<SelfGroup> Value>
+void exchange(Archive& archive, Value& group) {
+    archive(group.cloths, group.lists, group.pairs);
 }
 
 namespace {
@@ -40,32 +46,55 @@ bool is_good(const SelfPair& pair, const ClothSurface& surface) {
     return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
+void check(const SelfGroup& group, const SelfContactLists& lists, const StateReader& state) {
+    const bool ascending =
+        std::adjacent_find(group.cloths.begin(), group.cloths.end(), std::greater_equal<>()) == group.cloths.end();
+    state.demand(!group.cloths.empty() && ascending && below(group.cloths.front(), lists.cloth_count()) &&
+                     below(group.cloths.back(), lists.cloth_count()),
+                 "a cloth that there is not");
+    const auto has = [&](int cluster) {
+        return std::any_of(group.cloths.begin(), group.cloths.end(), [&](int cloth) {
+            const std::span<const int> clusters = lists.clusters(cloth);
+            return std::binary_search(clusters.begin(), clusters.end(), cluster);
+        });
+    };
+    std::size_t next = 0;
+    for (const SelfList& list : group.lists) {
+        state.demand(has(list.first) && has(list.second), "a cluster that there is not");
+        state.demand(list.begin == next && list.begin < list.end && list.end <= group.pairs.size(), "pairs that there are not");
+        next = list.end;
+    }
+    state.demand(next == group.pairs.size(), "pairs of no list");
+    for (const SelfPair& pair : group.pairs) state.demand(is_good(pair, lists.surface()), "a pair that there is not");
+}
+
 void check(const SelfListsMemory& memory, const SelfContactLists& lists, const StateReader& state) {
     const std::size_t vertices = lists.memory().seen.size();
     for (const auto* positions : {&memory.start, &memory.displacement, &memory.seen}) {
         state.demand(positions->size() == vertices, "a wrong number of vertices");
     }
-    std::size_t next = 0;
-    for (const SelfList& list : memory.lists) {
-        state.demand(below(list.first, lists.cluster_count()) && below(list.second, lists.cluster_count()),
-                     "a cluster that there is not");
-        state.demand(list.begin == next && list.begin < list.end && list.end <= memory.pairs.size(), "pairs that there are not");
-        next = list.end;
+    std::vector<int> in_groups(lists.cloth_count(), 0);
+    int last = -1;
+    for (const SelfGroup& group : memory.groups) {
+        check(group, lists, state);
+        state.demand(group.cloths.front() > last, "groups out of order");
+        last = group.cloths.front();
+        for (const int cloth : group.cloths) ++in_groups[cloth];
     }
-    state.demand(next == memory.pairs.size(), "pairs of no list");
-    for (const SelfPair& pair : memory.pairs) state.demand(is_good(pair, lists.surface()), "a pair that there is not");
+    const bool whole = std::all_of(in_groups.begin(), in_groups.end(), [](int times) { return times == 1; });
+    state.demand(memory.groups.empty() || whole, "a cloth in no group, or in two");
 }
 
 }  // namespace
 
 void save(const SelfContactLists& lists, StateWriter& state) {
     const SelfListsMemory& memory = lists.memory();
-    state(memory.start, memory.displacement, memory.seen, memory.lists, memory.pairs, memory.made);
+    state(memory.start, memory.displacement, memory.seen, memory.groups);
 }
 
 SelfListsMemory restored_memory(const SelfContactLists& lists, StateReader& state) {
     SelfListsMemory memory;
-    state(memory.start, memory.displacement, memory.seen, memory.lists, memory.pairs, memory.made);
+    state(memory.start, memory.displacement, memory.seen, memory.groups);
     check(memory, lists, state);
     return memory;
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "percale/detectors.h"
 #include "percale/simulation.h"
 #include "tests/bench/bench_report.h"
 #include "tests/support/bench_meshes.h"
@@ -39,7 +40,7 @@ double peak_bytes() {
 
 struct MeshChoice {
     std::string kind;
-    bool shuffle = false;
+    bool shuffle = false, self_contact = false;
 };
 
 /// A mesh of about n x n vertices.
@@ -56,12 +57,13 @@ percale::Simulation make_scene(const MeshChoice& choice, int n) {
     if (choice.shuffle) mesh = percale::test::shuffled(mesh);
     percale::Fabric fabric = percale::test::bench_fabric();
     if (!mesh.is_grid()) fabric.springs.shear = 0.0;
+    fabric.self_contact = choice.self_contact;
     Vec3 low = mesh.vertices[0], high = low;
     for (const Vec3& x : mesh.vertices) {
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
     }
-    percale::Simulation simulation({});
+    percale::Simulation simulation({}, percale::make_fcl_detector());
     const percale::ClothId cloth = simulation.add_cloth(mesh, fabric);
     simulation.pin(cloth, percale::test::nearest_vertex(mesh, Vec3(low.x(), high.y(), low.z())));
     simulation.pin(cloth, percale::test::nearest_vertex(mesh, Vec3(high.x(), high.y(), low.z())));
@@ -157,7 +159,11 @@ Figures measure(const MeshChoice& choice, int largest, int steps) {
         vertices.push_back(cost.vertices);
         ms.push_back(cost.ms);
     }
-    Figures figures{{"mesh", choice.kind}, {"shuffled", choice.shuffle}, {"steps", steps}, {"rows", rows}};
+    Figures figures{{"mesh", choice.kind},
+                    {"shuffled", choice.shuffle},
+                    {"self_contact", choice.self_contact},
+                    {"steps", steps},
+                    {"rows", rows}};
     if (ms.size() > 1) {
         figures["exponent"] = fitted_exponent(vertices, ms);
         std::printf("time grows with the number of vertices to the power %.3f\n", figures["exponent"].get<double>());
@@ -177,5 +183,6 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::IsMember({"grid", "irregular", "skirt", "shirt"}));
     app.add_flag("--shuffle", choice.shuffle, "number the vertices at random (a grid becomes a free mesh)");
+    app.add_flag("--self-contact", choice.self_contact, "the cloth meets itself");
     return percale::test::run_bench(app, argc, argv, [&] { return measure(choice, largest, steps); });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "tests/support/catch.h"
 #include "tests/support/collision/cloths.h"
@@ -17,8 +18,8 @@ using Key = std::pair<int, std::array<int, 2>>;
 /// By features, the edge with the lower number first.
 std::map<Key, SelfPair> pairs_of(SelfContactLists& lists) {
     std::map<Key, SelfPair> pairs;
-    for (const SelfList& list : lists.lists()) {
-        for (SelfPair pair : lists.pairs(list)) {
+    lists.for_each([&](const SelfList&, std::span<SelfPair> of_list) {
+        for (SelfPair pair : of_list) {
             if (pair.shape == PairShape::edge_edge && pair.feature[0] > pair.feature[1]) {
                 std::swap(pair.feature[0], pair.feature[1]);
                 std::swap(pair.vertex[0], pair.vertex[2]);
@@ -27,7 +28,7 @@ std::map<Key, SelfPair> pairs_of(SelfContactLists& lists) {
             const bool fresh = pairs.insert({{static_cast<int>(pair.shape), pair.feature}, pair}).second;
             CHECK(fresh);
         }
-    }
+    });
     return pairs;
 }
 
@@ -58,12 +59,58 @@ double zone(const Cloths& cloths, const SelfPair& pair) {
 }
 
 void check_bounds(SelfContactLists& lists, const std::vector<Vec3>& x) {
-    for (const SelfList& list : lists.lists()) {
-        for (const SelfPair& pair : lists.pairs(list)) {
+    lists.for_each([&](const SelfList& list, std::span<SelfPair> pairs) {
+        for (const SelfPair& pair : pairs) {
             CHECK(pair.reach - list.travel <= self_distance(pair, x) * (1 + 1e-12));
             CHECK(list.smallest_reach <= pair.reach);
         }
+    });
+}
+
+/// Pairs in no list are apart, others are what they should be; returns how many are in lists.
+int check_pairs(SelfContactLists& lists, const Cloths& cloths, const std::vector<Vec3>& here) {
+    const auto pairs = pairs_of(lists);
+    int near = 0;
+    for (const SelfPair& pair : every_pair(cloths)) {
+        const double distance = self_distance(pair, here), thickness = zone(cloths, pair);
+        const auto found = pairs.find({static_cast<int>(pair.shape), pair.feature});
+        if (found == pairs.end()) {
+            CHECK(distance >= thickness);
+            continue;
+        }
+        ++near;
+        CHECK(found->second.vertex == pair.vertex);
+        CHECK(found->second.thickness == Approx(thickness).epsilon(1e-12));
     }
+    return near;
+}
+
+constexpr double mark = -123.0;
+
+void mark_all(SelfContactLists& lists) {
+    lists.for_each([](const SelfList&, std::span<SelfPair> pairs) { pairs[0].reach = mark; });
+}
+
+/// Cloths with a list that has not been made anew since.
+std::set<int> marked_cloths(SelfContactLists& lists, const Cloths& cloths) {
+    std::set<int> marked;
+    lists.for_each([&](const SelfList&, std::span<SelfPair> pairs) {
+        if (pairs[0].reach != mark) return;
+        for (const int v : pairs[0].vertex) marked.insert(cloths.cloth[v]);
+    });
+    return marked;
+}
+
+std::vector<std::vector<int>> groups_of(const SelfContactLists& lists) {
+    std::vector<std::vector<int>> groups;
+    for (const SelfGroup& group : lists.memory().groups) groups.push_back(group.cloths);
+    return groups;
+}
+
+/// Cloth n moved by n times a vector.
+std::vector<Vec3> spread_out(const Cloths& cloths, std::vector<Vec3> x, const Vec3& by) {
+    for (std::size_t v = 0; v < x.size(); ++v) x[v] += cloths.cloth[v] * by;
+    return x;
 }
 
 std::vector<Vec3> shaken(std::vector<Vec3> x, double by, Random& random) {
@@ -88,19 +135,7 @@ TEST_CASE("lists of cloth against cloth hold every pair that comes near on the w
         const double fraction = random.number(0.0, 1.0);
         const std::vector<Vec3> here = shaken(between(x, to, fraction), 0.1 * h, random);
         CHECK(lists.cover(here, here) == 1.0);
-        const auto pairs = pairs_of(lists);
-        int near = 0;
-        for (const SelfPair& pair : every_pair(cloths)) {
-            const double distance = self_distance(pair, here), thickness = zone(cloths, pair);
-            const auto found = pairs.find({static_cast<int>(pair.shape), pair.feature});
-            if (found == pairs.end()) {
-                CHECK(distance >= thickness);
-                continue;
-            }
-            ++near;
-            CHECK(found->second.vertex == pair.vertex);
-            CHECK(found->second.thickness == Approx(thickness).epsilon(1e-12));
-        }
+        const int near = check_pairs(lists, cloths, here);
         CHECK(near > 10);
         check_bounds(lists, here);
         x = here;
@@ -117,9 +152,9 @@ TEST_CASE("lists hold while cloth moves as a whole, along its prediction or by l
     lists.cover(start, to);
     // Zones are taken over where lists are made anew, so only their place in memory tells.
     const auto kept = [&](const std::vector<Vec3>& x) {
-        for (const SelfList& list : lists.lists()) lists.pairs(list)[0].reach = -123.0;
+        mark_all(lists);
         lists.cover(x, x);
-        return lists.pairs(lists.lists()[0])[0].reach == -123.0;
+        return marked_cloths(lists, cloths).size() == 2;
     };
     CHECK(kept(between(start, to, 0.37)));
     CHECK(kept(shaken(between(start, to, 0.9), 0.25 * h, random)));
@@ -139,12 +174,12 @@ TEST_CASE("what has been a contact stays one where lists are made anew") {
     std::vector<Vec3> x = cloths.mesh.vertices;
     lists.cover(x, x);
     int marked = 0;
-    for (const SelfList& list : lists.lists()) {
-        for (SelfPair& pair : lists.pairs(list)) {
+    lists.for_each([&](const SelfList&, std::span<SelfPair> pairs) {
+        for (SelfPair& pair : pairs) {
             if (pair.feature[1] % 3 == 0) pair.zone = 0.01 * (1 + pair.feature[0]);
             marked += pair.zone > 0.0;
         }
-    }
+    });
     REQUIRE(marked > 10);
     const auto before = pairs_of(lists);
     x[0].y() += 10.0;  // the lists no longer hold
@@ -171,4 +206,55 @@ TEST_CASE("cloth that meets no cloth is in no list") {
     for (const auto& [key, pair] : pairs) {
         for (const int v : pair.vertex) CHECK(v >= 25);
     }
+}
+
+TEST_CASE("cloths that fly past each other are in lists together while they are near, and leave no pair out") {
+    Random random(GENERATE(11U, 12U, 13U));
+    Cloths cloths;
+    for (int n = 0; n < 4; ++n) cloths.add(moved(make_grid(0.5, 0.5, 5, 5), random.point(0.8)), 0.04);
+    SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    std::vector<Vec3> x = cloths.mesh.vertices;
+    std::set<std::size_t> group_counts;
+    int between = 0;
+    for (int step = 0; step < 40; ++step) {
+        std::vector<Vec3> velocity(4);
+        for (Vec3& v : velocity) v = random.point(0.4);
+        std::vector<Vec3> to = shaken(x, 0.02, random);
+        for (std::size_t v = 0; v < to.size(); ++v) to[v] += velocity[cloths.cloth[v]] - 0.2 * (to[v] - Vec3(0.25, 0, 0.25));
+        lists.cover(x, to);
+        check_pairs(lists, cloths, test::between(x, to, random.number(0.0, 1.0)));
+        lists.cover(to, to);
+        check_pairs(lists, cloths, to);
+        check_bounds(lists, to);
+        group_counts.insert(groups_of(lists).size());
+        for (const auto& [key, pair] : pairs_of(lists)) between += cloths.cloth[pair.vertex[0]] != cloths.cloth[pair.vertex[3]];
+        x = to;
+    }
+    CHECK(group_counts.size() > 1);
+    CHECK(between > 100);
+}
+
+TEST_CASE("cloth that leaves its range makes lists of its own group anew, and what meets joins groups until it is apart") {
+    Cloths cloths;
+    for (int n = 0; n < 4; ++n) cloths.add(make_grid(1, 1, 5, 5), 0.3);
+    const std::vector<Vec3>& rest = cloths.mesh.vertices;
+    SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    const std::vector<Vec3> apart = spread_out(cloths, rest, {3, 0, 0});
+    lists.cover(apart, apart);
+    CHECK(groups_of(lists) == std::vector<std::vector<int>>{{0}, {1}, {2}, {3}});
+    std::vector<Vec3> x = spread_out(cloths, rest, {7, 1, -2});
+    x[30].y() += 0.2;  // of cloth 1
+    mark_all(lists);
+    lists.cover(x, x);
+    CHECK(marked_cloths(lists, cloths) == std::set<int>{0, 2, 3});
+    for (std::size_t v = 0; v < x.size(); ++v) {
+        if (cloths.cloth[v] == 2) x[v] = rest[v] + Vec3(0, 0.04, 0);  // above cloth 0
+    }
+    mark_all(lists);
+    lists.cover(x, x);
+    CHECK(marked_cloths(lists, cloths) == std::set<int>{1, 3});
+    CHECK(groups_of(lists) == std::vector<std::vector<int>>{{0, 2}, {1}, {3}});
+    CHECK(check_pairs(lists, cloths, x) > 100);
+    lists.cover(apart, apart);
+    CHECK(groups_of(lists) == std::vector<std::vector<int>>{{0}, {1}, {2}, {3}});
 }
