@@ -159,8 +159,9 @@ constexpr double forgetting_displacement = 0.1;
 
 // ---- self/
 
-/// Fraction of h. How far a vertex may be from the states that the lists hold for. As box_skin. Cost alone.
-constexpr double self_skin = 0.5;
+/// Fraction of h, and of the mean length of a vertex's edges. How far a vertex may at most be from the states that the lists hold
+/// for. As box_skin. Cost alone.
+constexpr double self_skin = 0.5, self_skin_of_edge = 0.125;
 
 /// Fraction of the distance at rest below which two features of one cloth are in contact at the latest. Above 1: a mesh finer
 /// than its thickness pushes itself apart at rest. Small: a fold closes to nearly nothing at its crease.

@@ -39,6 +39,23 @@ int place_in(std::span<const int> ascending, int number) {
     return static_cast<int>(std::lower_bound(ascending.begin(), ascending.end(), number) - ascending.begin());
 }
 
+/// m, how far each vertex may be from what the lists hold for.
+std::vector<double> skins(const ClothSurface& surface, std::span<const Vec3> rest, std::span<const double> thickness) {
+    std::vector<double> lengths(rest.size(), 0.0), edges(rest.size(), 0.0);
+    for (const ClothSurface::Edge& edge : surface.edges) {
+        for (const int v : edge.vertex) {
+            lengths[v] += (rest[edge.vertex[0]] - rest[edge.vertex[1]]).norm();
+            edges[v] += 1.0;
+        }
+    }
+    std::vector<double> skins(rest.size());
+    for (std::size_t v = 0; v < skins.size(); ++v) {
+        skins[v] = tolerances::self_skin * thickness[v];
+        if (edges[v] > 0.0) skins[v] = std::min(skins[v], tolerances::self_skin_of_edge * lengths[v] / edges[v]);
+    }
+    return skins;
+}
+
 NearCloths near_cloths(const SelfContact& cloth, std::span<const double> thickness) {
     const std::vector<int> numbers = meeting_cloths(cloth.cloth);
     std::vector<NearCloths::Cloth> cloths(numbers.size());
@@ -61,6 +78,7 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
       cloth_pairs_(cloth.pairs),
       rest_(cloth.rest.begin(), cloth.rest.end()),
       surface_(make_cloth_surface(triangles, vertex_thickness.size())),
+      skin_(skins(surface_, rest_, vertex_thickness)),
       sewn_(surface_, cloth.stitches, rest_,
             std::max(largest(vertex_thickness), largest_said(cloth.pairs)) / tolerances::contact_of_seam),
       near_cloths_(near_cloths(cloth, vertex_thickness)),
@@ -97,7 +115,11 @@ void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles, s
         cluster.all_vertices = made.all_vertices;
         for (const int t : made.triangles) cluster.triangles.push_back(triangles[t]);
         for (const auto& [a, b] : made.edges) cluster.edges.push_back(surface_.edge_between(a, b));
-        for (const int v : made.all_vertices) cluster.thickness = std::max(cluster.thickness, thickness_[v]);
+        for (const int v : made.all_vertices) {
+            cluster.thickness = std::max(cluster.thickness, thickness_[v]);
+            cluster.skin = std::max(cluster.skin, skin_[v]);
+        }
+        for (const auto& [a, b] : made.edges) cluster.shortest = std::min(cluster.shortest, (rest[a] - rest[b]).norm());
     }
 }
 
@@ -178,8 +200,7 @@ bool SelfContactLists::covers(const SelfGroup& group, std::span<const Vec3> posi
     });
     const double s = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
     const auto holds = [&](int v) {
-        const double skin = tolerances::self_skin * thickness_[v];
-        return (positions[v] - memory_.start[v] - mean - s * memory_.displacement[v]).squaredNorm() <= skin * skin;
+        return (positions[v] - memory_.start[v] - mean - s * memory_.displacement[v]).squaredNorm() <= skin_[v] * skin_[v];
     };
     return std::all_of(group.cloths.begin(), group.cloths.end(), [&](int cloth) {
         return std::all_of(near_cloths_.vertices(cloth).begin(), near_cloths_.vertices(cloth).end(), holds);
@@ -221,7 +242,7 @@ void SelfContactLists::set_boxes(const SelfGroup& group) {
             for (const int e : clusters_[c].edges) edge_boxes_[e] = box_of(surface_.edges[e].vertex);
             for (const int t : clusters_[c].triangles) triangle_boxes_[t] = box_of(surface_.triangles[t]);
             cluster_boxes_[c] = box_of(clusters_[c].all_vertices);
-            cluster_boxes_[c].grow((0.5 + tolerances::self_skin) * clusters_[c].thickness);
+            cluster_boxes_[c].grow(clusters_[c].reach());
             tree_clusters_.push_back(c);
             tree_boxes_.push_back(cluster_boxes_[c]);
         }
@@ -287,14 +308,17 @@ void SelfContactLists::keep_fresh() {
 
 void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
     const Cluster &a = clusters_[list.first], &b = clusters_[list.second];
-    const double room = shrink(list) + tolerances::self_skin * (a.thickness + b.thickness);
-    const double limit = (0.5 + tolerances::self_skin) * (a.thickness + b.thickness);
+    const bool is_fine = tolerances::contact_of_rest * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
+    const Reach reach{.room = shrink(list) + a.skin + b.skin,
+                      .limit = a.reach() + b.reach(),
+                      .skins = a.skin + b.skin,
+                      .rest_counts = is_fine && a.cloth == b.cloth};
     const bool one = list.first == list.second;
     find_near(a, cluster_boxes_[list.second], near_first_);
     find_near(b, cluster_boxes_[list.first], near_second_);
-    pair_vertices(near_first_, near_second_, {room, limit}, from);
-    if (!one) pair_vertices(near_second_, near_first_, {room, limit}, from);
-    pair_edges(one, {room, limit}, from);
+    pair_vertices(near_first_, near_second_, reach, from);
+    if (!one) pair_vertices(near_second_, near_first_, reach, from);
+    pair_edges(one, reach, from);
     list.end = filled_->pairs.size();
     list.smallest_reach = std::numeric_limits<double>::infinity();
     for (const SelfPair& pair : filled_->pairs_of(list)) {
@@ -306,7 +330,7 @@ void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
 /// Features of a cluster that come near the box of another, which is grown by that one's half of the limit.
 void SelfContactLists::find_near(const Cluster& cluster, const Box& other, Near& near) const {
     Box reach = other;
-    reach.grow((0.5 + tolerances::self_skin) * cluster.thickness);
+    reach.grow(cluster.reach());
     near.vertices.clear();
     near.edges.clear();
     near.triangles.clear();
@@ -328,6 +352,10 @@ void SelfContactLists::pair_vertices(const Near& points, const Near& faces, Reac
         for (const int t : faces.triangles) {
             const Triangle& face = surface_.triangles[t];
             if (!box.overlaps(triangle_boxes_[t]) || v == face[0] || v == face[1] || v == face[2]) continue;
+            if (reach.rest_counts &&
+                vertex_boxes_[v].gap(triangle_boxes_[t]) >= thickness_by_rest(std::array{v}, face) + reach.skins) {
+                continue;
+            }
             consider({.shape = PairShape::point_triangle, .vertex = {v, face[0], face[1], face[2]}, .feature = {v, t}},
                      reach.room, from);
         }
@@ -343,9 +371,23 @@ void SelfContactLists::pair_edges(bool one, Reach reach, std::span<const Vec3> f
         for (const int f : near_second_.edges) {
             const auto& [c, d] = surface_.edges[f].vertex;
             if ((one && e >= f) || !box.overlaps(edge_boxes_[f]) || a == c || a == d || b == c || b == d) continue;
+            if (reach.rest_counts &&
+                edge_boxes_[e].gap(edge_boxes_[f]) >= thickness_by_rest(std::array{a, b}, std::array{c, d}) + reach.skins) {
+                continue;
+            }
             consider({.shape = PairShape::edge_edge, .vertex = {a, b, c, d}, .feature = {e, f}}, reach.room, from);
         }
     }
+}
+
+/// m, which the thickness of a pair of features of one cloth with these vertices does not exceed: most of what is near each other
+/// in a fine cloth is so at rest, and cannot come into contact for that.
+double SelfContactLists::thickness_by_rest(std::span<const int> first, std::span<const int> second) const {
+    double square = std::numeric_limits<double>::infinity();
+    for (const int a : first) {
+        for (const int b : second) square = std::min(square, (rest_[a] - rest_[b]).squaredNorm());
+    }
+    return tolerances::contact_of_rest * std::sqrt(square);
 }
 
 /// m, through a seam near the pair; 0 where it is sewn together, infinity without such a seam.

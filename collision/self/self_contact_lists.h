@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,7 +40,7 @@ struct SelfListsMemory {
 };
 
 /// Candidate pairs of cloth against cloth, in groups of cloths that come near each other. A group's hold for the states start +
-/// s displacement + t + e, with s from 0 to 1 and t the same for all of its vertices and e at most half of the thickness: how a
+/// s displacement + t + e, with s from 0 to 1 and t the same for all of its vertices and e at most the vertex's skin: how a
 /// group moves as a whole is of no matter, nor is going on from a prediction. The lists of a group that leaves that range, or
 /// that another group meets, are made anew, and the groups with them.
 class SelfContactLists {
@@ -77,9 +78,14 @@ private:
         std::vector<int> vertices, edges, triangles;  // owned
         std::vector<int> all_vertices;
         int cloth = -1;
-        double thickness = 0.0;  // m, largest, what is said of pairs of its cloth included
+        double thickness = 0.0;                                     // m, largest, what is said of pairs of its cloth included
+        double skin = 0.0;                                          // m, largest
+        double shortest = std::numeric_limits<double>::infinity();  // m, edge at rest
         Vec3 mean = Vec3::Zero();
         double spread = 0.0;  // m, from the mean motion
+
+        /// m, half of how near its features come to others before their pairs are looked at.
+        double reach() const { return 0.5 * thickness + skin; }
     };
     struct Near {
         std::vector<int> vertices, edges, triangles;
@@ -92,9 +98,11 @@ private:
     bool fill(SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to, long most);
     void set_boxes(const SelfGroup& group);
     Vec3 mean_motion(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to) const;
-    /// Pairs whose boxes come within `limit` and whose distance is below its own thickness and `room` are kept, m.
+    /// Pairs whose boxes come within `limit`, and whose distance is below their own thickness and `room`, are kept, m.
     struct Reach {
         double room = 0.0, limit = 0.0;
+        double skins = 0.0;        // boxes farther apart than this and a pair's thickness never come into contact
+        bool rest_counts = false;  // of one cloth, so fine that it is the distance at rest that bounds most thicknesses
     };
     void fill_list(SelfList& list, std::span<const Vec3> from);
     void keep_fresh();
@@ -102,6 +110,7 @@ private:
     void pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from);
     void pair_edges(bool one, Reach reach, std::span<const Vec3> from);
     void set_of_seam(SelfPair& pair) const;
+    double thickness_by_rest(std::span<const int> first, std::span<const int> second) const;
     double sewn_distance(const SelfPair& pair) const;
     void consider(SelfPair pair, double room, std::span<const Vec3> from);
     void take_over_zones(SelfGroup& group) const;
@@ -118,6 +127,7 @@ private:
     ClothPair pair_;  // of the clusters whose list is being filled
     std::vector<Vec3> rest_;
     ClothSurface surface_;
+    std::vector<double> skin_;
     SewnRest sewn_;
     std::vector<Cluster> clusters_;
     NearCloths near_cloths_;
