@@ -159,8 +159,8 @@ constexpr double forgetting_displacement = 0.1;
 
 // ---- self/
 
-/// Fraction of h, and of the mean length of a vertex's edges. How far a vertex may at most be from the states that the lists hold
-/// for. As box_skin. Cost alone.
+/// Fraction of h, and of the mean length of a vertex's edges: the lower is its skin. What clusters may move against each other
+/// beyond a foreseen move before their list is made anew. As box_skin. Cost alone.
 constexpr double self_skin = 0.5, self_skin_of_edge = 0.125;
 
 /// Fraction of the distance at rest below which two features of one cloth are in contact at the latest. Above 1: a mesh finer

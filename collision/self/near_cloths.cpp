@@ -1,9 +1,6 @@
 #include "self/near_cloths.h"
 
-#include <algorithm>
-
 #include "geometry/disjoint_sets.h"
-#include "tolerances.h"
 
 namespace percale {
 
@@ -19,36 +16,24 @@ void NearCloths::set_motion(std::span<const Vec3> from, std::span<const Vec3> to
     }
 }
 
-/// Of boxes grown by so many thicknesses.
-const std::vector<std::pair<int, int>>& NearCloths::near_pairs(double grown) {
-    grown_boxes_ = boxes_;
-    for (std::size_t c = 0; c < cloths_.size(); ++c) grown_boxes_[c].grow(grown * cloths_[c].thickness);
-    tree_.refit(grown_boxes_);
-    tree_.find_pairs(pairs_);
-    std::erase_if(pairs_, [](const auto& pair) { return pair.first == pair.second; });
-    return pairs_;
-}
-
-const std::vector<std::pair<int, int>>& NearCloths::meeting() { return near_pairs(0.5); }
-
-std::vector<std::vector<int>> NearCloths::groups(std::span<const int> cloths) {
-    DisjointSets sets(cloths_.size());
-    std::vector<char> asked(cloths_.size(), 0);
-    for (const int c : cloths) asked[c] = 1;
+std::vector<int> NearCloths::groups(std::span<const int> before) {
+    const auto grown = [&](int c, double thicknesses) {
+        Box box = boxes_[c];
+        box.grow(thicknesses * cloths_[c].thickness);
+        return box;
+    };
+    const int count = static_cast<int>(cloths_.size());
+    grown_.resize(cloths_.size());
     // Wider than what meets: cloths that hover there would be divided and joined again and again.
-    for (const auto& [a, b] : near_pairs(0.5 + tolerances::self_skin)) {
-        if (asked[a] && asked[b]) sets.join(a, b);
+    for (int c = 0; c < count; ++c) grown_[c] = grown(c, 1.0);
+    tree_.refit(grown_);
+    tree_.find_pairs(pairs_);
+    DisjointSets sets(cloths_.size());
+    for (const auto& [a, b] : pairs_) {
+        if (before.empty() || before[a] == before[b] || grown(a, 0.5).overlaps(grown(b, 0.5))) sets.join(a, b);
     }
-    std::vector<std::vector<int>> groups;
-    std::vector<int> group_of(cloths_.size(), -1);
-    for (const int c : cloths) {
-        int& group = group_of[sets.of(c)];
-        if (group < 0) {
-            group = static_cast<int>(groups.size());
-            groups.emplace_back();
-        }
-        groups[group].push_back(c);
-    }
+    std::vector<int> groups(cloths_.size());
+    for (int c = 0; c < count; ++c) groups[c] = sets.of(c);
     return groups;
 }
 

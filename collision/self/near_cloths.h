@@ -26,18 +26,14 @@ public:
     /// The straight line that later answers are about.
     void set_motion(std::span<const Vec3> from, std::span<const Vec3> to);
 
-    /// Pairs (a, b) with a < b of cloths that may come into contact, in ascending order.
-    const std::vector<std::pair<int, int>>& meeting();
-
-    /// Divides some cloths, in ascending order, into groups; two that come within their thicknesses are in one. Groups stand in
-    /// the order of their first cloths.
-    std::vector<std::vector<int>> groups(std::span<const int> cloths);
+    /// The group of each cloth, by its lowest member, where `before` says which they were in; empty: none yet. Cloths that may
+    /// come into contact join groups; those of one group stay in it while they are within their thicknesses, by way of others,
+    /// too.
+    std::vector<int> groups(std::span<const int> before);
 
 private:
-    const std::vector<std::pair<int, int>>& near_pairs(double grown);
-
     std::vector<Cloth> cloths_;
-    std::vector<Box> boxes_, grown_boxes_;  // m
+    std::vector<Box> boxes_, grown_;  // m
     ClusterTree tree_;
     std::vector<std::pair<int, int>> pairs_;
 };

@@ -24,9 +24,12 @@ Vec3 apart(const SelfPair& pair, std::span<const Vec3> x) {
     return x[a] - (x[b] + x[c] + x[d]) / 3.0;
 }
 
-/// Whether a contact is elsewhere than where it began.
-bool has_moved(const SelfPair& pair, std::span<const Vec3> positions) {
-    return (apart(pair, positions) - pair.began_apart).norm() > tolerances::forgetting_displacement * pair.thickness;
+/// Whether a contact that one step has left is none of the next. As with obstacles, a contact stays one while a step is solved.
+/// Of edges it does in the next ones, too, until their cloth is elsewhere than where it began: edges that are now flat, now a
+/// ridge would keep cloth moving that lies still.
+bool begins_anew(const SelfPair& pair, std::span<const Vec3> start) {
+    if (pair.shape == PairShape::point_triangle) return true;
+    return (apart(pair, start) - pair.began_apart).norm() > tolerances::forgetting_displacement * pair.thickness;
 }
 
 }  // namespace
@@ -64,28 +67,26 @@ StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) co
 }
 
 void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) {
-    lists_.for_each([&](const SelfList&, std::span<SelfPair> pairs) {
-        for (SelfPair& pair : pairs) {
-            if (pair.zone > 0.0 && has_moved(pair, start)) pair.zone = 0.0;
+    lists_.for_each([&](SelfList& list) {
+        for (SelfPair& pair : list.pairs) {
+            if (pair.zone > 0.0 && begins_anew(pair, start)) pair.zone = 0.0;
         }
     });
     lists_.cover(start, predicted);
     start_.assign(start.begin(), start.end());
-    is_first_ = true;
 }
 
 double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRows& rows) {
     lists_.cover(positions, positions);
     double smallest = infinity;
-    lists_.for_each([&](SelfList& list, std::span<SelfPair> pairs) {
+    lists_.for_each([&](SelfList& list) {
         if (list.smallest_reach - list.travel >= list.thickness) return;
         list.smallest_reach = infinity;
-        for (SelfPair& pair : pairs) {
+        for (SelfPair& pair : list.pairs) {
             if (pair.reach - list.travel < pair.thickness) smallest = std::min(smallest, measure(list, pair, positions, rows));
             list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         }
     });
-    is_first_ = false;
     return smallest;
 }
 
@@ -95,9 +96,6 @@ double SelfContactDetection::measure(const SelfList& list, SelfPair& pair, std::
     pair.reach = contact.distance + list.travel;
     const double least = contact.jumps ? 0.0 : tolerances::least_zone;
     const double zone = std::max(contact.relative_zone, least) * thickness_at(pair, contact.weight);
-    // As with obstacles, a contact stays one while a step is solved; of edges in the next ones, too, until their cloth has moved:
-    // edges that are now flat, now a ridge would keep cloth moving that lies still.
-    if (is_first_ && pair.shape == PairShape::point_triangle) pair.zone = 0.0;
     if (contact.distance < zone && zone > tolerances::widened_zone * pair.zone) {
         pair.zone = zone;
         pair.began_apart = apart(pair, start_);
@@ -124,16 +122,15 @@ void SelfContactDetection::add_row(const SelfPair& pair, const SelfPairContact& 
 double SelfContactDetection::largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to) {
     double safe = lists_.cover(from, to);
     lists_.set_motion(from, to);
-    lists_.for_each([&](const SelfList& list, std::span<SelfPair> pairs) { safe = cut(list, pairs, from, to, safe); });
+    lists_.for_each([&](SelfList& list) { safe = cut(list, from, to, safe); });
     return safe;
 }
 
 /// Lowers `safe` where a pair of the list needs it.
-double SelfContactDetection::cut(const SelfList& list, std::span<SelfPair> pairs, std::span<const Vec3> from,
-                                 std::span<const Vec3> to, double safe) {
+double SelfContactDetection::cut(SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe) {
     const double shrink = lists_.shrink(list);
     if (stays_clear(list.smallest_reach - list.travel, list.thickness, shrink * safe)) return safe;
-    for (SelfPair& pair : pairs) {
+    for (SelfPair& pair : list.pairs) {
         if (stays_clear(pair.reach - list.travel, pair.thickness, shrink * safe)) continue;
         const double distance = self_distance(pair, from);
         pair.reach = distance + list.travel;

@@ -37,14 +37,12 @@ public:
     void go_on_from(SelfListsMemory memory) { lists_.set_memory(std::move(memory)); }
 
 private:
-    double cut(const SelfList& list, std::span<SelfPair> pairs, std::span<const Vec3> from, std::span<const Vec3> to,
-               double safe);
+    double cut(SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe);
     double measure(const SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows);
     void add_row(const SelfPair& pair, const SelfPairContact& contact, ContactRows& rows) const;
 
     SelfContactLists lists_;
     std::vector<Vec3> start_;  // m, of the last refresh
-    bool is_first_ = false;    // rows are asked for the first time since the refresh
     std::vector<double> friction_;
     std::vector<int> met_triangles_;      // of cloth that meets cloth
     std::vector<int> cloth_of_triangle_;  // of each of them

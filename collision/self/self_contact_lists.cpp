@@ -24,7 +24,13 @@ double largest_said(const ClothPairs& pairs, std::optional<int> cloth = {}) {
     return thickness;
 }
 
-bool comes_before(const SelfPair& a, const SelfPair& b) { return std::tie(a.shape, a.feature) < std::tie(b.shape, b.feature); }
+Box box_of(std::span<const int> vertices, std::span<const Vec3> positions) {
+    Box box;
+    for (const int v : vertices) box.add(positions[v]);
+    return box;
+}
+
+std::pair<int, int> clusters_of(const SelfList& list) { return {list.first, list.second}; }
 
 /// The numbers of cloths that meet cloth, ascending.
 std::vector<int> meeting_cloths(std::span<const int> cloth_of_vertex) {
@@ -83,7 +89,7 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
             std::max(largest(vertex_thickness), largest_said(cloth.pairs)) / tolerances::contact_of_seam),
       near_cloths_(near_cloths(cloth, vertex_thickness)),
       clusters_of_cloth_(near_cloths_.count()),
-      memory_{.start = rest_, .displacement = std::vector<Vec3>(rest_.size(), Vec3::Zero()), .seen = rest_, .groups = {}} {
+      memory_{.seen = rest_, .rooms = {}, .groups = {}} {
     // Cloth by cloth, so that sheets that lie on each other do not share clusters.
     const std::vector<int> numbers = meeting_cloths(cloth_);
     std::vector<std::vector<int>> triangles_of(numbers.size());
@@ -97,7 +103,8 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
         clusters_of_cloth_[c].resize(clusters_.size() - static_cast<std::size_t>(first));
         std::iota(clusters_of_cloth_[c].begin(), clusters_of_cloth_[c].end(), first);
     }
-    cluster_boxes_.resize(clusters_.size());
+    memory_.rooms.resize(clusters_.size());
+    boxed_.resize(clusters_.size());
     vertex_boxes_.resize(rest_.size());
     edge_boxes_.resize(surface_.edges.size());
     triangle_boxes_.resize(surface_.triangles.size());
@@ -126,85 +133,137 @@ void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles, s
 double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3> to) {
     if (!memory_.groups.empty()) {
         set_motion(memory_.seen, from);
-        for_each([&](SelfList& list, std::span<SelfPair>) { list.travel += shrink(list); });
+        for_each([&](SelfList& list) { list.travel += shrink(list); });
     }
     std::copy(from.begin(), from.end(), memory_.seen.begin());
-    const std::vector<int> stale = take_stale(from, to);
-    if (stale.empty()) return 1.0;
+    regroup(from, to);
     double fraction = 1.0;
     std::span<const Vec3> end = to;
-    while (!rebuild(stale, from, end, fraction < tolerances::least_covered)) {
+    ++covers_;
+    for (;;) {
+        const long most =
+            fraction < tolerances::least_covered
+                ? std::numeric_limits<long>::max()
+                : tolerances::most_self_pairs + tolerances::most_self_pairs_per_vertex * static_cast<long>(rest_.size());
+        set_motion(from, end);
+        considered_ = 0;
+        const auto updated = [&](SelfGroup& group) { return update(group, from, end, most); };
+        if (std::all_of(memory_.groups.begin(), memory_.groups.end(), updated)) break;
         fraction *= 0.5;
         shortened_.resize(from.size());
         for (std::size_t i = 0; i < from.size(); ++i) shortened_[i] = from[i] + fraction * (to[i] - from[i]);
         end = shortened_;
     }
-    keep_fresh();
+    loose_lists_.clear();
     return fraction;
 }
 
-/// Takes out groups whose lists do not hold for a move. Returns their cloths, ascending: those of all groups that meet, too.
-std::vector<int> SelfContactLists::take_stale(std::span<const Vec3> from, std::span<const Vec3> to) {
-    std::vector<int> stale;
-    old_pairs_.clear();
-    if (memory_.groups.empty()) {
-        stale.resize(cloth_count());
-        std::iota(stale.begin(), stale.end(), 0);
-        return stale;
+/// Divides cloths into groups anew where some meet or part on the straight line between two states. Groups that have changed
+/// have to find their lists.
+void SelfContactLists::regroup(std::span<const Vec3> from, std::span<const Vec3> to) {
+    if (memory_.groups.size() == 1 && cloth_count() == 1) return;
+    group_of_cloth_.assign(memory_.groups.empty() ? 0 : cloth_count(), 0);
+    for (const SelfGroup& group : memory_.groups) {
+        for (const int cloth : group.cloths) group_of_cloth_[cloth] = group.cloths.front();
     }
-    std::vector<char>& meets = group_meets_;
-    meets.assign(memory_.groups.size(), 0);
-    if (memory_.groups.size() > 1) {
-        group_of_cloth_.resize(cloth_count());
-        for (std::size_t g = 0; g < memory_.groups.size(); ++g) {
-            for (const int cloth : memory_.groups[g].cloths) group_of_cloth_[cloth] = static_cast<int>(g);
-        }
-        near_cloths_.set_motion(from, to);
-        for (const auto& [a, b] : near_cloths_.meeting()) {
-            const int first = group_of_cloth_[a], second = group_of_cloth_[b];
-            if (first != second) meets[first] = meets[second] = 1;
-        }
+    near_cloths_.set_motion(from, to);
+    const std::vector<int> first_of = near_cloths_.groups(group_of_cloth_);
+    if (first_of == group_of_cloth_) return;
+    std::vector<SelfGroup> groups;
+    std::vector<std::size_t> place(first_of.size());
+    for (int cloth = 0; cloth < static_cast<int>(first_of.size()); ++cloth) {
+        if (first_of[cloth] == cloth) groups.emplace_back();
+        place[cloth] = first_of[cloth] == cloth ? groups.size() - 1 : place[first_of[cloth]];
+        groups[place[cloth]].cloths.push_back(cloth);
     }
-    std::size_t kept = 0;
-    for (std::size_t g = 0; g < memory_.groups.size(); ++g) {
-        SelfGroup& group = memory_.groups[g];
-        if (!meets[g] && covers(group, from) && covers(group, to)) {
-            if (kept != g) std::swap(memory_.groups[kept], group);
-            ++kept;
+    for (SelfGroup& old : memory_.groups) {
+        SelfGroup& now = groups[place[old.cloths.front()]];
+        if (now.cloths == old.cloths) {
+            now.lists = std::move(old.lists);
             continue;
         }
-        stale.insert(stale.end(), group.cloths.begin(), group.cloths.end());
-        std::copy_if(group.pairs.begin(), group.pairs.end(), std::back_inserter(old_pairs_),
-                     [](const SelfPair& pair) { return pair.zone > 0.0; });
+        std::move(old.lists.begin(), old.lists.end(), std::back_inserter(loose_lists_));
+        for (const int cloth : old.cloths) {
+            for (const int cluster : clusters_of_cloth_[cloth]) memory_.rooms[cluster] = Box{};
+        }
     }
-    std::move(memory_.groups.begin() + static_cast<long>(kept), memory_.groups.end(), std::back_inserter(spare_));
-    memory_.groups.resize(kept);
-    std::sort(stale.begin(), stale.end());
-    return stale;
+    std::sort(loose_lists_.begin(), loose_lists_.end(),
+              [](const SelfList& a, const SelfList& b) { return clusters_of(a) < clusters_of(b); });
+    memory_.groups = std::move(groups);
 }
 
-Vec3 SelfContactLists::mean_motion(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to) const {
-    Vec3 mean = Vec3::Zero();
-    std::size_t vertices = 0;
-    for_each_vertex(group, [&](int v) { mean += to[v] - from[v], ++vertices; });
-    return mean / static_cast<double>(vertices);
+/// Makes lists of a group good for a move; false (and some of them not) if that takes too many pairs.
+bool SelfContactLists::update(SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to, long most) {
+    if (set_rooms(group, from, to)) find_lists(group);
+    for (SelfList& list : group.lists) {
+        if (list.travel + shrink(list) <= list.room) continue;
+        fill(list, from);
+        if (considered_ > most) return false;
+    }
+    return true;
 }
 
-/// Whether a state is start + s displacement + t + e; s and t by least squares.
-bool SelfContactLists::covers(const SelfGroup& group, std::span<const Vec3> positions) const {
-    const Vec3 mean = mean_motion(group, memory_.start, positions);
-    double along = 0.0, length = 0.0;
-    for_each_vertex(group, [&](int v) {
-        along += memory_.displacement[v].dot(positions[v] - memory_.start[v] - mean);
-        length += memory_.displacement[v].squaredNorm();
-    });
-    const double s = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
-    const auto holds = [&](int v) {
-        return (positions[v] - memory_.start[v] - mean - s * memory_.displacement[v]).squaredNorm() <= skin_[v] * skin_[v];
-    };
-    return std::all_of(group.cloths.begin(), group.cloths.end(), [&](int cloth) {
-        return std::all_of(near_cloths_.vertices(cloth).begin(), near_cloths_.vertices(cloth).end(), holds);
-    });
+Vec3 SelfContactLists::centre(const SelfGroup& group, std::span<const Vec3> positions) const {
+    Vec3 sum = Vec3::Zero();
+    std::size_t count = 0;
+    for (const int cloth : group.cloths) {
+        for (const int v : near_cloths_.vertices(cloth)) sum += positions[v];
+        count += near_cloths_.vertices(cloth).size();
+    }
+    return sum / static_cast<double>(count);
+}
+
+/// Gives clusters that leave their rooms others; whether there are any.
+bool SelfContactLists::set_rooms(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to) {
+    const Vec3 first = centre(group, from), last = centre(group, to);
+    bool any = false;
+    for (const int cloth : group.cloths) {
+        for (const int c : clusters_of_cloth_[cloth]) {
+            Box swept;
+            for (const int v : clusters_[c].all_vertices) {
+                swept.add(from[v] - first);
+                swept.add(to[v] - last);
+            }
+            Box& room = memory_.rooms[c];
+            if (room.contains(swept.low) && room.contains(swept.high)) continue;
+            room = swept;
+            room.grow(tolerances::self_skin * clusters_[c].thickness);
+            any = true;
+        }
+    }
+    return any;
+}
+
+/// A list for each two clusters whose rooms come within their thicknesses.
+void SelfContactLists::find_lists(SelfGroup& group) {
+    tree_clusters_.clear();
+    tree_boxes_.clear();
+    for (const int cloth : group.cloths) {
+        for (const int c : clusters_of_cloth_[cloth]) {
+            tree_clusters_.push_back(c);
+            tree_boxes_.push_back(memory_.rooms[c]);
+            tree_boxes_.back().grow(0.5 * clusters_[c].thickness);
+        }
+    }
+    tree_.refit(tree_boxes_);
+    tree_.find_pairs(cluster_pairs_);
+    next_lists_.clear();
+    for (const auto& [first, second] : cluster_pairs_) {
+        const int a = tree_clusters_[first], b = tree_clusters_[second];
+        if (cloth_pairs_.of(clusters_[a].cloth, clusters_[b].cloth).contact) next_lists_.push_back(take_list(group, a, b));
+    }
+    std::swap(group.lists, next_lists_);
+}
+
+/// The list of two clusters, from where there is one; else one without room.
+SelfList SelfContactLists::take_list(SelfGroup& group, int first, int second) {
+    const std::pair wanted(first, second);
+    for (std::vector<SelfList>* lists : {&group.lists, &loose_lists_}) {
+        const auto found = std::lower_bound(lists->begin(), lists->end(), wanted,
+                                            [](const SelfList& list, const auto& key) { return clusters_of(list) < key; });
+        if (found != lists->end() && clusters_of(*found) == wanted) return std::move(*found);
+    }
+    return {.first = first, .second = second};
 }
 
 void SelfContactLists::set_motion(std::span<const Vec3> from, std::span<const Vec3> to) {
@@ -223,125 +282,74 @@ double SelfContactLists::shrink(const SelfList& list) const {
     return a.spread + b.spread + (a.mean - b.mean).norm();
 }
 
-/// Boxes of all features of a group during the move, as seen from its mean motion.
-void SelfContactLists::set_boxes(const SelfGroup& group) {
-    for_each_vertex(group, [&](int v) {
-        vertex_boxes_[v] = Box{};
-        vertex_boxes_[v].add(memory_.start[v]);
-        vertex_boxes_[v].add(memory_.start[v] + memory_.displacement[v]);
-    });
-    const auto box_of = [&](const auto& vertices) {
-        Box box;
-        for (const int v : vertices) box.add(vertex_boxes_[v]);
-        return box;
-    };
-    tree_clusters_.clear();
-    tree_boxes_.clear();
-    for (const int cloth : group.cloths) {
-        for (const int c : clusters_of_cloth_[cloth]) {
-            for (const int e : clusters_[c].edges) edge_boxes_[e] = box_of(surface_.edges[e].vertex);
-            for (const int t : clusters_[c].triangles) triangle_boxes_[t] = box_of(surface_.triangles[t]);
-            cluster_boxes_[c] = box_of(clusters_[c].all_vertices);
-            cluster_boxes_[c].grow(clusters_[c].reach());
-            tree_clusters_.push_back(c);
-            tree_boxes_.push_back(cluster_boxes_[c]);
-        }
-    }
+/// The box of a cluster, and those of all of its features, at most once a cover.
+const Box& SelfContactLists::box_of_cluster(int cluster, std::span<const Vec3> from) {
+    Boxed& boxed = boxed_[cluster];
+    if (boxed.cluster_in != covers_) boxed.box = box_of(clusters_[cluster].all_vertices, from);
+    boxed.cluster_in = covers_;
+    return boxed.box;
 }
 
-/// Makes groups and lists of some cloths anew; false (and lists of no use) if that takes too many pairs, unless
-/// `whatever_it_takes`.
-bool SelfContactLists::rebuild(std::span<const int> cloths, std::span<const Vec3> from, std::span<const Vec3> to,
-                               bool whatever_it_takes) {
-    const long most = whatever_it_takes ? std::numeric_limits<long>::max()
-                                        : tolerances::most_self_pairs +
-                                              tolerances::most_self_pairs_per_vertex * static_cast<long>(rest_.size());
-    considered_ = 0;
-    std::move(fresh_.begin(), fresh_.end(), std::back_inserter(spare_));
-    fresh_.clear();
-    set_motion(from, to);
-    near_cloths_.set_motion(from, to);
-    for (const std::vector<int>& near : near_cloths_.groups(cloths)) {
-        if (spare_.empty()) spare_.emplace_back();
-        SelfGroup& group = fresh_.emplace_back(std::move(spare_.back()));
-        spare_.pop_back();
-        group.cloths = near;
-        if (!fill(group, from, to, most)) return false;
-    }
-    return true;
+void SelfContactLists::set_feature_boxes(int cluster, std::span<const Vec3> from) {
+    if (boxed_[cluster].features_in == covers_) return;
+    boxed_[cluster].features_in = covers_;
+    const Cluster& own = clusters_[cluster];
+    for (const int v : own.vertices) vertex_boxes_[v] = {.low = from[v], .high = from[v]};
+    for (const int e : own.edges) edge_boxes_[e] = box_of(surface_.edges[e].vertex, from);
+    for (const int t : own.triangles) triangle_boxes_[t] = box_of(surface_.triangles[t], from);
 }
 
-/// Makes the lists of a group; false once more than `most` pairs were looked at.
-bool SelfContactLists::fill(SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to, long most) {
-    filled_ = &group;
-    group.lists.clear();
-    group.pairs.clear();
-    const Vec3 mean = mean_motion(group, from, to);
-    for_each_vertex(group, [&](int v) {
-        memory_.start[v] = from[v];
-        memory_.displacement[v] = to[v] - from[v] - mean;
-    });
-    set_boxes(group);
-    tree_.refit(tree_boxes_);
-    tree_.find_pairs(cluster_pairs_);
-    for (const auto& [first, second] : cluster_pairs_) {
-        const int a = tree_clusters_[first], b = tree_clusters_[second];
-        pair_ = cloth_pairs_.of(clusters_[a].cloth, clusters_[b].cloth);
-        if (!pair_.contact) continue;
-        SelfList list{.first = a, .second = b, .begin = group.pairs.size()};
-        fill_list(list, from);
-        if (list.end > list.begin) group.lists.push_back(list);
-        if (considered_ > most) return false;
-    }
-    return true;
-}
-
-/// The groups just made are those of their cloths.
-void SelfContactLists::keep_fresh() {
-    std::sort(old_pairs_.begin(), old_pairs_.end(), comes_before);
-    for (SelfGroup& group : fresh_) take_over_zones(group);
-    std::move(fresh_.begin(), fresh_.end(), std::back_inserter(memory_.groups));
-    fresh_.clear();
-    std::sort(memory_.groups.begin(), memory_.groups.end(),
-              [](const SelfGroup& a, const SelfGroup& b) { return a.cloths.front() < b.cloths.front(); });
-}
-
-void SelfContactLists::fill_list(SelfList& list, std::span<const Vec3> from) {
+/// Makes a list anew: all pairs that can come into contact while they move against each other by no more than its room.
+void SelfContactLists::fill(SelfList& list, std::span<const Vec3> from) {
     const Cluster &a = clusters_[list.first], &b = clusters_[list.second];
+    const Box &box_a = box_of_cluster(list.first, from), &box_b = box_of_cluster(list.second, from);
+    const double thickness = 0.5 * (a.thickness + b.thickness), apart = box_a.gap(box_b) - thickness;
+    old_pairs_.clear();
+    std::copy_if(list.pairs.begin(), list.pairs.end(), std::back_inserter(old_pairs_),
+                 [](const SelfPair& pair) { return pair.zone > 0.0; });
+    list.pairs.clear();
+    list.travel = 0.0;
+    list.room = shrink(list) + a.skin + b.skin;
+    list.smallest_reach = std::numeric_limits<double>::infinity();
+    list.thickness = 0.0;
+    if (apart >= list.room) {
+        list.room = apart;
+        return;
+    }
+    pair_ = cloth_pairs_.of(a.cloth, b.cloth);
     const bool is_fine = tolerances::contact_of_rest * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
-    const Reach reach{.room = shrink(list) + a.skin + b.skin,
-                      .limit = a.reach() + b.reach(),
-                      .skins = a.skin + b.skin,
-                      .rest_counts = is_fine && a.cloth == b.cloth};
+    const Reach reach{
+        .room = list.room, .limit = 0.5 * (a.thickness + b.thickness) + list.room, .rest_counts = is_fine && a.cloth == b.cloth};
     const bool one = list.first == list.second;
-    find_near(a, cluster_boxes_[list.second], near_first_);
-    find_near(b, cluster_boxes_[list.first], near_second_);
+    set_feature_boxes(list.first, from);
+    set_feature_boxes(list.second, from);
+    find_near(a, box_b, reach.limit, near_first_);
+    find_near(b, box_a, reach.limit, near_second_);
+    filled_ = &list;
     pair_vertices(near_first_, near_second_, reach, from);
     if (!one) pair_vertices(near_second_, near_first_, reach, from);
     pair_edges(one, reach, from);
-    list.end = filled_->pairs.size();
-    list.smallest_reach = std::numeric_limits<double>::infinity();
-    for (const SelfPair& pair : filled_->pairs_of(list)) {
+    for (const SelfPair& pair : list.pairs) {
         list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         list.thickness = std::max(list.thickness, pair.thickness);
     }
+    take_over_zones(list);
 }
 
-/// Features of a cluster that come near the box of another, which is grown by that one's half of the limit.
-void SelfContactLists::find_near(const Cluster& cluster, const Box& other, Near& near) const {
-    Box reach = other;
-    reach.grow(cluster.reach());
+/// Features of a cluster that come within `limit` of a box.
+void SelfContactLists::find_near(const Cluster& cluster, Box other, double limit, Near& near) const {
+    other.grow(limit);
     near.vertices.clear();
     near.edges.clear();
     near.triangles.clear();
     for (const int v : cluster.vertices) {
-        if (vertex_boxes_[v].overlaps(reach)) near.vertices.push_back(v);
+        if (vertex_boxes_[v].overlaps(other)) near.vertices.push_back(v);
     }
     for (const int e : cluster.edges) {
-        if (edge_boxes_[e].overlaps(reach)) near.edges.push_back(e);
+        if (edge_boxes_[e].overlaps(other)) near.edges.push_back(e);
     }
     for (const int t : cluster.triangles) {
-        if (triangle_boxes_[t].overlaps(reach)) near.triangles.push_back(t);
+        if (triangle_boxes_[t].overlaps(other)) near.triangles.push_back(t);
     }
 }
 
@@ -353,7 +361,7 @@ void SelfContactLists::pair_vertices(const Near& points, const Near& faces, Reac
             const Triangle& face = surface_.triangles[t];
             if (!box.overlaps(triangle_boxes_[t]) || v == face[0] || v == face[1] || v == face[2]) continue;
             if (reach.rest_counts &&
-                vertex_boxes_[v].gap(triangle_boxes_[t]) >= thickness_by_rest(std::array{v}, face) + reach.skins) {
+                vertex_boxes_[v].gap(triangle_boxes_[t]) >= thickness_by_rest(std::array{v}, face) + reach.room) {
                 continue;
             }
             consider({.shape = PairShape::point_triangle, .vertex = {v, face[0], face[1], face[2]}, .feature = {v, t}},
@@ -372,7 +380,7 @@ void SelfContactLists::pair_edges(bool one, Reach reach, std::span<const Vec3> f
             const auto& [c, d] = surface_.edges[f].vertex;
             if ((one && e >= f) || !box.overlaps(edge_boxes_[f]) || a == c || a == d || b == c || b == d) continue;
             if (reach.rest_counts &&
-                edge_boxes_[e].gap(edge_boxes_[f]) >= thickness_by_rest(std::array{a, b}, std::array{c, d}) + reach.skins) {
+                edge_boxes_[e].gap(edge_boxes_[f]) >= thickness_by_rest(std::array{a, b}, std::array{c, d}) + reach.room) {
                 continue;
             }
             consider({.shape = PairShape::edge_edge, .vertex = {a, b, c, d}, .feature = {e, f}}, reach.room, from);
@@ -423,11 +431,12 @@ void SelfContactLists::consider(SelfPair pair, double room, std::span<const Vec3
     if (pair.reach < pair.thickness + room) filled_->pairs.push_back(pair);
 }
 
-/// What was a contact in the lists being replaced stays one.
-void SelfContactLists::take_over_zones(SelfGroup& group) const {
-    for (SelfPair& pair : group.pairs) {
-        const auto found = std::lower_bound(old_pairs_.begin(), old_pairs_.end(), pair, comes_before);
-        if (found == old_pairs_.end() || comes_before(pair, *found)) continue;
+/// What was a contact in the list being replaced stays one.
+void SelfContactLists::take_over_zones(SelfList& list) const {
+    for (SelfPair& pair : list.pairs) {
+        const auto same = [&](const SelfPair& old) { return old.shape == pair.shape && old.feature == pair.feature; };
+        const auto found = std::find_if(old_pairs_.begin(), old_pairs_.end(), same);
+        if (found == old_pairs_.end()) continue;
         pair.zone = found->zone;
         pair.began_apart = found->began_apart;
     }

@@ -5,9 +5,9 @@
 
 namespace percale {
 
-template <class Archive, OfType<SelfList> Value>
-void exchange(Archive& archive, Value& list) {
-    archive(list.first, list.second, list.begin, list.end, list.travel, list.smallest_reach, list.thickness);
+template <class Archive, OfType<Box> Value>
+void exchange(Archive& archive, Value& box) {
+    archive(box.low, box.high);
 }
 
 template <class Archive, OfType<SelfPair> Value>
@@ -16,9 +16,14 @@ void exchange(Archive& archive, Value& pair) {
     archive(pair.vertex, pair.feature, pair.thickness, pair.of_seam, pair.zone, pair.began_apart, pair.reach);
 }
 
+template <class Archive, OfType<SelfList> Value>
+void exchange(Archive& archive, Value& list) {
+    archive(list.first, list.second, list.pairs, list.travel, list.room, list.smallest_reach, list.thickness);
+}
+
 template <class Archive, OfType<SelfGroup> Value>
 void exchange(Archive& archive, Value& group) {
-    archive(group.cloths, group.lists, group.pairs);
+    archive(group.cloths, group.lists);
 }
 
 namespace {
@@ -58,21 +63,19 @@ void check(const SelfGroup& group, const SelfContactLists& lists, const StateRea
             return std::binary_search(clusters.begin(), clusters.end(), cluster);
         });
     };
-    std::size_t next = 0;
+    std::pair last(-1, -1);
     for (const SelfList& list : group.lists) {
-        state.demand(has(list.first) && has(list.second), "a cluster that there is not");
-        state.demand(list.begin == next && list.begin < list.end && list.end <= group.pairs.size(), "pairs that there are not");
-        next = list.end;
+        const std::pair clusters(list.first, list.second);
+        state.demand(clusters > last && has(list.first) && has(list.second), "a cluster that there is not");
+        for (const SelfPair& pair : list.pairs) state.demand(is_good(pair, lists.surface()), "a pair that there is not");
+        last = clusters;
     }
-    state.demand(next == group.pairs.size(), "pairs of no list");
-    for (const SelfPair& pair : group.pairs) state.demand(is_good(pair, lists.surface()), "a pair that there is not");
 }
 
 void check(const SelfListsMemory& memory, const SelfContactLists& lists, const StateReader& state) {
     const std::size_t vertices = lists.memory().seen.size();
-    for (const auto* positions : {&memory.start, &memory.displacement, &memory.seen}) {
-        state.demand(positions->size() == vertices, "a wrong number of vertices");
-    }
+    state.demand(memory.seen.size() == vertices, "a wrong number of vertices");
+    state.demand(memory.rooms.size() == lists.cluster_count(), "a wrong number of clusters");
     std::vector<int> in_groups(lists.cloth_count(), 0);
     int last = -1;
     for (const SelfGroup& group : memory.groups) {
@@ -89,12 +92,12 @@ void check(const SelfListsMemory& memory, const SelfContactLists& lists, const S
 
 void save(const SelfContactLists& lists, StateWriter& state) {
     const SelfListsMemory& memory = lists.memory();
-    state(memory.start, memory.displacement, memory.seen, memory.groups);
+    state(memory.seen, memory.rooms, memory.groups);
 }
 
 SelfListsMemory restored_memory(const SelfContactLists& lists, StateReader& state) {
     SelfListsMemory memory;
-    state(memory.start, memory.displacement, memory.seen, memory.groups);
+    state(memory.seen, memory.rooms, memory.groups);
     check(memory, lists, state);
     return memory;
 }

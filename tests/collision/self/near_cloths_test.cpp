@@ -1,9 +1,9 @@
 #include "collision/self/near_cloths.h"
 
 #include <numeric>
+#include <set>
 
 #include "collision/geometry/disjoint_sets.h"
-#include "collision/tolerances.h"
 #include "tests/support/catch.h"
 #include "tests/support/random.h"
 
@@ -47,56 +47,56 @@ bool near(const NearCloths::Cloth& a, const NearCloths::Cloth& b, const std::vec
     return box_of(a).overlaps(box_of(b));
 }
 
+std::vector<int> expected_groups(const std::vector<NearCloths::Cloth>& cloths, const std::vector<int>& before,
+                                 const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+    const int count = static_cast<int>(cloths.size());
+    DisjointSets sets(cloths.size());
+    for (int a = 0; a < count; ++a) {
+        for (int b = 0; b < count; ++b) {
+            const bool together = before.empty() || before[a] == before[b];
+            if (near(cloths[a], cloths[b], from, to, together ? 1.0 : 0.5)) sets.join(a, b);
+        }
+    }
+    std::vector<int> groups;
+    for (int c = 0; c < count; ++c) groups.push_back(sets.of(c));
+    return groups;
+}
+
 }  // namespace
 
-TEST_CASE("cloths meet whose boxes during a move come within half of their thicknesses, and no others") {
+TEST_CASE("cloths join groups where boxes of a move meet, and leave them where no way of near boxes leads to the others") {
     Random random(7);
+    std::set<std::size_t> sizes;
     for (int round = 0; round < 50; ++round) {
         const int count = 1 + random.index(20);
         const std::vector<NearCloths::Cloth> cloths = random_cloths(count, random);
-        const std::vector<Vec3> from = random_places(count, random), to = random_places(count, random);
-        std::vector<std::pair<int, int>> expected;
-        for (int a = 0; a < count; ++a) {
-            for (int b = a + 1; b < count; ++b) {
-                if (near(cloths[a], cloths[b], from, to, 0.5)) expected.emplace_back(a, b);
-            }
-        }
         NearCloths tested(cloths);
-        tested.set_motion(from, to);
-        CHECK(tested.meeting() == expected);
+        std::vector<int> before;
+        for (int move = 0; move < 4; ++move) {
+            const std::vector<Vec3> from = random_places(count, random), to = random_places(count, random);
+            const std::vector<Vec3>& end = move % 2 == 0 ? from : to;
+            const std::vector<int> expected = expected_groups(cloths, before, from, end);
+            tested.set_motion(from, end);
+            const std::vector<int> groups = tested.groups(before);
+            CHECK(groups == expected);
+            sizes.insert(std::set(groups.begin(), groups.end()).size());
+            before = groups;
+        }
     }
+    CHECK(sizes.size() > 8);
 }
 
-TEST_CASE("groups of cloths are the connected parts of what comes within the thicknesses, in order, of those asked for alone") {
-    Random random(8);
-    std::size_t most = 0;
-    for (int round = 0; round < 50; ++round) {
-        const int count = 2 + random.index(20);
-        const std::vector<NearCloths::Cloth> cloths = random_cloths(count, random);
-        const std::vector<Vec3> x = random_places(count, random);
-        std::vector<int> asked;
-        for (int c = 0; c < count; ++c) {
-            if (random.index(4) > 0) asked.push_back(c);
-        }
-        DisjointSets sets(cloths.size());
-        for (const int a : asked) {
-            for (const int b : asked) {
-                if (near(cloths[a], cloths[b], x, x, 0.5 + tolerances::self_skin)) sets.join(a, b);
-            }
-        }
-        NearCloths tested(cloths);
-        tested.set_motion(x, x);
-        const std::vector<std::vector<int>> groups = tested.groups(asked);
-        most = std::max(most, groups.size());
-        std::vector<int> all;
-        for (const std::vector<int>& group : groups) {
-            CHECK(std::is_sorted(group.begin(), group.end()));
-            for (const int c : group) CHECK(sets.of(c) == group.front());
-            all.insert(all.end(), group.begin(), group.end());
-        }
-        CHECK(std::is_sorted(groups.begin(), groups.end()));
-        std::sort(all.begin(), all.end());
-        CHECK(all == asked);
-    }
-    CHECK(most > 4);
+TEST_CASE("cloths that hover between half of their thicknesses and a whole one keep their groups") {
+    NearCloths cloths({{.vertices = {0}, .thickness = 0.1}, {.vertices = {1}, .thickness = 0.1}});
+    const auto groups_at = [&](double apart, std::vector<int> before) {
+        const std::vector<Vec3> x{Vec3::Zero(), Vec3(apart, 0, 0)};
+        cloths.set_motion(x, x);
+        return cloths.groups(before);
+    };
+    const std::vector<int> joined{0, 0}, parted{0, 1};
+    CHECK(groups_at(0.15, joined) == joined);
+    CHECK(groups_at(0.15, parted) == parted);
+    CHECK(groups_at(0.15, {}) == joined);
+    CHECK(groups_at(0.09, parted) == joined);
+    CHECK(groups_at(0.21, joined) == parted);
 }
