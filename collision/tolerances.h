@@ -160,8 +160,13 @@ constexpr double forgetting_displacement = 0.1;
 // ---- self/
 
 /// Fraction of h, and of the mean length of a vertex's edges: the lower is its skin. What clusters may move against each other
-/// beyond a foreseen move before their list is made anew. As box_skin. Cost alone.
+/// beyond a foreseen move before their list is made anew; the first also says how far one may go before lists are looked for. As
+/// box_skin. Cost alone.
 constexpr double self_skin = 0.5, self_skin_of_edge = 0.125;
+
+/// Times what a step's move takes. Lists and boxes that long trial moves have left with more are made anew with the next step.
+/// Small: they are made anew often. Large: they stay full of what is far. Cost alone.
+constexpr double most_room = 4.0;
 
 /// Fraction of the distance at rest below which two features of one cloth are in contact at the latest. Above 1: a mesh finer
 /// than its thickness pushes itself apart at rest. Small: a fold closes to nearly nothing at its crease.
@@ -172,8 +177,9 @@ constexpr double contact_of_rest = 0.5;
 /// keeps its sides apart near it.
 constexpr double contact_of_seam = 0.1;
 
-/// Pairs of cloth with cloth that are looked at, in all and for each vertex. As most_packs.
-constexpr long most_self_pairs = 4000000, most_self_pairs_per_vertex = 300;
+/// Pairs of cloth with cloth that are looked at for one move, in all and for each vertex, and the part of them that there may be
+/// lists. As most_packs.
+constexpr long most_self_pairs = 4000000, most_self_pairs_per_vertex = 300, pairs_a_list = 16;
 
 /// Sine. A face that falls or rises by less is flat against an edge that crosses it.
 constexpr double flat_sine = 0.05;

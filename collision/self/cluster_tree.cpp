@@ -16,7 +16,7 @@ void ClusterTree::refit(std::span<const Box> boxes) {
     }
 }
 
-void ClusterTree::find_pairs(std::vector<std::pair<int, int>>& pairs) {
+bool ClusterTree::find_pairs(std::vector<std::pair<int, int>>& pairs, long most) {
     pairs.clear();
     open_.assign({{1, 1}});
     while (!open_.empty()) {
@@ -24,6 +24,7 @@ void ClusterTree::find_pairs(std::vector<std::pair<int, int>>& pairs) {
         open_.pop_back();
         if (!nodes_[a].overlaps(nodes_[b])) continue;
         if (a >= leaves_) {
+            if (static_cast<long>(pairs.size()) >= most) return false;
             pairs.emplace_back(static_cast<int>(a - leaves_), static_cast<int>(b - leaves_));
             continue;
         }
@@ -31,6 +32,7 @@ void ClusterTree::find_pairs(std::vector<std::pair<int, int>>& pairs) {
         if (a != b) open_.emplace_back(2 * a + 1, 2 * b);
     }
     std::sort(pairs.begin(), pairs.end());
+    return true;
 }
 
 }  // namespace percale

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,8 +16,9 @@ public:
     /// Takes the items' boxes; all items if their number has changed.
     void refit(std::span<const Box> boxes);
 
-    /// All pairs (a, b) with a <= b of items whose boxes overlap, (a, a) included, in ascending order.
-    void find_pairs(std::vector<std::pair<int, int>>& pairs);
+    /// All pairs (a, b) with a <= b of items whose boxes overlap, (a, a) included, in ascending order; false, and pairs of no
+    /// use, where they are more than `most`.
+    bool find_pairs(std::vector<std::pair<int, int>>& pairs, long most = std::numeric_limits<long>::max());
 
 private:
     std::vector<Box> nodes_;  // node 1 is the root, the children of k are 2k and 2k + 1; leaves begin at leaves_

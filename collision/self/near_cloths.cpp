@@ -16,7 +16,7 @@ void NearCloths::set_motion(std::span<const Vec3> from, std::span<const Vec3> to
     }
 }
 
-std::vector<int> NearCloths::groups(std::span<const int> before) {
+std::vector<int> NearCloths::groups(std::span<const int> before, bool may_part) {
     const auto grown = [&](int c, double thicknesses) {
         Box box = boxes_[c];
         box.grow(thicknesses * cloths_[c].thickness);
@@ -29,6 +29,7 @@ std::vector<int> NearCloths::groups(std::span<const int> before) {
     tree_.refit(grown_);
     tree_.find_pairs(pairs_);
     DisjointSets sets(cloths_.size());
+    for (int c = 0; !may_part && c < static_cast<int>(before.size()); ++c) sets.join(c, before[c]);
     for (const auto& [a, b] : pairs_) {
         if (before.empty() || before[a] == before[b] || grown(a, 0.5).overlaps(grown(b, 0.5))) sets.join(a, b);
     }

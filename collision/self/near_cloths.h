@@ -27,9 +27,9 @@ public:
     void set_motion(std::span<const Vec3> from, std::span<const Vec3> to);
 
     /// The group of each cloth, by its lowest member, where `before` says which they were in; empty: none yet. Cloths that may
-    /// come into contact join groups; those of one group stay in it while they are within their thicknesses, by way of others,
-    /// too.
-    std::vector<int> groups(std::span<const int> before);
+    /// come into contact join groups. Where groups may part, those of one stay in it that are within their thicknesses, by way
+    /// of others, too.
+    std::vector<int> groups(std::span<const int> before, bool may_part);
 
 private:
     std::vector<Cloth> cloths_;

@@ -72,7 +72,7 @@ void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const 
             if (pair.zone > 0.0 && begins_anew(pair, start)) pair.zone = 0.0;
         }
     });
-    lists_.cover(start, predicted);
+    lists_.begin_step(start, predicted);
     start_.assign(start.begin(), start.end());
 }
 

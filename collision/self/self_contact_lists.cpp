@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <tuple>
 
 #include "tolerances.h"
 
@@ -24,12 +23,6 @@ double largest_said(const ClothPairs& pairs, std::optional<int> cloth = {}) {
     return thickness;
 }
 
-Box box_of(std::span<const int> vertices, std::span<const Vec3> positions) {
-    Box box;
-    for (const int v : vertices) box.add(positions[v]);
-    return box;
-}
-
 std::pair<int, int> clusters_of(const SelfList& list) { return {list.first, list.second}; }
 
 /// The numbers of cloths that meet cloth, ascending.
@@ -45,7 +38,7 @@ int place_in(std::span<const int> ascending, int number) {
     return static_cast<int>(std::lower_bound(ascending.begin(), ascending.end(), number) - ascending.begin());
 }
 
-/// m, how far each vertex may be from what the lists hold for.
+/// m, of each vertex: what lists of its clusters allow them to come nearer beyond the move that they are made for.
 std::vector<double> skins(const ClothSurface& surface, std::span<const Vec3> rest, std::span<const double> thickness) {
     std::vector<double> lengths(rest.size(), 0.0), edges(rest.size(), 0.0);
     for (const ClothSurface::Edge& edge : surface.edges) {
@@ -131,12 +124,26 @@ void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles, s
 }
 
 double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3> to) {
-    if (!memory_.groups.empty()) {
-        set_motion(memory_.seen, from);
-        for_each([&](SelfList& list) { list.travel += shrink(list); });
-    }
+    move_to(from);
+    regroup(from, to, false);
+    return cover_move(from, to);
+}
+
+double SelfContactLists::begin_step(std::span<const Vec3> from, std::span<const Vec3> to) {
+    move_to(from);
+    regroup(from, to, true);
+    give_up_room(from, to);
+    return cover_move(from, to);
+}
+
+/// Shortens the bounds of all lists.
+void SelfContactLists::move_to(std::span<const Vec3> from) {
+    set_motion(memory_.seen, from);
+    for_each([&](SelfList& list) { list.travel += shrink(list); });
     std::copy(from.begin(), from.end(), memory_.seen.begin());
-    regroup(from, to);
+}
+
+double SelfContactLists::cover_move(std::span<const Vec3> from, std::span<const Vec3> to) {
     double fraction = 1.0;
     std::span<const Vec3> end = to;
     ++covers_;
@@ -149,6 +156,7 @@ double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3>
         considered_ = 0;
         const auto updated = [&](SelfGroup& group) { return update(group, from, end, most); };
         if (std::all_of(memory_.groups.begin(), memory_.groups.end(), updated)) break;
+        give_up_lists_just_made();
         fraction *= 0.5;
         shortened_.resize(from.size());
         for (std::size_t i = 0; i < from.size(); ++i) shortened_[i] = from[i] + fraction * (to[i] - from[i]);
@@ -158,16 +166,43 @@ double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3>
     return fraction;
 }
 
+/// Lists that would take too many pairs: they are made for a shorter move.
+void SelfContactLists::give_up_lists_just_made() {
+    for_each([](SelfList& list) {
+        if (list.travel > 0.0) return;
+        std::erase_if(list.pairs, [](const SelfPair& pair) { return pair.zone == 0.0; });
+        list.pairs.shrink_to_fit();
+        list.room = -1.0;
+    });
+}
+
+/// Of clusters and lists that have far more room than a move takes: what they hold has to be looked at again and again.
+void SelfContactLists::give_up_room(std::span<const Vec3> from, std::span<const Vec3> to) {
+    for (const SelfGroup& group : memory_.groups) {
+        for_each_swept(group, from, to, [&](int c, const Box& swept) {
+            const double margins = 2.0 * tolerances::self_skin * clusters_[c].thickness;
+            const Box& room = memory_.rooms[c];
+            const Vec3 wanted = swept.high - swept.low + Vec3::Constant(margins);
+            if ((room.high - room.low).sum() > tolerances::most_room * wanted.sum()) memory_.rooms[c] = Box{};
+        });
+    }
+    set_motion(from, to);
+    for_each([&](SelfList& list) {
+        const double wanted = shrink(list) + clusters_[list.first].skin + clusters_[list.second].skin;
+        if (!list.pairs.empty() && list.room - list.travel > tolerances::most_room * wanted) list.room = -1.0;
+    });
+}
+
 /// Divides cloths into groups anew where some meet or part on the straight line between two states. Groups that have changed
 /// have to find their lists.
-void SelfContactLists::regroup(std::span<const Vec3> from, std::span<const Vec3> to) {
+void SelfContactLists::regroup(std::span<const Vec3> from, std::span<const Vec3> to, bool may_part) {
     if (memory_.groups.size() == 1 && cloth_count() == 1) return;
     group_of_cloth_.assign(memory_.groups.empty() ? 0 : cloth_count(), 0);
     for (const SelfGroup& group : memory_.groups) {
         for (const int cloth : group.cloths) group_of_cloth_[cloth] = group.cloths.front();
     }
     near_cloths_.set_motion(from, to);
-    const std::vector<int> first_of = near_cloths_.groups(group_of_cloth_);
+    const std::vector<int> first_of = near_cloths_.groups(group_of_cloth_, may_part);
     if (first_of == group_of_cloth_) return;
     std::vector<SelfGroup> groups;
     std::vector<std::size_t> place(first_of.size());
@@ -194,7 +229,7 @@ void SelfContactLists::regroup(std::span<const Vec3> from, std::span<const Vec3>
 
 /// Makes lists of a group good for a move; false (and some of them not) if that takes too many pairs.
 bool SelfContactLists::update(SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to, long most) {
-    if (set_rooms(group, from, to)) find_lists(group);
+    if (set_rooms(group, from, to) && !find_lists(group, most)) return false;
     for (SelfList& list : group.lists) {
         if (list.travel + shrink(list) <= list.room) continue;
         fill(list, from);
@@ -213,10 +248,11 @@ Vec3 SelfContactLists::centre(const SelfGroup& group, std::span<const Vec3> posi
     return sum / static_cast<double>(count);
 }
 
-/// Gives clusters that leave their rooms others; whether there are any.
-bool SelfContactLists::set_rooms(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to) {
+/// Calls `work(cluster, Box)` for each cluster of a group: where it is on the straight line, from the centre of the group.
+template <typename Work>
+void SelfContactLists::for_each_swept(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to,
+                                      const Work& work) {
     const Vec3 first = centre(group, from), last = centre(group, to);
-    bool any = false;
     for (const int cloth : group.cloths) {
         for (const int c : clusters_of_cloth_[cloth]) {
             Box swept;
@@ -224,18 +260,26 @@ bool SelfContactLists::set_rooms(const SelfGroup& group, std::span<const Vec3> f
                 swept.add(from[v] - first);
                 swept.add(to[v] - last);
             }
-            Box& room = memory_.rooms[c];
-            if (room.contains(swept.low) && room.contains(swept.high)) continue;
-            room = swept;
-            room.grow(tolerances::self_skin * clusters_[c].thickness);
-            any = true;
+            work(c, swept);
         }
     }
+}
+
+/// Gives clusters that leave their rooms others; whether there are any.
+bool SelfContactLists::set_rooms(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to) {
+    bool any = false;
+    for_each_swept(group, from, to, [&](int c, const Box& swept) {
+        Box& room = memory_.rooms[c];
+        if (room.contains(swept.low) && room.contains(swept.high)) return;
+        room = swept;
+        room.grow(tolerances::self_skin * clusters_[c].thickness);
+        any = true;
+    });
     return any;
 }
 
-/// A list for each two clusters whose rooms come within their thicknesses.
-void SelfContactLists::find_lists(SelfGroup& group) {
+/// A list for each two clusters whose rooms come within their thicknesses; false, and no rooms, where they are too many.
+bool SelfContactLists::find_lists(SelfGroup& group, long most) {
     tree_clusters_.clear();
     tree_boxes_.clear();
     for (const int cloth : group.cloths) {
@@ -246,13 +290,18 @@ void SelfContactLists::find_lists(SelfGroup& group) {
         }
     }
     tree_.refit(tree_boxes_);
-    tree_.find_pairs(cluster_pairs_);
+    if (!tree_.find_pairs(cluster_pairs_, most / tolerances::pairs_a_list)) {
+        for (const int c : tree_clusters_) memory_.rooms[c] = Box{};
+        return false;
+    }
     next_lists_.clear();
     for (const auto& [first, second] : cluster_pairs_) {
         const int a = tree_clusters_[first], b = tree_clusters_[second];
         if (cloth_pairs_.of(clusters_[a].cloth, clusters_[b].cloth).contact) next_lists_.push_back(take_list(group, a, b));
     }
     std::swap(group.lists, next_lists_);
+    next_lists_.clear();
+    return true;
 }
 
 /// The list of two clusters, from where there is one; else one without room.
@@ -280,166 +329,6 @@ void SelfContactLists::set_motion(std::span<const Vec3> from, std::span<const Ve
 double SelfContactLists::shrink(const SelfList& list) const {
     const Cluster &a = clusters_[list.first], &b = clusters_[list.second];
     return a.spread + b.spread + (a.mean - b.mean).norm();
-}
-
-/// The box of a cluster, and those of all of its features, at most once a cover.
-const Box& SelfContactLists::box_of_cluster(int cluster, std::span<const Vec3> from) {
-    Boxed& boxed = boxed_[cluster];
-    if (boxed.cluster_in != covers_) boxed.box = box_of(clusters_[cluster].all_vertices, from);
-    boxed.cluster_in = covers_;
-    return boxed.box;
-}
-
-void SelfContactLists::set_feature_boxes(int cluster, std::span<const Vec3> from) {
-    if (boxed_[cluster].features_in == covers_) return;
-    boxed_[cluster].features_in = covers_;
-    const Cluster& own = clusters_[cluster];
-    for (const int v : own.vertices) vertex_boxes_[v] = {.low = from[v], .high = from[v]};
-    for (const int e : own.edges) edge_boxes_[e] = box_of(surface_.edges[e].vertex, from);
-    for (const int t : own.triangles) triangle_boxes_[t] = box_of(surface_.triangles[t], from);
-}
-
-/// Makes a list anew: all pairs that can come into contact while they move against each other by no more than its room.
-void SelfContactLists::fill(SelfList& list, std::span<const Vec3> from) {
-    const Cluster &a = clusters_[list.first], &b = clusters_[list.second];
-    const Box &box_a = box_of_cluster(list.first, from), &box_b = box_of_cluster(list.second, from);
-    const double thickness = 0.5 * (a.thickness + b.thickness), apart = box_a.gap(box_b) - thickness;
-    old_pairs_.clear();
-    std::copy_if(list.pairs.begin(), list.pairs.end(), std::back_inserter(old_pairs_),
-                 [](const SelfPair& pair) { return pair.zone > 0.0; });
-    list.pairs.clear();
-    list.travel = 0.0;
-    list.room = shrink(list) + a.skin + b.skin;
-    list.smallest_reach = std::numeric_limits<double>::infinity();
-    list.thickness = 0.0;
-    if (apart >= list.room) {
-        list.room = apart;
-        return;
-    }
-    pair_ = cloth_pairs_.of(a.cloth, b.cloth);
-    const bool is_fine = tolerances::contact_of_rest * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
-    const Reach reach{
-        .room = list.room, .limit = 0.5 * (a.thickness + b.thickness) + list.room, .rest_counts = is_fine && a.cloth == b.cloth};
-    const bool one = list.first == list.second;
-    set_feature_boxes(list.first, from);
-    set_feature_boxes(list.second, from);
-    find_near(a, box_b, reach.limit, near_first_);
-    find_near(b, box_a, reach.limit, near_second_);
-    filled_ = &list;
-    pair_vertices(near_first_, near_second_, reach, from);
-    if (!one) pair_vertices(near_second_, near_first_, reach, from);
-    pair_edges(one, reach, from);
-    for (const SelfPair& pair : list.pairs) {
-        list.smallest_reach = std::min(list.smallest_reach, pair.reach);
-        list.thickness = std::max(list.thickness, pair.thickness);
-    }
-    take_over_zones(list);
-}
-
-/// Features of a cluster that come within `limit` of a box.
-void SelfContactLists::find_near(const Cluster& cluster, Box other, double limit, Near& near) const {
-    other.grow(limit);
-    near.vertices.clear();
-    near.edges.clear();
-    near.triangles.clear();
-    for (const int v : cluster.vertices) {
-        if (vertex_boxes_[v].overlaps(other)) near.vertices.push_back(v);
-    }
-    for (const int e : cluster.edges) {
-        if (edge_boxes_[e].overlaps(other)) near.edges.push_back(e);
-    }
-    for (const int t : cluster.triangles) {
-        if (triangle_boxes_[t].overlaps(other)) near.triangles.push_back(t);
-    }
-}
-
-void SelfContactLists::pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from) {
-    for (const int v : points.vertices) {
-        Box box = vertex_boxes_[v];
-        box.grow(reach.limit);
-        for (const int t : faces.triangles) {
-            const Triangle& face = surface_.triangles[t];
-            if (!box.overlaps(triangle_boxes_[t]) || v == face[0] || v == face[1] || v == face[2]) continue;
-            if (reach.rest_counts &&
-                vertex_boxes_[v].gap(triangle_boxes_[t]) >= thickness_by_rest(std::array{v}, face) + reach.room) {
-                continue;
-            }
-            consider({.shape = PairShape::point_triangle, .vertex = {v, face[0], face[1], face[2]}, .feature = {v, t}},
-                     reach.room, from);
-        }
-    }
-}
-
-/// Edges of the clusters last found near each other; of `one` cluster each pair once.
-void SelfContactLists::pair_edges(bool one, Reach reach, std::span<const Vec3> from) {
-    for (const int e : near_first_.edges) {
-        const auto& [a, b] = surface_.edges[e].vertex;
-        Box box = edge_boxes_[e];
-        box.grow(reach.limit);
-        for (const int f : near_second_.edges) {
-            const auto& [c, d] = surface_.edges[f].vertex;
-            if ((one && e >= f) || !box.overlaps(edge_boxes_[f]) || a == c || a == d || b == c || b == d) continue;
-            if (reach.rest_counts &&
-                edge_boxes_[e].gap(edge_boxes_[f]) >= thickness_by_rest(std::array{a, b}, std::array{c, d}) + reach.room) {
-                continue;
-            }
-            consider({.shape = PairShape::edge_edge, .vertex = {a, b, c, d}, .feature = {e, f}}, reach.room, from);
-        }
-    }
-}
-
-/// m, which the thickness of a pair of features of one cloth with these vertices does not exceed: most of what is near each other
-/// in a fine cloth is so at rest, and cannot come into contact for that.
-double SelfContactLists::thickness_by_rest(std::span<const int> first, std::span<const int> second) const {
-    double square = std::numeric_limits<double>::infinity();
-    for (const int a : first) {
-        for (const int b : second) square = std::min(square, (rest_[a] - rest_[b]).squaredNorm());
-    }
-    return tolerances::contact_of_rest * std::sqrt(square);
-}
-
-/// m, through a seam near the pair; 0 where it is sewn together, infinity without such a seam.
-double SelfContactLists::sewn_distance(const SelfPair& pair) const {
-    const std::span<const int> vertices = pair.vertex;
-    const std::size_t of_first = pair.shape == PairShape::edge_edge ? 2 : 1;
-    return sewn_.distance(vertices.first(of_first), vertices.subspan(of_first));
-}
-
-/// Sets the thickness of a pair near a seam, by the paths through it between vertices.
-void SelfContactLists::set_of_seam(SelfPair& pair) const {
-    const bool edges = pair.shape == PairShape::edge_edge;
-    double most = 0.0;
-    for (int k = 0; k < (edges ? 4 : 3); ++k) {
-        const std::array first{pair.vertex[edges ? k / 2 : 0]}, second{pair.vertex[edges ? 2 + k % 2 : 1 + k]};
-        pair.of_seam[k] = std::min(pair.thickness, tolerances::contact_of_seam * sewn_.distance(first, second));
-        most = std::max(most, pair.of_seam[k]);
-    }
-    pair.thickness = most;
-}
-
-/// Keeps a pair that may come into contact if its distance can shrink by `room`.
-void SelfContactLists::consider(SelfPair pair, double room, std::span<const Vec3> from) {
-    ++considered_;
-    pair.thickness = pair_.thickness.value_or(0.5 * (thickness_[pair.vertex[0]] + thickness_[pair.vertex[3]]));
-    pair.reach = self_distance(pair, from);
-    if (pair.reach >= pair.thickness + room) return;
-    const bool one_cloth = cloth_[pair.vertex[0]] == cloth_[pair.vertex[3]];
-    const double through_seam = sewn_distance(pair);
-    if (through_seam == 0.0) return;
-    if (tolerances::contact_of_seam * through_seam < pair.thickness) set_of_seam(pair);
-    if (one_cloth) pair.thickness = std::min(pair.thickness, tolerances::contact_of_rest * self_distance(pair, rest_));
-    if (pair.reach < pair.thickness + room) filled_->pairs.push_back(pair);
-}
-
-/// What was a contact in the list being replaced stays one.
-void SelfContactLists::take_over_zones(SelfList& list) const {
-    for (SelfPair& pair : list.pairs) {
-        const auto same = [&](const SelfPair& old) { return old.shape == pair.shape && old.feature == pair.feature; };
-        const auto found = std::find_if(old_pairs_.begin(), old_pairs_.end(), same);
-        if (found == old_pairs_.end()) continue;
-        pair.zone = found->zone;
-        pair.began_apart = found->began_apart;
-    }
 }
 
 }  // namespace percale

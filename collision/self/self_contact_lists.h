@@ -47,6 +47,8 @@ public:
     /// Makes the lists good for all states on the straight line between two, and shortens the bounds to `from`. A move so long
     /// that too many pairs would have to be looked at is covered in part: returns that fraction of it, from its start.
     double cover(std::span<const Vec3> from, std::span<const Vec3> to);
+    /// The same where a step begins: gives up what was made for longer moves, and parts cloths that are far apart again.
+    double begin_step(std::span<const Vec3> from, std::span<const Vec3> to);
 
     /// Sets what `shrink` says.
     void set_motion(std::span<const Vec3> from, std::span<const Vec3> to);
@@ -87,11 +89,17 @@ private:
     };
 
     void add_clusters(int cloth, std::span<const int> triangles, std::span<const Vec3> rest);
-    void regroup(std::span<const Vec3> from, std::span<const Vec3> to);
+    void move_to(std::span<const Vec3> from);
+    double cover_move(std::span<const Vec3> from, std::span<const Vec3> to);
+    void regroup(std::span<const Vec3> from, std::span<const Vec3> to, bool may_part);
+    void give_up_room(std::span<const Vec3> from, std::span<const Vec3> to);
+    void give_up_lists_just_made();
     bool update(SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to, long most);
+    template <typename Work>
+    void for_each_swept(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to, const Work& work);
     bool set_rooms(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to);
     Vec3 centre(const SelfGroup& group, std::span<const Vec3> positions) const;
-    void find_lists(SelfGroup& group);
+    bool find_lists(SelfGroup& group, long most);
     SelfList take_list(SelfGroup& group, int first, int second);
     void fill(SelfList& list, std::span<const Vec3> from);
     const Box& box_of_cluster(int cluster, std::span<const Vec3> from);

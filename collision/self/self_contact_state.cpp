@@ -1,7 +1,7 @@
 #include "self/self_contact_state.h"
 
 #include <algorithm>
-#include <functional>
+#include <utility>
 
 namespace percale {
 
@@ -51,41 +51,39 @@ bool is_good(const SelfPair& pair, const ClothSurface& surface) {
     return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
-void check(const SelfGroup& group, const SelfContactLists& lists, const StateReader& state) {
-    const bool ascending =
-        std::adjacent_find(group.cloths.begin(), group.cloths.end(), std::greater_equal<>()) == group.cloths.end();
-    state.demand(!group.cloths.empty() && ascending && below(group.cloths.front(), lists.cloth_count()) &&
-                     below(group.cloths.back(), lists.cloth_count()),
-                 "a cloth that there is not");
-    const auto has = [&](int cluster) {
-        return std::any_of(group.cloths.begin(), group.cloths.end(), [&](int cloth) {
-            const std::span<const int> clusters = lists.clusters(cloth);
-            return std::binary_search(clusters.begin(), clusters.end(), cluster);
-        });
-    };
+/// Of the lists of a group, whose number each of its clusters has.
+void check(const SelfGroup& group, int number, std::span<const int> group_of_cluster, const ClothSurface& surface,
+           const StateReader& state) {
+    const auto has = [&](int cluster) { return below(cluster, group_of_cluster.size()) && group_of_cluster[cluster] == number; };
     std::pair last(-1, -1);
     for (const SelfList& list : group.lists) {
         const std::pair clusters(list.first, list.second);
-        state.demand(clusters > last && has(list.first) && has(list.second), "a cluster that there is not");
-        for (const SelfPair& pair : list.pairs) state.demand(is_good(pair, lists.surface()), "a pair that there is not");
+        state.demand(clusters > last && list.first <= list.second && has(list.first) && has(list.second),
+                     "a cluster that there is not");
+        for (const SelfPair& pair : list.pairs) state.demand(is_good(pair, surface), "a pair that there is not");
         last = clusters;
     }
 }
 
 void check(const SelfListsMemory& memory, const SelfContactLists& lists, const StateReader& state) {
-    const std::size_t vertices = lists.memory().seen.size();
-    state.demand(memory.seen.size() == vertices, "a wrong number of vertices");
+    state.demand(memory.seen.size() == lists.memory().seen.size(), "a wrong number of vertices");
     state.demand(memory.rooms.size() == lists.cluster_count(), "a wrong number of clusters");
-    std::vector<int> in_groups(lists.cloth_count(), 0);
-    int last = -1;
+    std::vector<int> group_of_cluster(lists.cluster_count(), -1);
+    std::vector<bool> grouped(lists.cloth_count(), false);
+    std::size_t cloths = 0;
+    int number = 0, last = -1;
     for (const SelfGroup& group : memory.groups) {
-        check(group, lists, state);
-        state.demand(group.cloths.front() > last, "groups out of order");
+        state.demand(!group.cloths.empty() && group.cloths.front() > last, "groups out of order");
         last = group.cloths.front();
-        for (const int cloth : group.cloths) ++in_groups[cloth];
+        for (const int cloth : group.cloths) {
+            state.demand(below(cloth, lists.cloth_count()) && !grouped[cloth] && cloth >= last, "a cloth in no group, or in two");
+            grouped[cloth] = true;
+            for (const int cluster : lists.clusters(cloth)) group_of_cluster[cluster] = number;
+        }
+        cloths += group.cloths.size();
+        check(group, number++, group_of_cluster, lists.surface(), state);
     }
-    const bool whole = std::all_of(in_groups.begin(), in_groups.end(), [](int times) { return times == 1; });
-    state.demand(memory.groups.empty() || whole, "a cloth in no group, or in two");
+    state.demand(memory.groups.empty() || cloths == lists.cloth_count(), "a cloth in no group, or in two");
 }
 
 }  // namespace

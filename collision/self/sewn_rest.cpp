@@ -14,9 +14,9 @@ namespace {
 constexpr double unreachable = std::numeric_limits<double>::infinity();
 
 /// Shortest paths from one place, as they are found.
-class Front {
+class SewnFront {
 public:
-    explicit Front(double reach) : reach_(reach) {}
+    explicit SewnFront(double reach) : reach_(reach) {}
 
     void reach_vertex(int vertex, double length) {
         if (length > reach_) return;
@@ -79,7 +79,7 @@ void SewnRest::make_knots(std::span<const Stitch> stitches) {
 }
 
 void SewnRest::find_paths(int knot, const ClothSurface& surface, std::span<const Vec3> rest, double reach) {
-    Front front(reach);
+    SewnFront front(reach);
     const auto reach_knot = [&](int number, double length) {
         for (const int vertex : knots_[number].vertices) front.reach_vertex(vertex, length);
     };

@@ -77,7 +77,7 @@ TEST_CASE("cloths join groups where boxes of a move meet, and leave them where n
             const std::vector<Vec3>& end = move % 2 == 0 ? from : to;
             const std::vector<int> expected = expected_groups(cloths, before, from, end);
             tested.set_motion(from, end);
-            const std::vector<int> groups = tested.groups(before);
+            const std::vector<int> groups = tested.groups(before, true);
             CHECK(groups == expected);
             sizes.insert(std::set(groups.begin(), groups.end()).size());
             before = groups;
@@ -88,10 +88,10 @@ TEST_CASE("cloths join groups where boxes of a move meet, and leave them where n
 
 TEST_CASE("cloths that hover between half of their thicknesses and a whole one keep their groups") {
     NearCloths cloths({{.vertices = {0}, .thickness = 0.1}, {.vertices = {1}, .thickness = 0.1}});
-    const auto groups_at = [&](double apart, std::vector<int> before) {
+    const auto groups_at = [&](double apart, std::vector<int> before, bool may_part = true) {
         const std::vector<Vec3> x{Vec3::Zero(), Vec3(apart, 0, 0)};
         cloths.set_motion(x, x);
-        return cloths.groups(before);
+        return cloths.groups(before, may_part);
     };
     const std::vector<int> joined{0, 0}, parted{0, 1};
     CHECK(groups_at(0.15, joined) == joined);
@@ -99,4 +99,6 @@ TEST_CASE("cloths that hover between half of their thicknesses and a whole one k
     CHECK(groups_at(0.15, {}) == joined);
     CHECK(groups_at(0.09, parted) == joined);
     CHECK(groups_at(0.21, joined) == parted);
+    CHECK(groups_at(0.21, joined, false) == joined);
+    CHECK(groups_at(0.09, parted, false) == joined);
 }

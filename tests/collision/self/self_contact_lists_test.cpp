@@ -86,6 +86,26 @@ int check_pairs(SelfContactLists& lists, const Cloths& cloths, const std::vector
     return near;
 }
 
+/// Random pairs that are in no list are apart.
+void check_some_pairs(SelfContactLists& lists, const Cloths& cloths, const std::vector<Vec3>& here, Random& random) {
+    std::vector<std::array<int, 2>> listed;  // vertices and triangles
+    lists.for_each([&](const SelfList& list) {
+        for (const SelfPair& pair : list.pairs) {
+            if (pair.shape == PairShape::point_triangle) listed.push_back(pair.feature);
+        }
+    });
+    std::sort(listed.begin(), listed.end());
+    const ClothSurface& surface = lists.surface();
+    for (int n = 0; n < 20000; ++n) {
+        const int v = random.index(static_cast<int>(here.size())), t = random.index(static_cast<int>(surface.triangles.size()));
+        const Triangle& face = surface.triangles[t];
+        if (v == face[0] || v == face[1] || v == face[2]) continue;
+        const SelfPair pair{.vertex = {v, face[0], face[1], face[2]}, .feature = {v, t}};
+        if (std::binary_search(listed.begin(), listed.end(), pair.feature)) continue;
+        CHECK(self_distance(pair, here) >= zone(cloths, pair));
+    }
+}
+
 constexpr double mark = -123.0;
 
 void mark_all(SelfContactLists& lists) {
@@ -241,23 +261,23 @@ TEST_CASE("cloths that fly past each other are in lists together while they are 
     SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
     std::vector<Vec3> x = cloths.mesh.vertices;
     std::set<std::size_t> group_counts;
-    int between = 0;
+    int of_two = 0;
     for (int step = 0; step < 40; ++step) {
         std::vector<Vec3> velocity(4);
         for (Vec3& v : velocity) v = random.point(0.4);
         std::vector<Vec3> to = shaken(x, 0.02, random);
         for (std::size_t v = 0; v < to.size(); ++v) to[v] += velocity[cloths.cloth[v]] - 0.2 * to[v];
-        lists.cover(x, to);
-        check_pairs(lists, cloths, test::between(x, to, random.number(0.0, 1.0)));
+        lists.begin_step(x, to);
+        check_pairs(lists, cloths, between(x, to, random.number(0.0, 1.0)));
         lists.cover(to, to);
         check_pairs(lists, cloths, to);
         check_bounds(lists, to);
         group_counts.insert(groups_of(lists).size());
-        for (const auto& [key, pair] : pairs_of(lists)) between += cloths.cloth[pair.vertex[0]] != cloths.cloth[pair.vertex[3]];
+        for (const auto& [key, pair] : pairs_of(lists)) of_two += cloths.cloth[pair.vertex[0]] != cloths.cloth[pair.vertex[3]];
         x = to;
     }
     CHECK(group_counts.size() > 1);
-    CHECK(between > 100);
+    CHECK(of_two > 100);
 }
 
 TEST_CASE("cloths that meet join groups and keep their own lists, until they are apart") {
@@ -281,8 +301,41 @@ TEST_CASE("cloths that meet join groups and keep their own lists, until they are
     lists.cover(x, x);
     CHECK(groups_of(lists) == std::vector<std::vector<int>>{{0, 2}, {1}, {3}});
     CHECK(check_pairs(lists, cloths, x) > 100);
-    for (const auto& [two, count] : kept_and_made(lists, cloths)) CHECK((count[0] > 0) == (two.first == two.second));
+    for (const auto& [two, count] : kept_and_made(lists, cloths)) CHECK(count[two.first == two.second ? 1 : 0] == 0);
     lists.cover(apart, apart);
+    CHECK(groups_of(lists) == std::vector<std::vector<int>>{{0, 2}, {1}, {3}});
+    lists.begin_step(apart, apart);
     CHECK(groups_of(lists) == std::vector<std::vector<int>>{{0}, {1}, {2}, {3}});
     check_pairs(lists, cloths, apart);
+}
+
+TEST_CASE(
+    "a move that would take too many pairs is covered in part, and leaves no more lists than others once a step has begun") {
+    Random random(21);
+    Cloths cloths;
+    for (int n = 0; n < 2; ++n) cloths.add(moved(make_grid(1, 1, 21, 21), {0, 0.06 * n, 0}), 0.05);
+    SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    const std::vector<Vec3>& x = cloths.mesh.vertices;
+    const auto counted = [&] {
+        std::array<std::size_t, 2> counts{};  // lists, pairs
+        lists.for_each([&](const SelfList& list) { ++counts[0], counts[1] += list.pairs.size(); });
+        return counts;
+    };
+    lists.begin_step(x, x);
+    const auto before = counted();
+    const std::vector<Vec3> to = shaken(x, 30.0, random);
+    const double fraction = lists.cover(x, to);
+    CHECK(fraction > 0.0);
+    CHECK(fraction < 1.0);
+    const auto there = counted();
+    CHECK(there[0] < 300000);
+    CHECK(there[1] < 5000000);
+    const std::vector<Vec3> here = between(x, to, random.number(0.0, fraction));
+    lists.cover(here, here);
+    check_some_pairs(lists, cloths, here, random);
+    lists.cover(x, x);
+    lists.begin_step(x, x);
+    const auto after = counted();
+    CHECK(after[0] <= 2 * before[0]);
+    CHECK(after[1] <= 4 * before[1]);
 }
