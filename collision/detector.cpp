@@ -85,7 +85,7 @@ public:
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
         if (!lists_->empty()) forget_contacts(start);
         lists_->cover({.from = start, .to = predicted, .fraction = {0.0, 1.0}}, obstacles_, workers_);
-        if (between_cloths_) between_cloths_->refresh(start, predicted);
+        if (between_cloths_) between_cloths_->refresh(start, predicted, workers_);
     }
 
     void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) override {
@@ -94,7 +94,8 @@ public:
         rows.clear();
         smallest_distance_ = std::numeric_limits<double>::infinity();
         if (!lists_->empty()) add_rows(positions, fraction, rows);
-        if (between_cloths_) smallest_distance_ = std::min(smallest_distance_, between_cloths_->add_rows(positions, rows));
+        if (!between_cloths_) return;
+        smallest_distance_ = std::min(smallest_distance_, between_cloths_->add_rows(positions, rows, workers_));
     }
 
     double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction fraction) override {
@@ -102,7 +103,7 @@ public:
         const ClothMove move{.from = from, .to = to, .fraction = fraction};
         double safe = lists_->cover(move, obstacles_, workers_);
         if (!lists_->empty()) safe = cut(move, safe);
-        return between_cloths_ ? std::min(safe, between_cloths_->largest_safe_fraction(from, to)) : safe;
+        return between_cloths_ ? std::min(safe, between_cloths_->largest_safe_fraction(from, to, workers_)) : safe;
     }
 
     double smallest_distance() const override { return smallest_distance_; }
@@ -166,8 +167,7 @@ private:
             RowSearch& own = searches_[first / grain];
             own.run(*this, near.subspan(first, last - first), positions, fraction, parts == 1 ? rows : own.rows);
         });
-        for (std::size_t part = 0; part < parts; ++part) {
-            const RowSearch& own = searches_[part];
+        for (const RowSearch& own : std::span(searches_).first(parts)) {
             smallest_distance_ = std::min(smallest_distance_, own.smallest_distance);
             if (parts > 1) rows.append(own.rows);
         }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 /// Every numerical constant of the layer that decides something. What is no choice stands where it is used: sizes of arrays,
 /// numbers of a formula, and the error bounds of the exact predicates (certificate/exact_orientation.cpp), which are proven.
 ///
@@ -167,6 +169,10 @@ constexpr double self_skin = 0.5, self_skin_of_edge = 0.125;
 /// Times what a step's move takes. Lists and boxes that long trial moves have left with more are made anew with the next step.
 /// Small: they are made anew often. Large: they stay full of what is far. Cost alone.
 constexpr double most_room = 4.0;
+
+/// Of cloth against cloth: how many clusters and lists a thread takes at once, and how many lists are made before it is looked
+/// how many pairs they have taken.
+constexpr std::size_t self_clusters_a_part = 64, self_lists_a_part = 16, self_lists_a_round = 1024;
 
 /// Fraction of the distance at rest below which two features of one cloth are in contact at the latest. Above 1: a mesh finer
 /// than its thickness pushes itself apart at rest. Small: a fold closes to nearly nothing at its crease.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "geometry/cut_floor.h"
+#include "geometry/stretches.h"
 #include "percale/certify.h"
 #include "tolerances.h"
 
@@ -66,7 +67,8 @@ StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) co
     return fault;
 }
 
-void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) {
+void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const Vec3> predicted, Workers* workers) {
+    lists_.set_workers(workers);
     lists_.for_each([&](SelfList& list) {
         for (SelfPair& pair : list.pairs) {
             if (pair.zone > 0.0 && begins_anew(pair, start)) pair.zone = 0.0;
@@ -76,18 +78,37 @@ void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const 
     start_.assign(start.begin(), start.end());
 }
 
-double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRows& rows) {
+double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRows& rows, Workers* workers) {
+    lists_.set_workers(workers);
     lists_.cover(positions, positions);
-    double smallest = infinity;
+    near_.clear();
     lists_.for_each([&](SelfList& list) {
-        if (list.smallest_reach - list.travel >= list.thickness) return;
-        list.smallest_reach = infinity;
-        for (SelfPair& pair : list.pairs) {
-            if (pair.reach - list.travel < pair.thickness) smallest = std::min(smallest, measure(list, pair, positions, rows));
-            list.smallest_reach = std::min(list.smallest_reach, pair.reach);
-        }
+        if (list.smallest_reach - list.travel < list.thickness) near_.push_back(&list);
     });
+    // As with obstacles: what stretches of lists find is joined in the order of the lists.
+    const std::size_t grain = workers ? tolerances::self_lists_a_part : near_.size() + 1,
+                      parts = stretch_count(near_.size(), grain);
+    if (found_.size() < parts) found_.resize(parts);
+    for_stretches(workers, near_.size(), grain, [&](std::size_t first, std::size_t last, int) {
+        Found& own = found_[first / grain];
+        own.rows.clear();
+        own.smallest = infinity;
+        for (std::size_t i = first; i < last; ++i) add_rows_of(*near_[i], positions, own.smallest, parts == 1 ? rows : own.rows);
+    });
+    double smallest = infinity;
+    for (const Found& own : std::span(found_).first(parts)) {
+        smallest = std::min(smallest, own.smallest);
+        if (parts > 1) rows.append(own.rows);
+    }
     return smallest;
+}
+
+void SelfContactDetection::add_rows_of(SelfList& list, std::span<const Vec3> positions, double& smallest, ContactRows& rows) {
+    list.smallest_reach = infinity;
+    for (SelfPair& pair : list.pairs) {
+        if (pair.reach - list.travel < pair.thickness) smallest = std::min(smallest, measure(list, pair, positions, rows));
+        list.smallest_reach = std::min(list.smallest_reach, pair.reach);
+    }
 }
 
 /// Measures a pair and adds its row; returns its distance, or infinity if it has none.
@@ -119,10 +140,25 @@ void SelfContactDetection::add_row(const SelfPair& pair, const SelfPairContact& 
     rows.feature.push_back(pair.shape == PairShape::edge_edge ? 2 : 1);
 }
 
-double SelfContactDetection::largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to) {
-    double safe = lists_.cover(from, to);
+double SelfContactDetection::largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, Workers* workers) {
+    lists_.set_workers(workers);
+    const double covered = lists_.cover(from, to);
     lists_.set_motion(from, to);
-    lists_.for_each([&](SelfList& list) { safe = cut(list, from, to, safe); });
+    near_.clear();
+    lists_.for_each([&](SelfList& list) {
+        if (!stays_clear(list.smallest_reach - list.travel, list.thickness, lists_.shrink(list) * covered))
+            near_.push_back(&list);
+    });
+    // Stretches are the same for any number of threads; within one, what a list allows is all that the next ones look at.
+    constexpr std::size_t grain = tolerances::self_lists_a_part;
+    found_.resize(std::max(found_.size(), stretch_count(near_.size(), grain)));
+    for_stretches(workers, near_.size(), grain, [&](std::size_t first, std::size_t last, int) {
+        double& safe = found_[first / grain].safe;
+        safe = covered;
+        for (std::size_t i = first; i < last; ++i) safe = cut(*near_[i], from, to, safe);
+    });
+    double safe = covered;
+    for (std::size_t part = 0; part < stretch_count(near_.size(), grain); ++part) safe = std::min(safe, found_[part].safe);
     return safe;
 }
 

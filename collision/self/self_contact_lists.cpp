@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "geometry/stretches.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -21,6 +22,15 @@ double largest_said(const ClothPairs& pairs, std::optional<int> cloth = {}) {
         if (!cloth || cloths[0] == *cloth || cloths[1] == *cloth) thickness = std::max(thickness, pair.thickness.value_or(0.0));
     }
     return thickness;
+}
+
+void set_displacements(SelfCluster& cluster, std::span<const Vec3> from, std::span<const Vec3> to) {
+    cluster.mean = Vec3::Zero();
+    for (const int v : cluster.all_vertices) cluster.mean += to[v] - from[v];
+    cluster.mean /= static_cast<double>(cluster.all_vertices.size());
+    double square = 0.0;
+    for (const int v : cluster.all_vertices) square = std::max(square, (to[v] - from[v] - cluster.mean).squaredNorm());
+    cluster.spread = std::sqrt(square);
 }
 
 std::pair<int, int> clusters_of(const SelfList& list) { return {list.first, list.second}; }
@@ -72,54 +82,56 @@ NearCloths near_cloths(const SelfContact& cloth, std::span<const double> thickne
 
 SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
                                    const SelfContact& cloth)
-    : thickness_(vertex_thickness.begin(), vertex_thickness.end()),
-      cloth_(cloth.cloth.begin(), cloth.cloth.end()),
-      cloth_pairs_(cloth.pairs),
-      rest_(cloth.rest.begin(), cloth.rest.end()),
-      surface_(make_cloth_surface(triangles, vertex_thickness.size())),
-      skin_(skins(surface_, rest_, vertex_thickness)),
-      sewn_(surface_, cloth.stitches, rest_,
-            std::max(largest(vertex_thickness), largest_said(cloth.pairs)) / tolerances::contact_of_seam),
+    : cloth_{.thickness = {vertex_thickness.begin(), vertex_thickness.end()},
+             .cloth = {cloth.cloth.begin(), cloth.cloth.end()},
+             .pairs = cloth.pairs,
+             .rest = {cloth.rest.begin(), cloth.rest.end()},
+             .surface = make_cloth_surface(triangles, vertex_thickness.size())},
+      skin_(skins(cloth_.surface, cloth_.rest, vertex_thickness)),
       near_cloths_(near_cloths(cloth, vertex_thickness)),
-      clusters_of_cloth_(near_cloths_.count()),
-      memory_{.seen = rest_, .rooms = {}, .groups = {}} {
+      clusters_of_cloth_(near_cloths_.count()) {
+    cloth_.sewn = SewnRest(cloth_.surface, cloth.stitches, cloth_.rest,
+                           std::max(largest(vertex_thickness), largest_said(cloth.pairs)) / tolerances::contact_of_seam);
+    cloth_.vertex_boxes.resize(cloth_.rest.size());
+    cloth_.edge_boxes.resize(cloth_.surface.edges.size());
+    cloth_.triangle_boxes.resize(cloth_.surface.triangles.size());
     // Cloth by cloth, so that sheets that lie on each other do not share clusters.
-    const std::vector<int> numbers = meeting_cloths(cloth_);
+    const std::vector<int> numbers = meeting_cloths(cloth_.cloth);
     std::vector<std::vector<int>> triangles_of(numbers.size());
     for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
-        const int owner = cloth_[triangles[t][0]];
+        const int owner = cloth_.cloth[triangles[t][0]];
         if (owner >= 0) triangles_of[place_in(numbers, owner)].push_back(t);
     }
     for (std::size_t c = 0; c < numbers.size(); ++c) {
-        const int first = static_cast<int>(clusters_.size());
-        add_clusters(numbers[c], triangles_of[c], cloth.rest);
-        clusters_of_cloth_[c].resize(clusters_.size() - static_cast<std::size_t>(first));
+        const int first = static_cast<int>(cloth_.clusters.size());
+        add_clusters(numbers[c], triangles_of[c]);
+        clusters_of_cloth_[c].resize(cloth_.clusters.size() - static_cast<std::size_t>(first));
         std::iota(clusters_of_cloth_[c].begin(), clusters_of_cloth_[c].end(), first);
     }
-    memory_.rooms.resize(clusters_.size());
-    boxed_.resize(clusters_.size());
-    vertex_boxes_.resize(rest_.size());
-    edge_boxes_.resize(surface_.edges.size());
-    triangle_boxes_.resize(surface_.triangles.size());
+    memory_.seen = cloth_.rest;
+    memory_.rooms.resize(cloth_.clusters.size());
+    left_.resize(cloth_.clusters.size());
 }
 
-void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles, std::span<const Vec3> rest) {
-    const double said = largest_said(cloth_pairs_, cloth);
+void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles) {
+    const double said = largest_said(cloth_.pairs, cloth);
     std::vector<Triangle> corners;
-    for (const int t : triangles) corners.push_back(surface_.triangles[t]);
-    for (const ClothCluster& made : make_clusters(corners, rest).clusters) {
-        Cluster& cluster = clusters_.emplace_back();
+    for (const int t : triangles) corners.push_back(cloth_.surface.triangles[t]);
+    for (const ClothCluster& made : make_clusters(corners, cloth_.rest).clusters) {
+        SelfCluster& cluster = cloth_.clusters.emplace_back();
         cluster.cloth = cloth;
         cluster.thickness = said;
         cluster.vertices = made.vertices;
         cluster.all_vertices = made.all_vertices;
         for (const int t : made.triangles) cluster.triangles.push_back(triangles[t]);
-        for (const auto& [a, b] : made.edges) cluster.edges.push_back(surface_.edge_between(a, b));
+        for (const auto& [a, b] : made.edges) {
+            cluster.edges.push_back(cloth_.surface.edge_between(a, b));
+            cluster.shortest = std::min(cluster.shortest, (cloth_.rest[a] - cloth_.rest[b]).norm());
+        }
         for (const int v : made.all_vertices) {
-            cluster.thickness = std::max(cluster.thickness, thickness_[v]);
+            cluster.thickness = std::max(cluster.thickness, cloth_.thickness[v]);
             cluster.skin = std::max(cluster.skin, skin_[v]);
         }
-        for (const auto& [a, b] : made.edges) cluster.shortest = std::min(cluster.shortest, (rest[a] - rest[b]).norm());
     }
 }
 
@@ -146,16 +158,15 @@ void SelfContactLists::move_to(std::span<const Vec3> from) {
 double SelfContactLists::cover_move(std::span<const Vec3> from, std::span<const Vec3> to) {
     double fraction = 1.0;
     std::span<const Vec3> end = to;
-    ++covers_;
+    cloth_.forget_boxes();
     for (;;) {
         const long most =
             fraction < tolerances::least_covered
                 ? std::numeric_limits<long>::max()
-                : tolerances::most_self_pairs + tolerances::most_self_pairs_per_vertex * static_cast<long>(rest_.size());
+                : tolerances::most_self_pairs + tolerances::most_self_pairs_per_vertex * static_cast<long>(cloth_.rest.size());
         set_motion(from, end);
-        considered_ = 0;
-        const auto updated = [&](SelfGroup& group) { return update(group, from, end, most); };
-        if (std::all_of(memory_.groups.begin(), memory_.groups.end(), updated)) break;
+        const auto has_lists = [&](SelfGroup& group) { return !set_rooms(group, from, end) || find_lists(group, most); };
+        if (std::all_of(memory_.groups.begin(), memory_.groups.end(), has_lists) && make_stale(from, most)) break;
         give_up_lists_just_made();
         fraction *= 0.5;
         shortened_.resize(from.size());
@@ -180,7 +191,7 @@ void SelfContactLists::give_up_lists_just_made() {
 void SelfContactLists::give_up_room(std::span<const Vec3> from, std::span<const Vec3> to) {
     for (const SelfGroup& group : memory_.groups) {
         for_each_swept(group, from, to, [&](int c, const Box& swept) {
-            const double margins = 2.0 * tolerances::self_skin * clusters_[c].thickness;
+            const double margins = 2.0 * tolerances::self_skin * cloth_.clusters[c].thickness;
             const Box& room = memory_.rooms[c];
             const Vec3 wanted = swept.high - swept.low + Vec3::Constant(margins);
             if ((room.high - room.low).sum() > tolerances::most_room * wanted.sum()) memory_.rooms[c] = Box{};
@@ -188,7 +199,7 @@ void SelfContactLists::give_up_room(std::span<const Vec3> from, std::span<const 
     }
     set_motion(from, to);
     for_each([&](SelfList& list) {
-        const double wanted = shrink(list) + clusters_[list.first].skin + clusters_[list.second].skin;
+        const double wanted = shrink(list) + cloth_.clusters[list.first].skin + cloth_.clusters[list.second].skin;
         if (!list.pairs.empty() && list.room - list.travel > tolerances::most_room * wanted) list.room = -1.0;
     });
 }
@@ -227,15 +238,33 @@ void SelfContactLists::regroup(std::span<const Vec3> from, std::span<const Vec3>
     memory_.groups = std::move(groups);
 }
 
-/// Makes lists of a group good for a move; false (and some of them not) if that takes too many pairs.
-bool SelfContactLists::update(SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to, long most) {
-    if (set_rooms(group, from, to) && !find_lists(group, most)) return false;
-    for (SelfList& list : group.lists) {
-        if (list.travel + shrink(list) <= list.room) continue;
-        fill(list, from);
-        if (considered_ > most) return false;
+/// Makes lists without room for a move anew; false, and some of them not, if that takes too many pairs.
+bool SelfContactLists::make_stale(std::span<const Vec3> from, long most) {
+    stale_.clear();
+    for_each([&](SelfList& list) {
+        if (list.travel + shrink(list) <= list.room) return;
+        cloth_.set_box(list.first, from);
+        cloth_.set_box(list.second, from);
+        const SelfCluster &a = cloth_.clusters[list.first], &b = cloth_.clusters[list.second];
+        const double apart = a.box.gap(b.box) - 0.5 * (a.thickness + b.thickness);
+        if (apart >= shrink(list) + a.skin + b.skin) return list.clear(apart);
+        cloth_.set_feature_boxes(list.first, from);
+        cloth_.set_feature_boxes(list.second, from);
+        stale_.push_back(&list);
+    });
+    makers_.resize(workers_ ? static_cast<std::size_t>(workers_->threads()) : 1);
+    const std::span<SelfList* const> stale = stale_;
+    long considered = 0;
+    // In rounds: how many pairs there are is looked at in between, and the same for any number of threads.
+    for (std::size_t first = 0; first < stale.size() && considered <= most; first += tolerances::self_lists_a_round) {
+        const auto round = stale.subspan(first, std::min(tolerances::self_lists_a_round, stale.size() - first));
+        considered_.assign(round.size(), 0);
+        for_stretches(workers_, round.size(), tolerances::self_lists_a_part, [&](std::size_t begin, std::size_t end, int slot) {
+            for (std::size_t i = begin; i < end; ++i) considered_[i] = makers_[slot].fill(cloth_, *round[i], from);
+        });
+        considered = std::accumulate(considered_.begin(), considered_.end(), considered);
     }
-    return true;
+    return considered <= most;
 }
 
 Vec3 SelfContactLists::centre(const SelfGroup& group, std::span<const Vec3> positions) const {
@@ -248,34 +277,38 @@ Vec3 SelfContactLists::centre(const SelfGroup& group, std::span<const Vec3> posi
     return sum / static_cast<double>(count);
 }
 
-/// Calls `work(cluster, Box)` for each cluster of a group: where it is on the straight line, from the centre of the group.
+/// Calls `work(cluster, Box)` for each cluster of a group, on all threads: where it is on the straight line, from the centre of
+/// the group.
 template <typename Work>
 void SelfContactLists::for_each_swept(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to,
                                       const Work& work) {
-    const Vec3 first = centre(group, from), last = centre(group, to);
+    const Vec3 begin = centre(group, from), end = centre(group, to);
     for (const int cloth : group.cloths) {
-        for (const int c : clusters_of_cloth_[cloth]) {
-            Box swept;
-            for (const int v : clusters_[c].all_vertices) {
-                swept.add(from[v] - first);
-                swept.add(to[v] - last);
+        const std::span<const int> clusters = clusters_of_cloth_[cloth];
+        for_stretches(workers_, clusters.size(), tolerances::self_clusters_a_part, [&](std::size_t first, std::size_t last, int) {
+            for (const int c : clusters.subspan(first, last - first)) {
+                Box swept;
+                for (const int v : cloth_.clusters[c].all_vertices) {
+                    swept.add(from[v] - begin);
+                    swept.add(to[v] - end);
+                }
+                work(c, swept);
             }
-            work(c, swept);
-        }
+        });
     }
 }
 
 /// Gives clusters that leave their rooms others; whether there are any.
 bool SelfContactLists::set_rooms(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to) {
-    bool any = false;
+    std::fill(left_.begin(), left_.end(), 0);
     for_each_swept(group, from, to, [&](int c, const Box& swept) {
         Box& room = memory_.rooms[c];
         if (room.contains(swept.low) && room.contains(swept.high)) return;
         room = swept;
-        room.grow(tolerances::self_skin * clusters_[c].thickness);
-        any = true;
+        room.grow(tolerances::self_skin * cloth_.clusters[c].thickness);
+        left_[c] = 1;
     });
-    return any;
+    return std::find(left_.begin(), left_.end(), 1) != left_.end();
 }
 
 /// A list for each two clusters whose rooms come within their thicknesses; false, and no rooms, where they are too many.
@@ -286,7 +319,7 @@ bool SelfContactLists::find_lists(SelfGroup& group, long most) {
         for (const int c : clusters_of_cloth_[cloth]) {
             tree_clusters_.push_back(c);
             tree_boxes_.push_back(memory_.rooms[c]);
-            tree_boxes_.back().grow(0.5 * clusters_[c].thickness);
+            tree_boxes_.back().grow(0.5 * cloth_.clusters[c].thickness);
         }
     }
     tree_.refit(tree_boxes_);
@@ -297,7 +330,8 @@ bool SelfContactLists::find_lists(SelfGroup& group, long most) {
     next_lists_.clear();
     for (const auto& [first, second] : cluster_pairs_) {
         const int a = tree_clusters_[first], b = tree_clusters_[second];
-        if (cloth_pairs_.of(clusters_[a].cloth, clusters_[b].cloth).contact) next_lists_.push_back(take_list(group, a, b));
+        if (cloth_.pairs.of(cloth_.clusters[a].cloth, cloth_.clusters[b].cloth).contact)
+            next_lists_.push_back(take_list(group, a, b));
     }
     std::swap(group.lists, next_lists_);
     next_lists_.clear();
@@ -316,19 +350,14 @@ SelfList SelfContactLists::take_list(SelfGroup& group, int first, int second) {
 }
 
 void SelfContactLists::set_motion(std::span<const Vec3> from, std::span<const Vec3> to) {
-    for (Cluster& cluster : clusters_) {
-        cluster.mean = Vec3::Zero();
-        for (const int v : cluster.all_vertices) cluster.mean += to[v] - from[v];
-        cluster.mean /= static_cast<double>(cluster.all_vertices.size());
-        double square = 0.0;
-        for (const int v : cluster.all_vertices) square = std::max(square, (to[v] - from[v] - cluster.mean).squaredNorm());
-        cluster.spread = std::sqrt(square);
-    }
+    for_stretches(workers_, cloth_.clusters.size(), tolerances::self_clusters_a_part,
+                  [&](std::size_t first, std::size_t last, int) {
+                      for (std::size_t c = first; c < last; ++c) set_displacements(cloth_.clusters[c], from, to);
+                  });
 }
 
 double SelfContactLists::shrink(const SelfList& list) const {
-    const Cluster &a = clusters_[list.first], &b = clusters_[list.second];
-    return a.spread + b.spread + (a.mean - b.mean).norm();
+    return shrink_of(cloth_.clusters[list.first], cloth_.clusters[list.second]);
 }
 
 }  // namespace percale

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,20 +8,9 @@
 #include "percale/contact.h"
 #include "self/cluster_tree.h"
 #include "self/near_cloths.h"
-#include "self/self_pair.h"
-#include "self/sewn_rest.h"
+#include "self/self_list_maker.h"
 
 namespace percale {
-
-/// The pairs of two clusters (or of one with itself) that can come into contact while `travel` is at most `room`.
-struct SelfList {
-    int first = 0, second = 0;  // clusters, first <= second
-    std::vector<SelfPair> pairs = {};
-    double travel = 0.0;          // m, bound of how much any distance has shrunk since the list was made
-    double room = -1.0;           // m
-    double smallest_reach = 0.0;  // smallest SelfPair::reach
-    double thickness = 0.0;       // m, largest of its pairs
-};
 
 /// Cloths near each other, and a list of each two clusters of them that come near each other.
 struct SelfGroup {
@@ -43,6 +31,9 @@ struct SelfListsMemory {
 class SelfContactLists {
 public:
     SelfContactLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, const SelfContact& cloth);
+
+    /// Threads that share the work, or null; what is found does not depend on them.
+    void set_workers(Workers* workers) { workers_ = workers; }
 
     /// Makes the lists good for all states on the straight line between two, and shortens the bounds to `from`. A move so long
     /// that too many pairs would have to be looked at is covered in part: returns that fraction of it, from its start.
@@ -66,87 +57,44 @@ public:
             for (SelfList& list : group.lists) work(list);
         }
     }
-    const ClothSurface& surface() const { return surface_; }
-    const ClothPairs& cloth_pairs() const { return cloth_pairs_; }
+    const ClothSurface& surface() const { return cloth_.surface; }
+    const ClothPairs& cloth_pairs() const { return cloth_.pairs; }
     std::size_t cloth_count() const { return near_cloths_.count(); }
-    std::size_t cluster_count() const { return clusters_.size(); }
+    std::size_t cluster_count() const { return cloth_.clusters.size(); }
     /// Of a cloth that meets cloth, ascending.
     std::span<const int> clusters(int cloth) const { return clusters_of_cloth_[cloth]; }
 
 private:
-    struct Cluster {
-        std::vector<int> vertices, edges, triangles;  // owned
-        std::vector<int> all_vertices;
-        int cloth = -1;
-        double thickness = 0.0;                                     // m, largest, what is said of pairs of its cloth included
-        double skin = 0.0;                                          // m, largest
-        double shortest = std::numeric_limits<double>::infinity();  // m, edge at rest
-        Vec3 mean = Vec3::Zero();
-        double spread = 0.0;  // m, from the mean motion
-    };
-    struct Near {
-        std::vector<int> vertices, edges, triangles;
-    };
-
-    void add_clusters(int cloth, std::span<const int> triangles, std::span<const Vec3> rest);
+    void add_clusters(int cloth, std::span<const int> triangles);
     void move_to(std::span<const Vec3> from);
     double cover_move(std::span<const Vec3> from, std::span<const Vec3> to);
     void regroup(std::span<const Vec3> from, std::span<const Vec3> to, bool may_part);
     void give_up_room(std::span<const Vec3> from, std::span<const Vec3> to);
     void give_up_lists_just_made();
-    bool update(SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to, long most);
     template <typename Work>
     void for_each_swept(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to, const Work& work);
     bool set_rooms(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to);
     Vec3 centre(const SelfGroup& group, std::span<const Vec3> positions) const;
     bool find_lists(SelfGroup& group, long most);
     SelfList take_list(SelfGroup& group, int first, int second);
-    void fill(SelfList& list, std::span<const Vec3> from);
-    const Box& box_of_cluster(int cluster, std::span<const Vec3> from);
-    void set_feature_boxes(int cluster, std::span<const Vec3> from);
-    struct Reach {
-        double room = 0.0;         // m, pairs whose distance is below their thickness and this are kept
-        double limit = 0.0;        // m, those are no farther apart
-        bool rest_counts = false;  // of one cloth, so fine that it is the distance at rest that bounds most thicknesses
-    };
-    void find_near(const Cluster& cluster, Box other, double limit, Near& near) const;
-    void pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from);
-    void pair_edges(bool one, Reach reach, std::span<const Vec3> from);
-    void set_of_seam(SelfPair& pair) const;
-    double thickness_by_rest(std::span<const int> first, std::span<const int> second) const;
-    double sewn_distance(const SelfPair& pair) const;
-    void consider(SelfPair pair, double room, std::span<const Vec3> from);
-    void take_over_zones(SelfList& list) const;
+    bool make_stale(std::span<const Vec3> from, long most);
 
-    std::vector<double> thickness_;
-    std::vector<int> cloth_;
-    ClothPairs cloth_pairs_;
-    ClothPair pair_;  // of the clusters whose list is being filled
-    std::vector<Vec3> rest_;
-    ClothSurface surface_;
-    std::vector<double> skin_;
-    SewnRest sewn_;
-    std::vector<Cluster> clusters_;
+    SelfCloth cloth_;
+    std::vector<double> skin_;  // m, of each vertex
     NearCloths near_cloths_;
     std::vector<std::vector<int>> clusters_of_cloth_;
     ClusterTree tree_;
     SelfListsMemory memory_;
     std::vector<SelfList> loose_lists_, next_lists_;  // of groups that are no more; of the one being updated
-    SelfList* filled_ = nullptr;
-    struct Boxed {
-        Box box;                               // m, of the cluster where a cover begins
-        long cluster_in = 0, features_in = 0;  // the last cover that set its box, and those of its features
-    };
-    std::vector<Boxed> boxed_;
-    std::vector<Box> vertex_boxes_, edge_boxes_, triangle_boxes_;
-    long covers_ = 0;
+    std::vector<SelfList*> stale_;                    // to be made anew
+    std::vector<SelfListMaker> makers_;               // of each thread
+    std::vector<long> considered_;                    // of each list of a round, how many pairs
+    std::vector<char> left_;                          // of each cluster, whether it left its room
+    Workers* workers_ = nullptr;
     std::vector<int> group_of_cloth_, tree_clusters_;
     std::vector<Box> tree_boxes_;
     std::vector<std::pair<int, int>> cluster_pairs_;
-    std::vector<SelfPair> old_pairs_;  // that are contacts, of the list being made anew
     std::vector<Vec3> shortened_;
-    Near near_first_, near_second_;
-    long considered_ = 0;
 };
 
 }  // namespace percale

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "percale/workers.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
 #include "tests/support/collision/cloths.h"
@@ -172,6 +173,32 @@ TEST_CASE("cloth that moves as a whole or apart is not cut, cloth that is not sa
     ContactRows rows;
     detector->evaluate(cloths.mesh.vertices, 0.0, rows);
     CHECK(rows.size() == 0);
+}
+
+TEST_CASE("threads change no bit of rows, distances and cuts between cloths") {
+    Random random(41);
+    const Cloths cloths = sheet_stack(3, 25, 0.06, 0.03, random);
+    const auto workers = make_workers(3);
+    SelfContactDetection one(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    SelfContactDetection several(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    std::vector<Vec3> x = cloths.mesh.vertices;
+    int cuts = 0;
+    std::size_t count = 0;
+    for (int step = 0; step < 12; ++step) {
+        const std::vector<Vec3> to = shaken(x, 0.03, random);
+        one.refresh(x, to);
+        several.refresh(x, to, workers.get());
+        ContactRows rows, same;
+        CHECK(one.add_rows(x, rows) == several.add_rows(x, same, workers.get()));
+        CHECK(same_rows(rows, same));
+        count += rows.size();
+        const double fraction = one.largest_safe_fraction(x, to);
+        CHECK(several.largest_safe_fraction(x, to, workers.get()) == fraction);
+        cuts += fraction < 1.0;
+        x = between(x, to, fraction);
+    }
+    CHECK(cuts > 3);
+    CHECK(count > 100);
 }
 
 TEST_CASE("all backends give the same rows between cloths and the same cuts, behind those of obstacles") {

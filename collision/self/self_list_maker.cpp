@@ -1,0 +1,181 @@
+#include "self/self_list_maker.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "tolerances.h"
+
+namespace percale {
+namespace {
+
+Box box_of(std::span<const int> vertices, std::span<const Vec3> positions) {
+    Box box;
+    for (const int v : vertices) box.add(positions[v]);
+    return box;
+}
+
+}  // namespace
+
+void SelfCloth::forget_boxes() {
+    for (SelfCluster& cluster : clusters) cluster.is_boxed = cluster.features_are_boxed = false;
+}
+
+void SelfCloth::set_box(int cluster, std::span<const Vec3> positions) {
+    SelfCluster& own = clusters[cluster];
+    if (!own.is_boxed) own.box = box_of(own.all_vertices, positions);
+    own.is_boxed = true;
+}
+
+void SelfCloth::set_feature_boxes(int cluster, std::span<const Vec3> positions) {
+    SelfCluster& own = clusters[cluster];
+    if (own.features_are_boxed) return;
+    own.features_are_boxed = true;
+    for (const int v : own.vertices) vertex_boxes[v] = {.low = positions[v], .high = positions[v]};
+    for (const int e : own.edges) edge_boxes[e] = box_of(surface.edges[e].vertex, positions);
+    for (const int t : own.triangles) triangle_boxes[t] = box_of(surface.triangles[t], positions);
+}
+
+void SelfList::clear(double with_room) {
+    pairs.clear();
+    travel = 0.0;
+    room = with_room;
+    smallest_reach = std::numeric_limits<double>::infinity();
+    thickness = 0.0;
+}
+
+long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const Vec3> from) {
+    cloth_ = &cloth;
+    filled_ = &list;
+    considered_ = 0;
+    const SelfCluster &a = cloth.clusters[list.first], &b = cloth.clusters[list.second];
+    pair_ = cloth.pairs.of(a.cloth, b.cloth);
+    old_pairs_.clear();
+    std::copy_if(list.pairs.begin(), list.pairs.end(), std::back_inserter(old_pairs_),
+                 [](const SelfPair& pair) { return pair.zone > 0.0; });
+    list.clear(shrink_of(a, b) + a.skin + b.skin);
+    const bool is_fine = tolerances::contact_of_rest * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
+    const Reach reach{
+        .room = list.room, .limit = 0.5 * (a.thickness + b.thickness) + list.room, .rest_counts = is_fine && a.cloth == b.cloth};
+    const bool one = list.first == list.second;
+    find_near(a, b.box, reach.limit, near_first_);
+    find_near(b, a.box, reach.limit, near_second_);
+    pair_vertices(near_first_, near_second_, reach, from);
+    if (!one) pair_vertices(near_second_, near_first_, reach, from);
+    pair_edges(one, reach, from);
+    for (const SelfPair& pair : list.pairs) {
+        list.smallest_reach = std::min(list.smallest_reach, pair.reach);
+        list.thickness = std::max(list.thickness, pair.thickness);
+    }
+    take_over_zones();
+    return considered_;
+}
+
+/// Features of a cluster that come within `limit` of a box.
+void SelfListMaker::find_near(const SelfCluster& cluster, Box other, double limit, Near& near) const {
+    other.grow(limit);
+    near.vertices.clear();
+    near.edges.clear();
+    near.triangles.clear();
+    for (const int v : cluster.vertices) {
+        if (cloth_->vertex_boxes[v].overlaps(other)) near.vertices.push_back(v);
+    }
+    for (const int e : cluster.edges) {
+        if (cloth_->edge_boxes[e].overlaps(other)) near.edges.push_back(e);
+    }
+    for (const int t : cluster.triangles) {
+        if (cloth_->triangle_boxes[t].overlaps(other)) near.triangles.push_back(t);
+    }
+}
+
+void SelfListMaker::pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from) {
+    for (const int v : points.vertices) {
+        Box box = cloth_->vertex_boxes[v];
+        box.grow(reach.limit);
+        for (const int t : faces.triangles) {
+            const Triangle& face = cloth_->surface.triangles[t];
+            if (!box.overlaps(cloth_->triangle_boxes[t]) || v == face[0] || v == face[1] || v == face[2]) continue;
+            if (reach.rest_counts &&
+                cloth_->vertex_boxes[v].gap(cloth_->triangle_boxes[t]) >= thickness_by_rest(std::array{v}, face) + reach.room) {
+                continue;
+            }
+            consider({.shape = PairShape::point_triangle, .vertex = {v, face[0], face[1], face[2]}, .feature = {v, t}},
+                     reach.room, from);
+        }
+    }
+}
+
+/// Edges of the clusters last found near each other; of `one` cluster each pair once.
+void SelfListMaker::pair_edges(bool one, Reach reach, std::span<const Vec3> from) {
+    for (const int e : near_first_.edges) {
+        const auto& [a, b] = cloth_->surface.edges[e].vertex;
+        Box box = cloth_->edge_boxes[e];
+        box.grow(reach.limit);
+        for (const int f : near_second_.edges) {
+            const auto& [c, d] = cloth_->surface.edges[f].vertex;
+            if ((one && e >= f) || !box.overlaps(cloth_->edge_boxes[f]) || a == c || a == d || b == c || b == d) continue;
+            if (reach.rest_counts && cloth_->edge_boxes[e].gap(cloth_->edge_boxes[f]) >=
+                                         thickness_by_rest(std::array{a, b}, std::array{c, d}) + reach.room) {
+                continue;
+            }
+            consider({.shape = PairShape::edge_edge, .vertex = {a, b, c, d}, .feature = {e, f}}, reach.room, from);
+        }
+    }
+}
+
+/// m, which the thickness of a pair of features of one cloth with these vertices does not exceed: most of what is near each other
+/// in a fine cloth is so at rest, and cannot come into contact for that.
+double SelfListMaker::thickness_by_rest(std::span<const int> first, std::span<const int> second) const {
+    double square = std::numeric_limits<double>::infinity();
+    for (const int a : first) {
+        for (const int b : second) square = std::min(square, (cloth_->rest[a] - cloth_->rest[b]).squaredNorm());
+    }
+    return tolerances::contact_of_rest * std::sqrt(square);
+}
+
+/// m, through a seam near the pair; 0 where it is sewn together, infinity without such a seam.
+double SelfListMaker::sewn_distance(const SelfPair& pair) const {
+    const std::span<const int> vertices = pair.vertex;
+    const std::size_t of_first = pair.shape == PairShape::edge_edge ? 2 : 1;
+    return cloth_->sewn.distance(vertices.first(of_first), vertices.subspan(of_first));
+}
+
+/// Sets the thickness of a pair near a seam, by the paths through it between vertices.
+void SelfListMaker::set_of_seam(SelfPair& pair) const {
+    const bool edges = pair.shape == PairShape::edge_edge;
+    double most = 0.0;
+    for (int k = 0; k < (edges ? 4 : 3); ++k) {
+        const std::array first{pair.vertex[edges ? k / 2 : 0]}, second{pair.vertex[edges ? 2 + k % 2 : 1 + k]};
+        pair.of_seam[k] = std::min(pair.thickness, tolerances::contact_of_seam * cloth_->sewn.distance(first, second));
+        most = std::max(most, pair.of_seam[k]);
+    }
+    pair.thickness = most;
+}
+
+/// Keeps a pair that may come into contact if its distance can shrink by `room`.
+void SelfListMaker::consider(SelfPair pair, double room, std::span<const Vec3> from) {
+    ++considered_;
+    pair.thickness = pair_.thickness.value_or(0.5 * (cloth_->thickness[pair.vertex[0]] + cloth_->thickness[pair.vertex[3]]));
+    pair.reach = self_distance(pair, from);
+    if (pair.reach >= pair.thickness + room) return;
+    const bool one_cloth = cloth_->cloth[pair.vertex[0]] == cloth_->cloth[pair.vertex[3]];
+    const double through_seam = sewn_distance(pair);
+    if (through_seam == 0.0) return;
+    if (tolerances::contact_of_seam * through_seam < pair.thickness) set_of_seam(pair);
+    if (one_cloth) pair.thickness = std::min(pair.thickness, tolerances::contact_of_rest * self_distance(pair, cloth_->rest));
+    if (pair.reach < pair.thickness + room) filled_->pairs.push_back(pair);
+}
+
+/// What was a contact in the list being replaced stays one.
+void SelfListMaker::take_over_zones() const {
+    for (SelfPair& pair : filled_->pairs) {
+        const auto same = [&](const SelfPair& old) { return old.shape == pair.shape && old.feature == pair.feature; };
+        const auto found = std::find_if(old_pairs_.begin(), old_pairs_.end(), same);
+        if (found == old_pairs_.end()) continue;
+        pair.zone = found->zone;
+        pair.began_apart = found->began_apart;
+    }
+}
+
+}  // namespace percale

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "geometry/box.h"
+#include "geometry/cloth_surface.h"
+#include "percale/cloth_pairs.h"
+#include "self/self_pair.h"
+#include "self/sewn_rest.h"
+
+namespace percale {
+
+/// Triangles of one cloth near each other at rest.
+struct SelfCluster {
+    std::vector<int> vertices, edges, triangles;  // owned
+    std::vector<int> all_vertices;
+    int cloth = -1;
+    double thickness = 0.0;                                     // m, largest, what is said of pairs of its cloth included
+    double skin = 0.0;                                          // m, largest
+    double shortest = std::numeric_limits<double>::infinity();  // m, edge at rest
+    Vec3 mean = Vec3::Zero();                                   // m, of its vertices' displacements in a move
+    double spread = 0.0;                                        // m, from the mean
+    Box box;                                                    // m, where a move begins
+    bool is_boxed = false, features_are_boxed = false;
+};
+
+/// m, bound of how much distances of two clusters can shrink in a move.
+inline double shrink_of(const SelfCluster& a, const SelfCluster& b) { return a.spread + b.spread + (a.mean - b.mean).norm(); }
+
+/// All cloth that meets cloth, as its lists are made of it.
+struct SelfCloth {
+    std::vector<double> thickness;  // m, of each vertex
+    std::vector<int> cloth;
+    ClothPairs pairs;
+    std::vector<Vec3> rest;  // m
+    ClothSurface surface;
+    SewnRest sewn = {};
+    std::vector<SelfCluster> clusters = {};
+    std::vector<Box> vertex_boxes = {}, edge_boxes = {}, triangle_boxes = {};  // m, where a move begins
+
+    /// A move begins: no box is known.
+    void forget_boxes();
+    void set_box(int cluster, std::span<const Vec3> positions);
+    void set_feature_boxes(int cluster, std::span<const Vec3> positions);
+};
+
+/// The pairs of two clusters (or of one with itself) that can come into contact while `travel` is at most `room`.
+struct SelfList {
+    int first = 0, second = 0;  // clusters, first <= second
+    std::vector<SelfPair> pairs = {};
+    double travel = 0.0;          // m, bound of how much any distance has shrunk since the list was made
+    double room = -1.0;           // m
+    double smallest_reach = 0.0;  // smallest SelfPair::reach
+    double thickness = 0.0;       // m, largest of its pairs
+
+    /// Made anew without a pair.
+    void clear(double with_room);
+};
+
+/// Finds the pairs of lists. Each belongs to one thread.
+class SelfListMaker {
+public:
+    /// Makes a list of two boxed clusters anew: all pairs that can come into contact while they move against each other by no
+    /// more than the list's new room. Contacts stay contacts. Returns how many pairs it has looked at.
+    long fill(const SelfCloth& cloth, SelfList& list, std::span<const Vec3> from);
+
+private:
+    struct Near {
+        std::vector<int> vertices, edges, triangles;
+    };
+    struct Reach {
+        double room = 0.0;         // m, pairs whose distance is below their thickness and this are kept
+        double limit = 0.0;        // m, those are no farther apart
+        bool rest_counts = false;  // of one cloth, so fine that it is the distance at rest that bounds most thicknesses
+    };
+
+    void find_near(const SelfCluster& cluster, Box other, double limit, Near& near) const;
+    void pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from);
+    void pair_edges(bool one, Reach reach, std::span<const Vec3> from);
+    void set_of_seam(SelfPair& pair) const;
+    double thickness_by_rest(std::span<const int> first, std::span<const int> second) const;
+    double sewn_distance(const SelfPair& pair) const;
+    void consider(SelfPair pair, double room, std::span<const Vec3> from);
+    void take_over_zones() const;
+
+    const SelfCloth* cloth_ = nullptr;
+    SelfList* filled_ = nullptr;
+    ClothPair pair_;                   // of the clusters
+    std::vector<SelfPair> old_pairs_;  // that are contacts, of the list being made anew
+    Near near_first_, near_second_;
+    long considered_ = 0;
+};
+
+}  // namespace percale
