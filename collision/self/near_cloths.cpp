@@ -1,10 +1,8 @@
 #include "self/near_cloths.h"
 
-#include "geometry/disjoint_sets.h"
-
 namespace percale {
 
-NearCloths::NearCloths(std::vector<Cloth> cloths) : cloths_(std::move(cloths)), boxes_(cloths_.size()) {}
+NearCloths::NearCloths(std::vector<Cloth> cloths) : cloths_(std::move(cloths)), boxes_(cloths_.size()), sets_(cloths_.size()) {}
 
 void NearCloths::set_motion(std::span<const Vec3> from, std::span<const Vec3> to) {
     for (std::size_t c = 0; c < cloths_.size(); ++c) {
@@ -16,7 +14,7 @@ void NearCloths::set_motion(std::span<const Vec3> from, std::span<const Vec3> to
     }
 }
 
-std::vector<int> NearCloths::groups(std::span<const int> before, bool may_part) {
+const std::vector<int>& NearCloths::groups(std::span<const int> before, bool may_part) {
     const auto grown = [&](int c, double thicknesses) {
         Box box = boxes_[c];
         box.grow(thicknesses * cloths_[c].thickness);
@@ -28,14 +26,14 @@ std::vector<int> NearCloths::groups(std::span<const int> before, bool may_part) 
     for (int c = 0; c < count; ++c) grown_[c] = grown(c, 1.0);
     tree_.refit(grown_);
     tree_.find_pairs(pairs_);
-    DisjointSets sets(cloths_.size());
-    for (int c = 0; !may_part && c < static_cast<int>(before.size()); ++c) sets.join(c, before[c]);
+    sets_.part_all(cloths_.size());
+    for (int c = 0; !may_part && c < static_cast<int>(before.size()); ++c) sets_.join(c, before[c]);
     for (const auto& [a, b] : pairs_) {
-        if (before.empty() || before[a] == before[b] || grown(a, 0.5).overlaps(grown(b, 0.5))) sets.join(a, b);
+        if (before.empty() || before[a] == before[b] || grown(a, 0.5).overlaps(grown(b, 0.5))) sets_.join(a, b);
     }
-    std::vector<int> groups(cloths_.size());
-    for (int c = 0; c < count; ++c) groups[c] = sets.of(c);
-    return groups;
+    groups_.resize(cloths_.size());
+    for (int c = 0; c < count; ++c) groups_[c] = sets_.of(c);
+    return groups_;
 }
 
 }  // namespace percale

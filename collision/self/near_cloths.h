@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/box.h"
+#include "geometry/disjoint_sets.h"
 #include "self/cluster_tree.h"
 
 namespace percale {
@@ -29,13 +30,15 @@ public:
     /// The group of each cloth, by its lowest member, where `before` says which they were in; empty: none yet. Cloths that may
     /// come into contact join groups. Where groups may part, those of one stay in it that are within their thicknesses, by way
     /// of others, too.
-    std::vector<int> groups(std::span<const int> before, bool may_part);
+    const std::vector<int>& groups(std::span<const int> before, bool may_part);
 
 private:
     std::vector<Cloth> cloths_;
     std::vector<Box> boxes_, grown_;  // m
     ClusterTree tree_;
     std::vector<std::pair<int, int>> pairs_;
+    DisjointSets sets_;
+    std::vector<int> groups_;
 };
 
 }  // namespace percale

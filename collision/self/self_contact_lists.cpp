@@ -213,7 +213,7 @@ void SelfContactLists::regroup(std::span<const Vec3> from, std::span<const Vec3>
         for (const int cloth : group.cloths) group_of_cloth_[cloth] = group.cloths.front();
     }
     near_cloths_.set_motion(from, to);
-    const std::vector<int> first_of = near_cloths_.groups(group_of_cloth_, may_part);
+    const std::vector<int>& first_of = near_cloths_.groups(group_of_cloth_, may_part);
     if (first_of == group_of_cloth_) return;
     std::vector<SelfGroup> groups;
     std::vector<std::size_t> place(first_of.size());
