@@ -180,10 +180,7 @@ double SelfContactLists::cover_move(std::span<const Vec3> from, std::span<const 
 /// Lists that would take too many pairs: they are made for a shorter move.
 void SelfContactLists::give_up_lists_just_made() {
     for_each([](SelfList& list) {
-        if (list.travel > 0.0) return;
-        std::erase_if(list.pairs, [](const SelfPair& pair) { return pair.zone == 0.0; });
-        list.pairs.shrink_to_fit();
-        list.room = -1.0;
+        if (list.travel == 0.0) list.give_up();
     });
 }
 
@@ -200,7 +197,8 @@ void SelfContactLists::give_up_room(std::span<const Vec3> from, std::span<const 
     set_motion(from, to);
     for_each([&](SelfList& list) {
         const double wanted = shrink(list) + cloth_.clusters[list.first].skin + cloth_.clusters[list.second].skin;
-        if (!list.pairs.empty() && list.room - list.travel > tolerances::most_room * wanted) list.room = -1.0;
+        const bool holds_memory = list.pairs.capacity() > tolerances::spare_pairs + 4 * list.pairs.size();
+        if (holds_memory || (!list.pairs.empty() && list.room - list.travel > tolerances::most_room * wanted)) list.give_up();
     });
 }
 

@@ -45,6 +45,12 @@ void SelfList::clear(double with_room) {
     thickness = 0.0;
 }
 
+void SelfList::give_up() {
+    std::erase_if(pairs, [](const SelfPair& pair) { return pair.zone == 0.0; });
+    pairs.shrink_to_fit();
+    room = -1.0;
+}
+
 long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const Vec3> from) {
     cloth_ = &cloth;
     filled_ = &list;

@@ -57,6 +57,8 @@ struct SelfList {
 
     /// Made anew without a pair.
     void clear(double with_room);
+    /// Keeps contacts alone, and gives back memory: it has to be made anew.
+    void give_up();
 };
 
 /// Finds the pairs of lists. Each belongs to one thread.
