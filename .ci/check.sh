@@ -127,10 +127,10 @@ build_sanitizers() {
 whole_runs=(real_mesh_test bullet_world_test mannequin_test mannequin_motion_test poncho_test shipped_meshes_test rest_scene_test
             start_repair_run_test)
 
-# run_file LAYER NAME: the cases of the test files of that name, without laws, in one process.
+# run_file LAYER NAME: the cases of the test files of that name, without laws and cases that take seconds, in one process.
 run_file() {
     local log=build/ci-sanitizers/cases/$1.$2.log
-    "build/ci-sanitizers/percale_$1_tests" -# "[#$2]~[law]" >"$log" 2>&1 || { echo "$1, $2:"; tail -80 "$log"; return 1; }
+    "build/ci-sanitizers/percale_$1_tests" -# "[#$2]~[law]~[slow]" >"$log" 2>&1 || { echo "$1, $2:"; tail -80 "$log"; return 1; }
 }
 
 # The test files of a layer's program, by name; those of properties/ are asked for in both programs that have some.
@@ -139,8 +139,8 @@ test_files() {
         grep -v -x -F "$(printf '%s\n' "${whole_runs[@]}")" | sed "s/^/$1 /"
 }
 
-# Without whole runs and laws, which go the ways of unit tests many times over. A process for each case would take longer than the case,
-# so there is one for each file; that no case was left out is checked by their number.
+# Without whole runs, laws and cases tagged [slow] (seconds in a release build), which go the ways of unit tests many times over. A process
+# for each case would take longer than the case, so there is one for each file; that no case was left out is checked by their number.
 stage_sanitizers() {
     local layer wanted ran
     build_sanitizers percale_engine_tests percale_collision_tests percale_scenes_tests fuzz
@@ -151,7 +151,7 @@ stage_sanitizers() {
     for layer in engine collision scenes; do test_files "$layer"; done | xargs -P "$jobs" -n 2 bash -c 'run_file "$1" "$2"' run_file
     # The exit code of a listing is the number of cases.
     wanted=$(for layer in engine collision scenes; do
-        "build/ci-sanitizers/percale_${layer}_tests" -# --list-test-names-only "~[law]$(printf '~[#%s]' "${whole_runs[@]}")" || true
+        "build/ci-sanitizers/percale_${layer}_tests" -# --list-test-names-only "~[law]~[slow]$(printf '~[#%s]' "${whole_runs[@]}")" || true
     done | wc -l)
     ran=$(sed -n -E 's/^All tests passed .* in ([0-9]+) test cases?.*/\1/p; s/^test cases: +([0-9]+) \| +\1 passed.*/\1/p' build/ci-sanitizers/cases/*.log |
         awk '{ sum += $1 } END { print sum + 0 }')

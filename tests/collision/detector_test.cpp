@@ -100,7 +100,7 @@ std::vector<Contact> contacts_of_all_pairs(const Steps& steps, std::span<const V
 
 }  // namespace
 
-TEST_CASE("all backends give the same rows to the last bit and the same cuts") {
+TEST_CASE("all backends give the same rows to the last bit and the same cuts", "[slow]") {
     const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::plane);
     const bool moving = GENERATE(false, true);
     Random random(300 + static_cast<int>(scene));
@@ -155,7 +155,7 @@ TEST_CASE("rows are those of all pairs of features that are near and local minim
     CHECK(expected_rows > 0);
 }
 
-TEST_CASE("every row keeps the promise of its header, and the nearest of them is the smallest distance of the meshes") {
+TEST_CASE("every row keeps the promise of its header, and the nearest of them is the smallest distance of the meshes", "[slow]") {
     const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::single_triangle);
     Random random(340 + static_cast<int>(scene));
     Steps steps = make_steps(scene, small_sheet(), backends().back());
@@ -206,7 +206,7 @@ TEST_CASE("every row keeps the promise of its header, and the nearest of them is
     CHECK(near > 5);
 }
 
-TEST_CASE("after a cut nothing crosses, on thousands of random moves through resting and moving obstacles") {
+TEST_CASE("after a cut nothing crosses, on thousands of random moves through resting and moving obstacles", "[slow]") {
     const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::single_triangle, Scene::plane);
     const bool moving = GENERATE(false, true);
     Random random(360 + static_cast<int>(scene));

@@ -73,7 +73,7 @@ std::uint64_t run(const Scene& scene, const Kernels& kernels) {
 
 }  // namespace
 
-TEST_CASE("A whole run has the same bits in every instruction set") {
+TEST_CASE("A whole run has the same bits in every instruction set", "[slow]") {
     for (const Scene& scene : some_scenes()) {
         const std::uint64_t baseline = run(scene, *kernels_for(InstructionSet::baseline));
         for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {

@@ -78,7 +78,7 @@ double pulled_modulus(const Fabric& fabric, const Vec3& warp) {
 
 }  // namespace
 
-TEST_CASE("A rest shape that is the start changes nothing but rounding") {
+TEST_CASE("A rest shape that is the start changes nothing but rounding", "[slow]") {
     const TriangleMesh mesh = strip();
     for (const Fabric& fabric : {knitted(), free_fabric(), even()}) {
         std::vector<std::vector<Vec3>> ends;
@@ -135,7 +135,7 @@ TEST_CASE("The pose's scale acts on the rest shape, too") {
     CHECK(simulation.energy().elastic < 1e-18);
 }
 
-TEST_CASE("A strip cut along warp and one cut across give every preset's two moduli, on an irregular mesh") {
+TEST_CASE("A strip cut along warp and one cut across give every preset's two moduli, on an irregular mesh", "[slow]") {
     double worst = 0.0;
     for (const FabricPreset& preset : fabric_presets()) {
         const Fabric& fabric = preset.fabric;

@@ -61,7 +61,7 @@ std::vector<Shape> shapes() {
 
 }  // namespace
 
-TEST_CASE("closed forms agree with the meshes of the generators within their chord error") {
+TEST_CASE("closed forms agree with the meshes of the generators within their chord error", "[slow]") {
     Random random(11);
     for (const Shape& shape : shapes()) {
         CAPTURE(shape.name);

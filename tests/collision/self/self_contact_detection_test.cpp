@@ -38,7 +38,7 @@ std::vector<Vec3> folded(const TriangleMesh& sheet, double gap) {
 
 }  // namespace
 
-TEST_CASE("after a cut no cloth crosses cloth, on thousands of random moves") {
+TEST_CASE("after a cut no cloth crosses cloth, on thousands of random moves", "[slow]") {
     Random random(GENERATE(1U, 2U, 3U));
     const Cloths cloths = sheet_stack(3, 6, 0.1, random.decades(1e-3, 0.05), random);
     const auto detector = detector_for(cloths, backends()[0]);

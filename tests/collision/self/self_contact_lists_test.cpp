@@ -150,7 +150,8 @@ std::vector<Vec3> shaken(std::vector<Vec3> x, double by, Random& random) {
 
 }  // namespace
 
-TEST_CASE("lists of cloth against cloth hold every pair that comes near on the way, each once, and bound its distance") {
+TEST_CASE("lists of cloth against cloth hold every pair that comes near on the way, each once, and bound its distance",
+          "[slow]") {
     Random random(GENERATE(1U, 3U));
     const double h = 0.05;
     const Cloths cloths = sheet_stack(3, 9, 0.06, h, random);
@@ -254,7 +255,7 @@ TEST_CASE("cloth that meets no cloth is in no list") {
     }
 }
 
-TEST_CASE("cloths that fly past each other are in lists together while they are near, and leave no pair out") {
+TEST_CASE("cloths that fly past each other are in lists together while they are near, and leave no pair out", "[slow]") {
     Random random(11);
     Cloths cloths;
     for (int n = 0; n < 4; ++n) cloths.add(moved(make_grid(0.5, 0.5, 5, 5), random.point(0.8)), 0.04);
@@ -309,8 +310,8 @@ TEST_CASE("cloths that meet join groups and keep their own lists, until they are
     check_pairs(lists, cloths, apart);
 }
 
-TEST_CASE(
-    "a move that would take too many pairs is covered in part, and leaves no more lists than others once a step has begun") {
+TEST_CASE("a move that would take too many pairs is covered in part, and leaves no more lists than others once a step has begun",
+          "[slow]") {
     Random random(21);
     Cloths cloths;
     for (int n = 0; n < 2; ++n) cloths.add(moved(make_grid(1, 1, 21, 21), {0, 0.06 * n, 0}), 0.05);

@@ -55,7 +55,7 @@ TriangleMesh interleaved() {
 
 }  // namespace
 
-TEST_CASE("two sheets interleaved by 5 mm come apart, stretched by little") {
+TEST_CASE("two sheets interleaved by 5 mm come apart, stretched by little", "[slow]") {
     Crossed cloth{.mesh = interleaved()};
     REQUIRE(cloth.crossing(cloth.mesh.vertices) > 500);
     cloth.solve();
@@ -85,7 +85,7 @@ TEST_CASE("cloth that crosses nothing stays, sewn or not") {
     CHECK(*cloth.out == cloth.mesh.vertices);
 }
 
-TEST_CASE("a seam that is still open elsewhere is not drawn together") {
+TEST_CASE("a seam that is still open elsewhere is not drawn together", "[slow]") {
     Crossed cloth{.mesh = joined(interleaved(), moved(make_grid(1, 1, 11, 11), {1.3, 0, 0}))};
     const int apart = 41 * 41 + 37 * 37;
     for (int k = 0; k < 11; ++k) cloth.stitches.push_back({41 * 4 * k + 40, apart + 11 * k, apart + 11 * k, 0.0});
@@ -135,7 +135,7 @@ TEST_CASE("corners that are sewn on all sides do not keep cloth from coming apar
     CHECK(cloth.crossing(*cloth.out) == 0);
 }
 
-TEST_CASE("cloth that nothing may move is given up") {
+TEST_CASE("cloth that nothing may move is given up", "[slow]") {
     Crossed cloth{.mesh = interleaved()};
     for (int v = 0; v < static_cast<int>(cloth.mesh.vertices.size()); ++v) cloth.fixed.push_back(v);
     cloth.solve();

@@ -191,7 +191,7 @@ TEST_CASE("several obstacles, sharp and thin ones") {
     CHECK(c.stretch < 0.5);
 }
 
-TEST_CASE("among heaps of overlapping boxes there is no way out, lone boxes are left by the hundred") {
+TEST_CASE("among heaps of overlapping boxes there is no way out, lone boxes are left by the hundred", "[slow]") {
     Case heap{.cloth = make_grid(1, 1, 17, 17), .obstacles = {}}, rows = heap;
     Random random(3);
     for (int i = 0; i < 500; ++i) {

@@ -64,7 +64,7 @@ TEST_CASE("Rows that share vertices act on each as the exact matrix says") {
     for (int i = 0; i < sheet.count(); ++i) CHECK((sheet.matrix.free[i] > 0.0 || found.at(i) == Vec3::Zero()));
 }
 
-TEST_CASE("Cycles, products and solves have the same bits for any number of threads") {
+TEST_CASE("Cycles, products and solves have the same bits for any number of threads", "[slow]") {
     SheetSystem sheet(6, 97, 0.2);
     sheet.pin_share(0.02);
     touch_by_rows(sheet, 1500);

@@ -152,8 +152,8 @@ Saved saved_of(const World& world, const std::vector<StartMove>& moves) {
 
 }  // namespace
 
-TEST_CASE("A resumed run makes the same steps in every bit: all schemes") { check_resumes(scheme_runs()); }
-TEST_CASE("A resumed run makes the same steps in every bit: all solvers") { check_resumes(solver_runs()); }
+TEST_CASE("A resumed run makes the same steps in every bit: all schemes", "[slow]") { check_resumes(scheme_runs()); }
+TEST_CASE("A resumed run makes the same steps in every bit: all solvers", "[slow]") { check_resumes(solver_runs()); }
 TEST_CASE("A resumed run makes the same steps in every bit: fabrics and seams") { check_resumes(fabric_runs()); }
 TEST_CASE("A resumed run makes the same steps in every bit: contact and friction") { check_resumes(contact_runs()); }
 

@@ -78,7 +78,7 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 
 }  // namespace
 
-TEST_CASE("Cloth on a body that bends never crosses it, and comes as near as elsewhere") {
+TEST_CASE("Cloth on a body that bends never crosses it, and comes as near as elsewhere", "[slow]") {
     for (const ContactResponse response : {ContactResponse::penalty, ContactResponse::projection}) {
         Breathing scene(backends().back(), {.contact_response = response});
         double nearest = 1.0;
@@ -94,7 +94,7 @@ TEST_CASE("Cloth on a body that bends never crosses it, and comes as near as els
     }
 }
 
-TEST_CASE("A bending body is met alike by every tree, on any number of threads, and resumed in every bit") {
+TEST_CASE("A bending body is met alike by every tree, on any number of threads, and resumed in every bit", "[slow]") {
     std::vector<std::uint64_t> hashes;
     for (const Backend& backend : backends()) {
         for (const int threads : {1, 3}) {

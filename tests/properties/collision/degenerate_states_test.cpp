@@ -248,7 +248,7 @@ TEST_CASE("Without gravity cloth at rest keeps every bit, at a thousand times th
     }
 }
 
-TEST_CASE("Cloths whose masses differ by a factor of a million lie on each other and never go through each other") {
+TEST_CASE("Cloths whose masses differ by a factor of a million lie on each other and never go through each other", "[slow]") {
     for (const Way& way : contact_ways) {
         for (const bool heavy_on_top : {false, true}) {
             CAPTURE(way.name, heavy_on_top);

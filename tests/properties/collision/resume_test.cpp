@@ -82,7 +82,7 @@ std::vector<Resumable> stack_runs(const Backend& backend) {
 
 }  // namespace
 
-TEST_CASE("A resumed run over obstacles makes the same steps in every bit, on every tree") {
+TEST_CASE("A resumed run over obstacles makes the same steps in every bit, on every tree", "[slow]") {
     for (const Backend& backend : backends()) {
         for (const Resumable& run : obstacle_runs(backend)) {
             CAPTURE(run.name, backend.name);
@@ -91,7 +91,7 @@ TEST_CASE("A resumed run over obstacles makes the same steps in every bit, on ev
     }
 }
 
-TEST_CASE("A resumed run of cloth on cloth makes the same steps in every bit, on every tree") {
+TEST_CASE("A resumed run of cloth on cloth makes the same steps in every bit, on every tree", "[slow]") {
     for (const Backend& backend : backends()) {
         for (const Resumable& run : stack_runs(backend)) {
             CAPTURE(run.name, backend.name);

@@ -31,7 +31,7 @@ std::vector<std::uint64_t> fall(StepSettings settings, bool self_contact, int th
 
 }  // namespace
 
-TEST_CASE("Cloth in contact has the same bits for any number of threads") {
+TEST_CASE("Cloth in contact has the same bits for any number of threads", "[slow]") {
     const StepSettings penalty{.measure = StepMeasures::ledger};
     const StepSettings projection{.contact_response = ContactResponse::projection};
     for (const auto& settings : {penalty, projection}) {

@@ -61,7 +61,7 @@ struct Falling {
 
 }  // namespace
 
-TEST_CASE("A step whose time is up is taken as it is: it arrives, crosses nothing, stays sane and says so") {
+TEST_CASE("A step whose time is up is taken as it is: it arrives, crosses nothing, stays sane and says so", "[slow]") {
     std::vector<StepSettings> ways(4);
     ways[1].contact_response = ContactResponse::projection;
     ways[2].scheme = Scheme::tr_bdf2;

@@ -137,7 +137,7 @@ TEST_CASE("A ball that alone yields gives way by all of the overlap, and balls t
     CHECK(stopped.reason.find("close on the cloth") != std::string::npos);
 }
 
-TEST_CASE("Surfaces give way to two layers of cloth, and by projection") {
+TEST_CASE("Surfaces give way to two layers of cloth, and by projection", "[slow]") {
     Squeezed layers({.layers = 2});
     const Outcome two = squeeze_through(layers);
     CAPTURE(two.reason);
@@ -150,7 +150,7 @@ TEST_CASE("Surfaces give way to two layers of cloth, and by projection") {
     CHECK(by_projection.clean);
 }
 
-TEST_CASE("Giving way is the same in every bit for every tree and any number of threads, and is resumed") {
+TEST_CASE("Giving way is the same in every bit for every tree and any number of threads, and is resumed", "[slow]") {
     std::vector<std::uint64_t> hashes;
     for (const Backend& backend : backends()) {
         for (const int threads : {1, 3}) {
@@ -184,7 +184,7 @@ TEST_CASE("An obstacle that would yield but need not is one that bends, in every
     CHECK(yields.shape(yields.left) == yields.ball.vertices);
 }
 
-TEST_CASE("Dents of a pinch that lasts stay as they are, in every bit, and one body pinches with its own parts") {
+TEST_CASE("Dents of a pinch that lasts stay as they are, in every bit, and one body pinches with its own parts", "[slow]") {
     // Two balls in one mesh that come together about a small sheet that lies on nothing else.
     TriangleMesh jaws = make_sphere(radius, 3);
     const std::vector<Vec3> ball = jaws.vertices;

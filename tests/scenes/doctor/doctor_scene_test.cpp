@@ -315,7 +315,7 @@ TEST_CASE("runs that take hours, much memory or much disk are warned of") {
     CHECK(find(examine_cost(built, plan), "much_memory")->what.find("12 GB of memory") != std::string::npos);
 }
 
-TEST_CASE("every shipped scene passes, and nothing in it will go wrong by its plan") {
+TEST_CASE("every shipped scene passes, and nothing in it will go wrong by its plan", "[slow]") {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(std::string(PERCALE_DATA_DIR) + "/scenes")) {
         if (entry.path().extension() != ".toml") continue;

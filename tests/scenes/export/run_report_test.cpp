@@ -129,7 +129,8 @@ TEST_CASE("the report says what the start moved") {
     CHECK(list[0].at("largest_move").get<double>() < 0.025);
 }
 
-TEST_CASE("the report says which obstacles gave way, when and how far, and a run in which they do is resumed in every bit") {
+TEST_CASE("the report says which obstacles gave way, when and how far, and a run in which they do is resumed in every bit",
+          "[slow]") {
     const std::string text = R"(
 duration = 0.9
 [step]

@@ -86,7 +86,7 @@ TEST_CASE("What a scene calls itself and its cloth is text in the page, whatever
     CHECK(data_of(page)["meshes"].empty());
 }
 
-TEST_CASE("A page keeps to its size by leaving frames out, and says so") {
+TEST_CASE("A page keeps to its size by leaving frames out, and says so", "[slow]") {
     if (!has_pages()) return;
     const TestFolder folder;
     write_run(folder.path("run"), sheet_on_box(),

@@ -35,7 +35,7 @@ void check_mesh_of(const std::vector<Point2>& outline, double edge_length, doubl
 
 }  // namespace
 
-TEST_CASE("fifty round panels have their outline, their area, and no sliver") {
+TEST_CASE("fifty round panels have their outline, their area, and no sliver", "[slow]") {
     Random random(11);
     for (int round = 0; round < 50; ++round) {
         const double edge_length = random.number(0.01, 0.03);

@@ -232,7 +232,8 @@ TEST_CASE("with --resume a scene is judged anew, and says why, where its expecta
     CHECK(check({}).out.starts_with(finished + "; run again: a.toml has changed\n"));
 }
 
-TEST_CASE("a check that is killed goes on with --resume: what had ended is kept, the scene in its midst resumed, the rest run") {
+TEST_CASE("a check that is killed goes on with --resume: what had ended is kept, the scene in its midst resumed, the rest run",
+          "[slow]") {
     const TestFolder folder;
     const std::string expect = "[expect]\nspeed_at_end = { below = 10.0 }\n";
     folder.write("short.toml", falling_sheet() + expect);

@@ -86,7 +86,7 @@ TEST_CASE("a run with checkpoints is the same as one without, and one that is re
     CHECK(run_program({"replay", "plain", "other"}, folder.path()).exit_code == 0);
 }
 
-TEST_CASE("a run until rest that expects something of its steps is resumed, from its end, too") {
+TEST_CASE("a run until rest that expects something of its steps is resumed, from its end, too", "[slow]") {
     const TestFolder folder;
     folder.write("box.toml", sheet_on_box() + "[expect]\nlargest_strain = { below = 1.0 }\n");
     const std::vector<std::string> until_rest = {"--set", "duration=rest", "--fps", "7"};
@@ -147,7 +147,7 @@ TEST_CASE("a run that is stopped writes a checkpoint of where it stopped, and sa
     }
 }
 
-TEST_CASE("ten runs and runs on two and four threads are the same in every bit") {
+TEST_CASE("ten runs and runs on two and four threads are the same in every bit", "[slow]") {
     const TestFolder folder;
     folder.write("box.toml", sheet_on_box());
     REQUIRE(run_box(folder, {"-o", "first", "--quiet"}).exit_code == 0);

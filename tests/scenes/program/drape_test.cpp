@@ -64,7 +64,7 @@ TEST_CASE("a garment is draped until it is proven at rest, asked or not") {
     CHECK(draped("a.obj", {}) == draped("b.obj", {"--until-rest"}));
 }
 
-TEST_CASE("a pattern is sewn around the body first, and then hangs on it") {
+TEST_CASE("a pattern is sewn around the body first, and then hangs on it", "[slow]") {
     const TestFolder folder;
     const std::string data = PERCALE_DATA_DIR;
     const auto drape = [&](std::vector<std::string> more) {

@@ -15,7 +15,7 @@ int exit_code_of(const TestFolder& folder, const std::string& arguments) {
 
 }  // namespace
 
-TEST_CASE("percale_make_data writes the shipped meshes byte for byte") {
+TEST_CASE("percale_make_data writes the shipped meshes byte for byte", "[slow]") {
     const TestFolder folder;
     REQUIRE(exit_code_of(folder, quoted(folder.path("new/meshes"))) == 0);
     int files = 0;

@@ -370,7 +370,7 @@ TEST_CASE("a seam of a scene closes from its time on") {
     CHECK(scene.simulation.seam_gaps(scene.seams[0].id)[0] < 0.05);
 }
 
-TEST_CASE("panels that wait beside others being sewn add no iterations") {
+TEST_CASE("panels that wait beside others being sewn add no iterations", "[slow]") {
     const auto iterations = [](const std::string& name) {
         BuiltScene scene = build_scene(load_scene(std::string(PERCALE_DATA_DIR) + "/scenes/" + name));
         int sum = 0;
