@@ -417,8 +417,8 @@ private:
         for (unsigned lanes = answer.near; lanes != 0; lanes &= lanes - 1) {
             const ContactPair pair = at.feature().with(obstacle.packs().packs[at.number()], std::countr_zero(lanes));
             const Vec3 apart = pair_apart(pair, move.from, obstacle, move.fraction.from);
-            const double distance = apart.norm(), floor = floor_below(distance, thickness_[pair.cloth[0]]);
             const MovingFour four = moving_pair(pair, move, obstacle);
+            const double distance = apart.norm(), floor = floor_of_cut(four, distance, thickness_[pair.cloth[0]]);
             // Convex features that a plane parts at both ends of a straight move are parted by it throughout.
             const double enough = floor + tolerances::clearance_left * (distance - floor);
             if (distance > 0.0 && gap_along(four, cloth_slots(pair.kind), apart / distance, safe) >= enough) continue;

@@ -41,6 +41,10 @@ constexpr double least_cut_floor = 1e-3;
 /// Fraction of a distance below least_cut_floor that a cut leaves. 1: such a vertex could not move at all.
 constexpr double least_cut_remainder = 0.999;
 
+/// Times the last digit of the largest coordinate. No cut leaves less, whatever was there: a distance below is none. Smaller:
+/// what was pressed together until rounding decides has crossed. Larger: cloth that is so near cannot move.
+constexpr double rounding_of_coordinates = 32.0;
+
 /// Fraction of the clearance (distance less floor) at which conservative advancement stops: a cut leaves it. Smaller: longer safe
 /// moves for more advances. Larger: cuts fall short of what is safe.
 constexpr double clearance_left = 0.1;
@@ -209,6 +213,15 @@ constexpr double widened_zone = 3.0;
 /// Sine (2 degrees). Edges at smaller angles have no contact of their own, their ends have. 0: closest points jump from end to
 /// end of parallel threads.
 constexpr double least_crossing_sine = 0.03;
+
+/// Fraction of h. Edges whose ends rise by more from where they cross have their contact at any angle: the ends may be too far
+/// apart to hold them. Larger: long edges cross slowly until the cut stops them for good. Smaller: closest points jump.
+constexpr double least_crossing_rise = 0.2;
+
+/// Fraction of the thickness of two features of one cloth that remains below the distance at rest: sheets of one mesh that lie
+/// edge to edge, or split along a line, would have no contact there. 0: they meet in the cut alone. Large: a mesh that is this
+/// much finer than its thickness pushes itself apart at rest.
+constexpr double least_of_rest = 0.01;
 
 // ---- untangle/
 

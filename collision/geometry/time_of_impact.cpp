@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/cut_floor.h"
 #include "geometry/triangle_distance.h"
 #include "tolerances.h"
 
@@ -48,6 +49,18 @@ double safe_time(const MovingFour& four, PairShape shape, double floor, double l
         time = next;
     }
     return time;
+}
+
+double rounding_floor(const MovingFour& four) {
+    double largest = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        largest = std::max({largest, four.from[i].cwiseAbs().maxCoeff(), four.to[i].cwiseAbs().maxCoeff()});
+    }
+    return tolerances::rounding_of_coordinates * std::numeric_limits<double>::epsilon() * largest;
+}
+
+double floor_of_cut(const MovingFour& four, double distance, double thickness) {
+    return std::max(floor_below(distance, thickness), rounding_floor(four));
 }
 
 double gap_along(const MovingFour& four, unsigned side, const Vec3& direction, double time) {

@@ -19,6 +19,12 @@ enum class PairShape { point_triangle, edge_edge };  // point 0 against 1 2 3; 0
 /// advancement with thickness (Li, Kaufman and Jiang 2021): no roots, hence no missed coplanar or parallel hits.
 double safe_time(const MovingFour& four, PairShape shape, double floor, double latest);
 
+/// m, what rounding may add to or take from a distance of two features at these coordinates. A floor below it proves nothing.
+double rounding_floor(const MovingFour& four);
+
+/// The distance that a cut leaves of `distance`: `floor_below`, but what rounding may change at the least.
+double floor_of_cut(const MovingFour& four, double distance, double thickness);
+
 /// How far the points of one side (bits of `side`) are beyond all others along the unit vector `direction`, at a time. Points on
 /// straight lines: from a time to another it is never less than the lesser of the two, and the distance is never less than it.
 double gap_along(const MovingFour& four, unsigned side, const Vec3& direction, double time);

@@ -171,7 +171,8 @@ double SelfContactDetection::cut(SelfList& list, std::span<const Vec3> from, std
         const double distance = self_distance(pair, from);
         pair.reach = distance + list.travel;
         if (stays_clear(distance, pair.thickness, shrink * safe)) continue;
-        safe = safe_time(moving_pair(pair, from, to), pair.shape, floor_below(distance, pair.thickness), safe);
+        const MovingFour four = moving_pair(pair, from, to);
+        safe = safe_time(four, pair.shape, floor_of_cut(four, distance, pair.thickness), safe);
     }
     return safe;
 }

@@ -16,6 +16,11 @@ Box box_of(std::span<const int> vertices, std::span<const Vec3> positions) {
     return box;
 }
 
+/// m, thickness h of two features of one cloth that are `distance` apart at rest.
+double thickness_from_rest(double distance, double h) {
+    return std::min(h, std::max(tolerances::contact_of_rest * distance, tolerances::least_of_rest * h));
+}
+
 }  // namespace
 
 void SelfCloth::forget_boxes() {
@@ -62,11 +67,11 @@ long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const
                  [](const SelfPair& pair) { return pair.zone > 0.0; });
     list.clear(shrink_of(a, b) + a.skin + b.skin);
     const bool is_fine = tolerances::contact_of_rest * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
-    const Reach reach{
-        .room = list.room, .limit = 0.5 * (a.thickness + b.thickness) + list.room, .rest_counts = is_fine && a.cloth == b.cloth};
+    const double thickness = 0.5 * (a.thickness + b.thickness);
+    const Reach reach{.room = list.room, .thickness = thickness, .rest_counts = is_fine && a.cloth == b.cloth};
     const bool one = list.first == list.second;
-    find_near(a, b.box, reach.limit, near_first_);
-    find_near(b, a.box, reach.limit, near_second_);
+    find_near(a, b.box, reach.limit(), near_first_);
+    find_near(b, a.box, reach.limit(), near_second_);
     pair_vertices(near_first_, near_second_, reach, from);
     if (!one) pair_vertices(near_second_, near_first_, reach, from);
     pair_edges(one, reach, from);
@@ -98,12 +103,12 @@ void SelfListMaker::find_near(const SelfCluster& cluster, Box other, double limi
 void SelfListMaker::pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from) {
     for (const int v : points.vertices) {
         Box box = cloth_->vertex_boxes[v];
-        box.grow(reach.limit);
+        box.grow(reach.limit());
         for (const int t : faces.triangles) {
             const Triangle& face = cloth_->surface.triangles[t];
             if (!box.overlaps(cloth_->triangle_boxes[t]) || v == face[0] || v == face[1] || v == face[2]) continue;
-            if (reach.rest_counts &&
-                cloth_->vertex_boxes[v].gap(cloth_->triangle_boxes[t]) >= thickness_by_rest(std::array{v}, face) + reach.room) {
+            if (reach.rest_counts && cloth_->vertex_boxes[v].gap(cloth_->triangle_boxes[t]) >=
+                                         thickness_by_rest(std::array{v}, face, reach.thickness) + reach.room) {
                 continue;
             }
             consider({.shape = PairShape::point_triangle, .vertex = {v, face[0], face[1], face[2]}, .feature = {v, t}},
@@ -117,12 +122,12 @@ void SelfListMaker::pair_edges(bool one, Reach reach, std::span<const Vec3> from
     for (const int e : near_first_.edges) {
         const auto& [a, b] = cloth_->surface.edges[e].vertex;
         Box box = cloth_->edge_boxes[e];
-        box.grow(reach.limit);
+        box.grow(reach.limit());
         for (const int f : near_second_.edges) {
             const auto& [c, d] = cloth_->surface.edges[f].vertex;
             if ((one && e >= f) || !box.overlaps(cloth_->edge_boxes[f]) || a == c || a == d || b == c || b == d) continue;
             if (reach.rest_counts && cloth_->edge_boxes[e].gap(cloth_->edge_boxes[f]) >=
-                                         thickness_by_rest(std::array{a, b}, std::array{c, d}) + reach.room) {
+                                         thickness_by_rest(std::array{a, b}, std::array{c, d}, reach.thickness) + reach.room) {
                 continue;
             }
             consider({.shape = PairShape::edge_edge, .vertex = {a, b, c, d}, .feature = {e, f}}, reach.room, from);
@@ -132,12 +137,12 @@ void SelfListMaker::pair_edges(bool one, Reach reach, std::span<const Vec3> from
 
 /// m, which the thickness of a pair of features of one cloth with these vertices does not exceed: most of what is near each other
 /// in a fine cloth is so at rest, and cannot come into contact for that.
-double SelfListMaker::thickness_by_rest(std::span<const int> first, std::span<const int> second) const {
+double SelfListMaker::thickness_by_rest(std::span<const int> first, std::span<const int> second, double most) const {
     double square = std::numeric_limits<double>::infinity();
     for (const int a : first) {
         for (const int b : second) square = std::min(square, (cloth_->rest[a] - cloth_->rest[b]).squaredNorm());
     }
-    return tolerances::contact_of_rest * std::sqrt(square);
+    return thickness_from_rest(std::sqrt(square), most);
 }
 
 /// m, through a seam near the pair; 0 where it is sewn together, infinity without such a seam.
@@ -162,14 +167,16 @@ void SelfListMaker::set_of_seam(SelfPair& pair) const {
 /// Keeps a pair that may come into contact if its distance can shrink by `room`.
 void SelfListMaker::consider(SelfPair pair, double room, std::span<const Vec3> from) {
     ++considered_;
-    pair.thickness = pair_.thickness.value_or(0.5 * (cloth_->thickness[pair.vertex[0]] + cloth_->thickness[pair.vertex[3]]));
+    const double thickness =
+        pair_.thickness.value_or(0.5 * (cloth_->thickness[pair.vertex[0]] + cloth_->thickness[pair.vertex[3]]));
+    pair.thickness = thickness;
     pair.reach = self_distance(pair, from);
     if (pair.reach >= pair.thickness + room) return;
     const bool one_cloth = cloth_->cloth[pair.vertex[0]] == cloth_->cloth[pair.vertex[3]];
     const double through_seam = sewn_distance(pair);
     if (through_seam == 0.0) return;
     if (tolerances::contact_of_seam * through_seam < pair.thickness) set_of_seam(pair);
-    if (one_cloth) pair.thickness = std::min(pair.thickness, tolerances::contact_of_rest * self_distance(pair, cloth_->rest));
+    if (one_cloth) pair.thickness = std::min(pair.thickness, thickness_from_rest(self_distance(pair, cloth_->rest), thickness));
     if (pair.reach < pair.thickness + room) filled_->pairs.push_back(pair);
 }
 

@@ -74,15 +74,17 @@ private:
     };
     struct Reach {
         double room = 0.0;         // m, pairs whose distance is below their thickness and this are kept
-        double limit = 0.0;        // m, those are no farther apart
+        double thickness = 0.0;    // m, no pair has more
         bool rest_counts = false;  // of one cloth, so fine that it is the distance at rest that bounds most thicknesses
+
+        double limit() const { return thickness + room; }
     };
 
     void find_near(const SelfCluster& cluster, Box other, double limit, Near& near) const;
     void pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from);
     void pair_edges(bool one, Reach reach, std::span<const Vec3> from);
     void set_of_seam(SelfPair& pair) const;
-    double thickness_by_rest(std::span<const int> first, std::span<const int> second) const;
+    double thickness_by_rest(std::span<const int> first, std::span<const int> second, double most) const;
     double sewn_distance(const SelfPair& pair) const;
     void consider(SelfPair pair, double room, std::span<const Vec3> from);
     void take_over_zones() const;

@@ -72,6 +72,12 @@ double edge_zone(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& t
     return zone;
 }
 
+/// |e x f|^2 = (|e| |f| sin)^2 of two edges up to which they count as parallel, from |e|^2, |f|^2 and their thickness.
+double square_of_parallel(double first, double second, double thickness) {
+    const double sine = tolerances::least_crossing_sine, rise = tolerances::least_crossing_rise * thickness;
+    return std::min(sine * sine * first * second, rise * rise * std::max(first, second));
+}
+
 SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const ClothSurface& surface) {
     const EdgeEdge closest = edge_on_edge(pair, x);
     const double s = closest.s, t = closest.t;
@@ -80,9 +86,8 @@ SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const C
     const Vec3 first = a + s * (b - a), second = c + t * (d - c);
     set_direction(first - second, contact);
     if (contact.distance >= pair.thickness) return contact;
-    const double limit =
-        tolerances::least_crossing_sine * tolerances::least_crossing_sine * (b - a).squaredNorm() * (d - c).squaredNorm();
-    const bool cross = (b - a).cross(d - c).squaredNorm() > limit;
+    const bool cross =
+        (b - a).cross(d - c).squaredNorm() > square_of_parallel((b - a).squaredNorm(), (d - c).squaredNorm(), pair.thickness);
     contact.jumps = !cross;
     if (!cross || s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0) return contact;
     contact.relative_zone = std::min(edge_zone(surface.edges[pair.feature[0]], first, -contact.direction, x),

@@ -25,6 +25,14 @@ double distance(const MovingFour& four, PairShape shape, double time) {
                                               : true_edge_edge(x[0], x[1], x[2], x[3]);
 }
 
+/// Of the tetrahedron of the four, in the digits of long double.
+long double signed_volume(const std::array<Vec3, 4>& x) {
+    using Wide = Eigen::Matrix<long double, 3, 1>;
+    const Wide a = x[0].cast<long double>(), b = x[1].cast<long double>() - a, c = x[2].cast<long double>() - a,
+               d = x[3].cast<long double>() - a;
+    return b.dot(c.cross(d));
+}
+
 /// The families in which the two features come together, and how.
 enum class Family { generic, coplanar, parallel, on_edge, micro_gap, rushing };
 
@@ -212,6 +220,30 @@ TEST_CASE("what never comes near keeps its whole time, whatever its common motio
             four.to[0] += 0.4 * start * away;
             CHECK(safe_time(four, shape, 0.1 * start, latest) == latest);
         }
+    }
+}
+
+TEST_CASE("features pressed together call after call stop before rounding decides on which side they are") {
+    const PairShape shape = GENERATE(PairShape::point_triangle, PairShape::edge_edge);
+    Random random(90);
+    for (int i = 0; i < 200; ++i) {
+        // The first feature goes straight through the second.
+        MovingFour four{.from = at(meeting(shape, Family::generic, 0.5, random), 0.5), .to = {}};
+        const Vec3 push = random.point(1.0);
+        const int movers = shape == PairShape::point_triangle ? 1 : 2;
+        for (int k = 0; k < movers; ++k) four.from[k] -= 0.5 * push;
+        const bool side = signed_volume(four.from) > 0.0L;
+        double safe = 1.0, apart = distance(four, shape, 0.0);
+        for (int call = 0; call < 60; ++call) {
+            four.to = four.from;
+            for (int k = 0; k < movers; ++k) four.to[k] += push;
+            safe = safe_time(four, shape, std::max(0.05 * apart, rounding_floor(four)), 1.0);
+            four.from = at(four, safe);
+            apart = distance(four, shape, 0.0);
+        }
+        CHECK(safe < 1e-12);
+        CHECK(apart < 1e-12);
+        CHECK((signed_volume(four.from) > 0.0L) == side);
     }
 }
 

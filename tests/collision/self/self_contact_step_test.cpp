@@ -72,6 +72,30 @@ TEST_CASE("A sheet that slides on a sheet is slowed down by mu g") {
     }
 }
 
+TEST_CASE("A sheet split along a line, its halves side by side at rest, falls on a ball: nothing crosses, and steps are solved") {
+    const double gap = GENERATE(1e-6, 1e-5, 1e-4, 3e-4, 1e-3);
+    CAPTURE(gap);
+    Simulation simulation({}, make_brute_force_detector());
+    simulation.add_obstacle(make_sphere(0.15, 3), {}, {.friction = 0.4});
+    const TriangleMesh half = make_grid(0.3, 0.3, 7, 7);
+    TriangleMesh split = joined(moved(half, {-0.15 - 0.5 * gap, 0.16, 0}), moved(half, {0.15 + 0.5 * gap, 0.16, 0}));
+    split.grid_columns = split.grid_rows = 0;
+    Fabric fabric = fabric_with(0.3);
+    fabric.springs.shear = 0.0;
+    const ClothId cloth = simulation.add_cloth(split, fabric, {}, "split");
+    int contacts = 0, iterations = 0;
+    for (int i = 0; i < 30; ++i) {
+        const StepReport report = simulation.step();
+        CHECK(report.status == StepStatus::ok);
+        contacts += report.contacts;
+        iterations += report.newton_iterations;
+        const std::span<const Vec3> x = simulation.positions(cloth);
+        REQUIRE(certify_cloth({.vertices = {x.begin(), x.end()}, .triangles = split.triangles}).crossing.empty());
+    }
+    CHECK(contacts > 0);
+    CHECK(iterations < 600);
+}
+
 TEST_CASE("Sheets that meet in free space keep their momentum and do not pass each other") {
     Simulation simulation({.newton_tolerance = 1e-8, .gravity = Vec3::Zero()}, make_brute_force_detector());
     const TriangleMesh sheet = make_grid(0.2, 0.2, 7, 7);

@@ -32,6 +32,31 @@ std::set<std::array<int, 2>> listed_between(SelfContactLists& lists, const Cloth
 
 }  // namespace
 
+TEST_CASE("features of one cloth have the thickness or half of their distance at rest, but never less than a hundredth") {
+    const double h = 0.05;
+    Cloths cloths;
+    // Two sheets of one cloth, side by side, a hundred thousandth apart.
+    cloths.add(joined(make_grid(0.6, 0.6, 7, 7), moved(make_grid(0.6, 0.6, 7, 7), {0.60001, 0, 0})), h);
+    SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    Random random(5);
+    std::vector<Vec3> to = cloths.mesh.vertices;
+    for (Vec3& x : to) x += random.point(0.1);
+    lists.begin_step(cloths.mesh.vertices, to);
+    int least = 0, most = 0, between = 0;
+    lists.for_each([&](const SelfList& list) {
+        for (const SelfPair& pair : list.pairs) {
+            const double at_rest = 0.5 * self_distance(pair, cloths.mesh.vertices);
+            CHECK(pair.thickness == Approx(std::min(h, std::max(at_rest, 0.01 * h))).epsilon(1e-12));
+            least += at_rest < 0.01 * h;
+            most += at_rest > h;
+            between += at_rest > 0.01 * h && at_rest < h;
+        }
+    });
+    CHECK(least > 6);
+    CHECK(between > 100);
+    CHECK(most > 100);
+}
+
 TEST_CASE("lists hold every pair of cloths of several thicknesses, or of one that is said, and none of cloths that do not meet") {
     Random random(GENERATE(31U, 32U));
     Cloths cloths;

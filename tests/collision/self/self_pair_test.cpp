@@ -144,6 +144,29 @@ TEST_CASE("edges that cross in flat sheets wait for half of the thickness, paral
     }
 }
 
+TEST_CASE("edges at a small angle are in contact where their ends are too far apart to hold them") {
+    // Two edges 1 m long that cross at 0.01 rad in their middles, as ridges without faces below.
+    TriangleMesh lower{.vertices = {{-0.5, 0, 0}, {0.5, 0, 0}, {0, -0.3, 0.3}}, .triangles = {{0, 1, 2}}};
+    TriangleMesh upper{.vertices = {{-0.5, 0, -0.005}, {0.5, 0, 0.005}, {0, 0.3, 0.3}}, .triangles = {{0, 1, 2}}};
+    const double gap = 1e-4;
+    const TwoSheets sheets(lower, moved(upper, {0, gap, 0}));
+    const std::vector<SelfPair> pairs = sheets.edge_pairs();
+    const auto crossing = std::find_if(pairs.begin(), pairs.end(), [](const SelfPair& p) {
+        return p.vertex == std::array<int, 4>{0, 1, 3, 4};
+    });
+    REQUIRE(crossing != pairs.end());
+    SelfPair pair = *crossing;
+    CHECK(sheets.contact(pair).jumps);
+    CHECK(sheets.contact(pair).relative_zone == 0.0);
+    // The ends rise by 5 mm: above a fifth of this thickness.
+    pair.thickness = 0.04;
+    CHECK_FALSE(sheets.contact(pair).jumps);
+    CHECK(sheets.contact(pair).relative_zone == 1.0);
+    CHECK(sheets.contact(pair).distance == Approx(gap));
+    pair.thickness = 0.06;
+    CHECK(sheets.contact(pair).jumps);
+}
+
 TEST_CASE("near a seam the thickness is each corner's there, between them in between, and the same from pair to pair") {
     Random random(7);
     // Of vertices a and b with c, d and e.
