@@ -86,6 +86,12 @@ std::string failure_text(const StepReport& report) {
             text << "positions or velocities would become infinite; take a shorter time step or an implicit scheme";
             break;
         case StepStatus::work_limit:
+            if (report.out_of_time) {
+                text << "its time was up long before pins and obstacles had arrived; teleport what jumps, take a shorter time "
+                        "step, "
+                        "or raise the limit (set_time_limit)";
+                break;
+            }
             text << "more Newton iterations than work_limit allows; take a shorter time step or a slower motion, teleport what "
                     "jumps, or raise the limit (set_work_limit)";
             break;

@@ -74,7 +74,7 @@ struct NewtonSpace {
     BodyStates bodies;                                      // in the rounds of find_motion
     ForeseenRows foreseen;                                  // of the last move that a line search refused
     int iterations_left = std::numeric_limits<int>::max();  // of StepSettings::work_limit, for one stage
-    Deadline deadline;                                      // of the step
+    TimeBudget time;                                        // that is left of the step's
 
     ContactLaw& law(ContactResponse response) {
         if (response == ContactResponse::projection) return projection;

@@ -91,7 +91,8 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
         if (meets_tolerance(equations, report)) return true;
         if (report.newton_iterations >= std::min(settings.newton_iterations, space.iterations_left)) return false;
         if (next_change_is_small(equations, error, search, report)) return true;
-        if (report.newton_iterations > 0 && equations.arrived() && is_past(space.deadline)) {
+        if (report.newton_iterations > 0 && is_past(space.time.deadline) &&
+            (equations.arrived() || --space.time.late_iterations < 0)) {
             report.out_of_time = true;
             return false;
         }

@@ -14,7 +14,7 @@ enum class NewtonEnd {
 
 struct NewtonReport {
     NewtonEnd end = NewtonEnd::converged;
-    bool out_of_time = false;  // ended by the deadline, at some state on the way
+    bool out_of_time = false;  // ended by the time budget, at some state on the way
     int newton_iterations = 0;
     int linear_iterations = 0;
     int line_search_cuts = 0;

@@ -32,7 +32,7 @@ struct SpanResult {
     // Sums and extremes over its stages; the residual is the last one's.
     int newton_iterations = 0, linear_iterations = 0, line_search_cuts = 0;
     double residual = 0.0, smallest_fraction = 1.0, contact_stiffness = 0.0;
-    bool out_of_time = false;  // a stage was ended by the deadline
+    bool out_of_time = false;  // a stage was ended by the time budget
 
     bool is_usable(bool last_try) const {
         return end == SpanEnd::solved || ((last_try || out_of_time) && end == SpanEnd::not_converged);
@@ -61,7 +61,7 @@ struct Workspace {
     StepState ends[3];  // of spans that are kept or dropped (solve_step.cpp)
     StageTimes times;
     int iterations_left = std::numeric_limits<int>::max();  // of Newton's, that the step may still take
-    Deadline deadline;                                      // of the step
+    TimeBudget time;                                        // that is left of the step's
 };
 
 }  // namespace percale

@@ -49,7 +49,7 @@ public:
             const StepStatus status = report_.status;
             const StepEnergy energy = report_.energy;
             // Once time is up the rest is taken at once, as exact as it comes; an explicit scheme would blow up.
-            const bool late = scene_.plan.implicit && (report_.out_of_time || is_past(work_.deadline));
+            const bool late = scene_.plan.implicit && (report_.out_of_time || is_past(work_.time.deadline));
             if (late) accepted.past.earlier_length = 0.0;  // BDF2 may not grow its lengths so fast
             const double rest = whole * (1.0 - at), length = late ? rest : next_length(control, rest);
             const double share = length / whole, to = at + share > 1.0 - 1e-9 ? 1.0 : at + share;
@@ -120,16 +120,19 @@ private:
         StepState* end = nullptr;
         while (count > 0) {
             work_.newton.iterations_left = work_.iterations_left - report_.newton_iterations;
-            work_.newton.deadline = work_.deadline;
+            work_.newton.time = work_.time;
             const auto [fraction, depth] = pending[--count];
             const Span next = span(fraction, depth == most_halvings);
             end = &other_end(*at);
             const SpanResult result = advance(next, *at, work_, *end);
+            work_.time = work_.newton.time;
             add_figures(result, report_);
             const bool worked_out = report_.newton_iterations >= work_.iterations_left;
             const bool taken = result.end == SpanEnd::solved || (result.out_of_time && result.is_usable(next.last_try));
-            if (worked_out && (!taken || count > 0)) {
+            const bool late = result.out_of_time && !taken;
+            if (late || (worked_out && (!taken || count > 0))) {
                 report_.status = StepStatus::work_limit;
+                report_.out_of_time = late;
                 return nullptr;
             }
             if (result.is_usable(next.last_try)) {

@@ -14,6 +14,12 @@ inline Deadline deadline_in(double seconds) {
            std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
 }
 
+/// The deadline of a step, and how many of Newton's iterations it may take beyond for what moves to arrive.
+struct TimeBudget {
+    Deadline deadline;
+    int late_iterations = 0;
+};
+
 inline bool is_past(const Deadline& deadline) { return deadline && std::chrono::steady_clock::now() >= *deadline; }
 
 }  // namespace percale

@@ -83,6 +83,37 @@ TEST_CASE("A step whose time is up is taken as it is: it arrives, crosses nothin
     }
 }
 
+TEST_CASE("A step whose time is up long before an obstacle has arrived fails and moves nothing, and a teleport leads on") {
+    const auto jump = [](double limit) {
+        Falling scene({});
+        for (int n = 0; n < 30; ++n) scene.step();
+        const std::vector<Vec3> before(scene.simulation.positions(scene.cloth).begin(),
+                                       scene.simulation.positions(scene.cloth).end());
+        const Pose start = scene.simulation.obstacle_pose(scene.ball);
+        scene.simulation.set_time_limit(limit);
+        const Pose far{.translation = start.translation + Vec3(0.0, 1.5, 0.0)};
+        scene.simulation.move_obstacle(scene.ball, far);
+        const StepReport report = scene.simulation.step();
+        if (limit == 0.0) {
+            CHECK(report.ok());
+            return report.newton_iterations;
+        }
+        INFO(report.explanation());
+        CHECK(report.status == StepStatus::work_limit);
+        CHECK(report.out_of_time);
+        CHECK(report.explanation().find("teleport") != std::string::npos);
+        CHECK(std::equal(before.begin(), before.end(), scene.simulation.positions(scene.cloth).begin()));
+        CHECK(scene.simulation.obstacle_pose(scene.ball).translation == start.translation);
+        scene.simulation.move_obstacle(scene.ball, start);  // a failed step keeps targets
+        scene.simulation.teleport({&scene.cloth, 1}, {&scene.ball, 1}, {.translation = far.translation - start.translation});
+        CHECK(scene.simulation.step().ok());
+        return report.newton_iterations;
+    };
+    const int limited = jump(1e-6), free = jump(0.0);
+    CHECK(limited < 40);
+    CHECK(free > 2 * limited);
+}
+
 TEST_CASE("Explicit steps do not look at the time limit") {
     const auto hanging = [](bool adaptive, double limit) {
         Simulation simulation({.adaptive = adaptive, .scheme = Scheme::rk4});
