@@ -62,6 +62,8 @@ inline void check_finite(const Vec3& value, const std::string& what) {
 inline void check_all_finite(std::span<const Vec3> values, const std::string& what) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!values[i].allFinite()) check_finite(values[i], what + std::to_string(i));
+        if (values[i].cwiseAbs().maxCoeff() > largest_given_number)
+            throw SceneError(what + std::to_string(i) + " is outside the allowed range -1e9 ... 1e9");
     }
 }
 

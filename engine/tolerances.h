@@ -398,6 +398,9 @@ constexpr double stopping_time = 2.0 * rest_time;
 /// parts that vertices on straight lines do not follow, and lists of contacts that grow. Smaller: more parts.
 constexpr double largest_part_turn = 0.26179938779914943, largest_part_travel = 20.0, largest_pin_travel = 80.0;
 
+/// m or m/s. Positions and velocities that a program gives. Larger: squares lose all digits, or are infinite.
+constexpr double largest_given_number = 1e9;
+
 /// Newton iterations of a step whose time is up in which what moves has to arrive, or the step fails. Smaller: steps fail that
 /// would have arrived. Larger: those that do not arrive hold up their host for longer.
 constexpr int most_late_iterations = 20;

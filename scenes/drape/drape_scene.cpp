@@ -231,6 +231,11 @@ void check_drape(const DrapeOptions& options) {
             return std::filesystem::path(other).lexically_normal() == std::filesystem::path(out).lexically_normal();
         };
         if (std::ranges::count_if(options.outs, same) > 1) throw SceneError("-o " + out + ": is said twice");
+        for (const std::string& file : options.files) {
+            std::error_code missing;
+            if (std::filesystem::equivalent(file, out, missing))
+                throw SceneError("-o " + out + ": would overwrite " + file + ", which is read");
+        }
         const WholeFile probe(out);  // an output that cannot be written is found before the work, not after it
     }
 }

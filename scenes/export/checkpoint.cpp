@@ -10,7 +10,7 @@
 
 namespace percale::scenes {
 
-constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 7, .words = "checkpoint"};
+constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 8, .words = "checkpoint"};
 
 template <class Archive, OfType<Pinch> Value>
 void exchange(Archive& archive, Value& pinch) {
@@ -19,9 +19,9 @@ void exchange(Archive& archive, Value& pinch) {
 
 template <class Archive, OfType<RunTotals> Value>
 void exchange(Archive& archive, Value& totals) {
-    archive(totals.steps, totals.rejected_steps, totals.dropped.not_converged, totals.dropped.blocked, totals.dropped.not_finite,
-            totals.dropped.inexact, totals.sleeping_steps, totals.simulated_s, totals.smallest_step_s, totals.largest_step_s,
-            totals.newton_iterations, totals.linear_iterations, totals.largest_residual);
+    archive(totals.steps, totals.rejected_steps, totals.unsolved_steps, totals.dropped.not_converged, totals.dropped.blocked,
+            totals.dropped.not_finite, totals.dropped.inexact, totals.sleeping_steps, totals.simulated_s, totals.smallest_step_s,
+            totals.largest_step_s, totals.newton_iterations, totals.linear_iterations, totals.largest_residual);
     archive.choice(totals.linear_solver, 4);
     archive(totals.contacts_most, totals.contact_stiffness, totals.stages, totals.cpu_s, totals.wall_s, totals.energy,
             totals.pinches);

@@ -35,6 +35,7 @@ void put_counts(ordered_json& json, const RunTotals& totals) {
                         {"blocked", totals.dropped.blocked},
                         {"not_finite", totals.dropped.not_finite},
                         {"inexact", totals.dropped.inexact}};
+    json["unsolved_steps"] = totals.unsolved_steps;
     json["sleeping_steps"] = totals.sleeping_steps;
     json["smallest_step_s"] = totals.smallest_step_s;
     json["largest_step_s"] = totals.largest_step_s;
@@ -219,6 +220,19 @@ ordered_json skipped_list(std::span<const Skip> skipped) {
 
 }  // namespace
 
+std::vector<std::string> end_warnings(const BuiltScene& built, const RunResult& result) {
+    const Measures& m = result.measures;
+    std::vector<std::string> warnings = strain_warnings(built, m.largest_strain);
+    if (m.intersections > 0)
+        warnings.push_back(std::to_string(m.intersections) + " pairs of triangles cross in frame " +
+                           std::to_string(m.worst_frame));
+    const int unsolved = result.totals.unsolved_steps;
+    if (unsolved > 0)
+        warnings.push_back(std::to_string(unsolved) + (unsolved == 1 ? " step was" : " steps were") +
+                           " taken unsolved (not_converged or tolerance_missed, steps.csv says which); take a shorter time_step");
+    return warnings;
+}
+
 std::string run_report_text(const BuiltScene& built, const RunResult& result, std::span<const FrameRecord> frames,
                             std::span<const ExpectationResult> expectations) {
     ordered_json json;
@@ -239,6 +253,7 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     if (!result.plan.scheme_reason.empty()) json["scheme_reason"] = result.plan.scheme_reason;
     json["warnings"] = result.plan.warnings;
     for (const Pinch& pinch : result.totals.pinches) json["warnings"].push_back(pinch_text(pinch, built.scene));
+    for (const std::string& text : end_warnings(built, result)) json["warnings"].push_back(text);
     json["skipped"] = skipped_list(result.plan.skipped);
     put_contact_and_energy(json, result.totals);
     put_measures(json, result.measures);

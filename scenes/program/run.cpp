@@ -110,7 +110,7 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
         std::printf("warning: %s\n", pinch_text(pinch, built.scene).c_str());
     if (pinches.size() > most_pinches_told)
         std::printf("warning: and so %zu times more; report.json lists them\n", pinches.size() - most_pinches_told);
-    for (const std::string& text : strain_warnings(built, m.largest_strain)) std::printf("warning: %s\n", text.c_str());
+    for (const std::string& text : end_warnings(built, result)) std::printf("warning: %s\n", text.c_str());
     for (const ExpectationResult& expectation : expectations) std::printf("  %s\n", expectation.text.c_str());
 }
 

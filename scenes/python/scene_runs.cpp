@@ -110,8 +110,8 @@ std::vector<std::string> run_warnings(const BuiltScene& built, const RunResult& 
     std::vector<std::string> warnings = result.plan.warnings;
     for (const StartMove& move : built.simulation.start_repair()) warnings.push_back(start_move_text(move));
     for (const Pinch& pinch : result.totals.pinches) warnings.push_back(pinch_text(pinch, built.scene));
-    const std::vector<std::string> strains = strain_warnings(built, result.measures.largest_strain);
-    warnings.insert(warnings.end(), strains.begin(), strains.end());
+    const std::vector<std::string> at_end = end_warnings(built, result);
+    warnings.insert(warnings.end(), at_end.begin(), at_end.end());
     return warnings;
 }
 

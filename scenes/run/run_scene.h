@@ -32,6 +32,7 @@ struct RunTotals {
     int steps = 0;           // accepted
     int rejected_steps = 0;  // steps that were redone as shorter ones
     DroppedSpans dropped;    // why they were redone
+    int unsolved_steps = 0;  // accepted with what the solver had come to: not_converged or tolerance_missed
     int sleeping_steps = 0;  // in which all cloth was at rest: not solved
     double simulated_s = 0.0;
     double smallest_step_s =

@@ -203,6 +203,9 @@ TEST_CASE("Calls with wrong values are refused and change nothing") {
     CHECK(mentions(scene_error([&] { s.set_positions(scene.cloth, few); }), {"towel", "set_positions", "15", "16"}));
     CHECK(mentions(scene_error([&] { s.set_velocities(scene.cloth, few); }), {"towel", "set_velocities", "15", "16"}));
     CHECK(mentions(scene_error([&] { s.set_positions(scene.cloth, bad); }), {"towel", "position 11", "not finite"}));
+    const std::vector<Vec3> far(16, Vec3(1, 1e200, 1));
+    CHECK(mentions(scene_error([&] { s.set_positions(scene.cloth, far); }), {"towel", "position 0", "1e9"}));
+    CHECK(mentions(scene_error([&] { s.set_velocities(scene.cloth, far); }), {"towel", "velocity 0", "1e9"}));
     CHECK(mentions(scene_error([&] { s.set_velocities(scene.cloth, bad); }), {"towel", "velocity 11", "not finite"}));
     const std::array cloths{scene.cloth}, wrong{ClothId{3}};
     CHECK(mentions(scene_error([&] { s.teleport(cloths, {}, {.scale = 2.0}); }), {"teleport", "scale = 2"}));

@@ -126,7 +126,7 @@ public:
     /// The clock starts when `prepare` has done what is to do. Explicit schemes do not look at it: what their steps cost is known
     /// before. Results then depend on the machine; without it no decision reads a clock. Not part of saved states.
     void set_time_limit(double seconds);
-    /// All vertices of a cloth; m and m/s. For starts that are not at rest.
+    /// All vertices of a cloth; m and m/s, -1e9 ... 1e9. For starts that are not at rest.
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);
     /// Puts a cloth back to where it was added, at rest; forgets its contacts, and what its strain limits and welds hold with.

@@ -43,6 +43,7 @@ TEST_CASE("a report holds every entry that users may rely on") {
                             "steps",
                             "rejected_steps",
                             "halvings",
+                            "unsolved_steps",
                             "sleeping_steps",
                             "smallest_step_s",
                             "largest_step_s",
@@ -216,6 +217,26 @@ TEST_CASE("a failed run carries its reason") {
     const ordered_json json = report_of(built(falling_sheet()), result);
     CHECK(json.at("status") == "failed");
     CHECK(json.at("reason") == "vertex 3 was blocked");
+}
+
+TEST_CASE("a run warns of crossings, of torn cloth and of steps that were not solved, without an expectation") {
+    BuiltScene scene = built(sheet_on_box());
+    RunResult result = run_scene(scene);
+    CHECK(end_warnings(scene, result).empty());
+    CHECK(result.totals.unsolved_steps == 0);
+    result.measures.intersections = 3;
+    result.measures.worst_frame = 7;
+    result.measures.largest_strain = 9.0;
+    result.totals.unsolved_steps = 2;
+    const std::vector<std::string> said = end_warnings(scene, result);
+    REQUIRE(said.size() == 3);
+    CHECK_THAT(said[1], Catch::Contains("3 pairs of triangles cross in frame 7"));
+    CHECK_THAT(said[2], Catch::Contains("2 steps were taken unsolved"));
+    const std::vector<std::string> reported = report_of(scene, result).at("warnings");
+    CHECK(std::equal(said.rbegin(), said.rend(), reported.rbegin()));
+    BuiltScene hurried = built(sheet_on_box(), {{"step.newton_iterations", "2"}, {"step.newton_tolerance", "1e-12"}});
+    const RunResult unsolved = run_scene(hurried);
+    CHECK(unsolved.totals.unsolved_steps > 0);
 }
 
 TEST_CASE("expectations are listed with measure, value, limit and outcome") {
