@@ -147,9 +147,9 @@ int run(RunOptions options) {
     std::optional<Checkpoint> from;
     if (!options.resume.empty()) from = read_checkpoint(options.resume);
     if (options.folder.empty()) options.folder = from ? folder_of(options.resume) : default_folder(options.scene);
+    const StopSignals signals;  // before the threads of the simulation
     BuiltScene built = built_scene(options, from ? &*from : nullptr);
     RunFolder folder(options.folder, built.scene, options.common.replay_hash);
-    const StopSignals signals;
     ProgressBar bar(!options.common.quiet && !options.verbose, built.scene.latest_end());
     std::size_t start_moves = 0;
     RunHooks hooks;

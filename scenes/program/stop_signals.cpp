@@ -2,31 +2,37 @@
 
 #include <signal.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include "program/exit_codes.h"
+
 namespace percale::program {
 
 namespace {
 
-// Blocked signals stay pending, which can be asked for without a handler and its global flag.
-sigset_t stop_set() {
-    sigset_t set;
-    sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
-    return set;
+/// Waits for one signal after the other. The second ends the program as it is: what is half written has a name of its own.
+void take_signals(const sigset_t& set, std::atomic<bool>& asked) {
+    int signal = 0;
+    while (sigwait(&set, &signal) == 0) {
+        if (asked.exchange(true)) std::_Exit(stopped_by_signal);
+        std::fprintf(stderr, "percale: stops after this step; the same once more stops it at once\n");
+    }
 }
 
 }  // namespace
 
-StopSignals::StopSignals() {
-    const sigset_t set = stop_set();
+StopSignals::StopSignals() : asked_(std::make_shared<std::atomic<bool>>(false)) {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    // Not joined: nothing but a signal would end its wait.
+    std::thread([set, asked = asked_] { take_signals(set, *asked); }).detach();
 }
 
-bool StopSignals::asked() const {
-    sigset_t pending;
-    sigemptyset(&pending);
-    sigpending(&pending);
-    return sigismember(&pending, SIGINT) == 1 || sigismember(&pending, SIGTERM) == 1;
-}
+bool StopSignals::asked() const { return *asked_; }
 
 }  // namespace percale::program

@@ -39,6 +39,7 @@ public:
     void wait_for(const TestFolder& folder, const std::string& file) const {
         for (int i = 0; i < 10000 && !folder.holds(file); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+    void send(int signal) const { kill(child_, signal); }
     /// Sends the signal; returns the exit code, or -1 where the signal ended the program.
     int end(int signal) {
         kill(child_, signal);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/scenes/program/run_program.h"
+#include "tests/scenes/program/started_run.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
@@ -53,4 +54,23 @@ TEST_CASE("a run that is interrupted or terminated finishes its step, writes its
         const std::string table = folder.read("out/steps.csv");
         CHECK(line_count(table) == steps + 1);
     }
+}
+
+TEST_CASE("a second signal ends a run in the midst of its step, and leaves no report") {
+    const TestFolder folder;
+    folder.write("sheet.toml", falling_sheet());
+    // Its one step takes seconds.
+    const std::vector<std::string> long_step = {"run",   "sheet.toml",
+                                                "-o",    "out",
+                                                "--set", "cloth.sheet.grid.vertices=[301, 301]",
+                                                "--set", "cloth.sheet.pin=[0, 300]",
+                                                "--set", "step.time_step=0.1",
+                                                "--set", "duration=0.1"};
+    StartedRun run(folder, long_step);
+    run.wait_for(folder, "out/frames/sheet_00000.obj");
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    run.send(SIGINT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    CHECK(run.end(SIGINT) == 130);
+    CHECK_FALSE(folder.holds("out/report.json"));
 }
