@@ -214,8 +214,9 @@ constexpr double widened_zone = 3.0;
 /// end of parallel threads.
 constexpr double least_crossing_sine = 0.03;
 
-/// Fraction of h. Edges whose ends rise by more from where they cross have their contact at any angle: the ends may be too far
-/// apart to hold them. Larger: long edges cross slowly until the cut stops them for good. Smaller: closest points jump.
+/// Fraction of h, the thickness of the pair. Edges of which the shorter rises by more over its length have their contact at any
+/// angle: the ends may be too far apart to hold them. Larger: long edges cross slowly until the cut stops them for good. Smaller:
+/// closest points jump.
 constexpr double least_crossing_rise = 0.2;
 
 /// Fraction of the thickness of two features of one cloth that remains below the distance at rest: sheets of one mesh that lie

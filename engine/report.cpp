@@ -87,9 +87,9 @@ std::string failure_text(const StepReport& report) {
             break;
         case StepStatus::work_limit:
             if (report.out_of_time) {
-                text << "its time was up long before pins and obstacles had arrived; teleport what jumps, take a shorter time "
-                        "step, "
-                        "or raise the limit (set_time_limit)";
+                text
+                    << "its time was up before pins and obstacles had arrived; teleport what jumps, take a shorter time step, or "
+                       "raise the limit (set_time_limit)";
                 break;
             }
             text << "more Newton iterations than work_limit allows; take a shorter time step or a slower motion, teleport what "

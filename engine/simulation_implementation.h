@@ -50,8 +50,8 @@ inline Pose normalised(Pose pose) {
 inline void check_range(const std::string& owner, const std::string& what, const std::string& unit, double value, double lowest,
                         double highest) {
     if (value >= lowest && value <= highest) return;
-    throw SceneError(owner, what + " = " + number_text(value) + " " + unit + " is outside the allowed range " +
-                                number_text(lowest) + " ... " + number_text(highest));
+    throw SceneError(owner, what + " = " + number_text(value) + (unit.empty() ? "" : " ") + unit +
+                                " is outside the allowed range " + number_text(lowest) + " ... " + number_text(highest));
 }
 
 inline void check_finite(const Vec3& value, const std::string& what) {

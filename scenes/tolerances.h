@@ -148,6 +148,9 @@ constexpr double whole_steps_rounding = 1e-9, least_last_step = 1e-3;
 /// Strain from which a run warns that cloth would have torn. Smaller: it warns of knits that stretch.
 constexpr double torn_strain = 1.0;
 
+/// Strain from which drape warns that a garment is tight. Smaller: it warns of knits made to stretch.
+constexpr double tight_strain = 0.25;
+
 /// Share of a strain limit by which cloth may pass it untold.
 constexpr double passed_limit_share = 0.1;
 

@@ -197,7 +197,7 @@ percale_status percale_set_wind(percale_simulation* simulation, const double* ve
 percale_status percale_set_time_step(percale_simulation* simulation, double time_step); /* s, 1e-7 ... 1 */
 percale_status percale_set_work_limit(percale_simulation* simulation, int iterations);  /* 0 (none) ... 50000 a step */
 /* Wall time of a step, s, 1e-6 ... 1e6; 0: none. A step that has used it up is taken as it is, and says out_of_time;
-   where pins and obstacles have not arrived after 20 iterations more it fails (PERCALE_STEP_WORK_LIMIT). */
+   where pins and obstacles have not arrived after some 20 iterations more it fails (PERCALE_STEP_WORK_LIMIT). */
 percale_status percale_set_time_limit(percale_simulation* simulation, double seconds);
 /* m, and m/s, of all vertices of a cloth. For starts that are not at rest. */
 percale_status percale_set_positions(percale_simulation* simulation, int cloth, const double* positions, size_t vertex_count);

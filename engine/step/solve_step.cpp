@@ -129,7 +129,7 @@ private:
             add_figures(result, report_);
             const bool worked_out = report_.newton_iterations >= work_.iterations_left;
             const bool taken = result.end == SpanEnd::solved || (result.out_of_time && result.is_usable(next.last_try));
-            const bool late = result.out_of_time && !taken;
+            const bool late = work_.time.late_iterations < 0 && !taken;
             if (late || (worked_out && (!taken || count > 0))) {
                 report_.status = StepStatus::work_limit;
                 report_.out_of_time = late;

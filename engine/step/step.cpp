@@ -147,6 +147,7 @@ StepReport step_yielding(World& world, int parts, StepReport report) {
         if (parts == 1 && more == yielding_parts[0]) world.work.iterations_left -= before.newton_iterations;
         if (world.work.iterations_left <= 0) {
             report.status = StepStatus::work_limit;
+            report.out_of_time = false;
             return report;
         }
         report = step_divided(world, more);

@@ -100,7 +100,7 @@ void add_part(StepReport part, StepReport& sum) {
     sum.largest_dt = std::max(sum.largest_dt, before.largest_dt);
     sum.parts += before.parts;
     add_work(before, sum);
-    sum.out_of_time = sum.out_of_time || before.out_of_time;
+    if (sum.ok()) sum.out_of_time = sum.out_of_time || before.out_of_time;  // why it failed is the last part's
     sum.smallest_fraction = std::min(sum.smallest_fraction, before.smallest_fraction);
     sum.contact_stiffness = std::max(sum.contact_stiffness, before.contact_stiffness);
     if (sum.pinched < before.pinched) {

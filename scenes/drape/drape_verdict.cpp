@@ -53,6 +53,16 @@ void tell_of_sliding(const BuiltScene& built, const Drape& drape, DrapeVerdict& 
     }
 }
 
+/// A garment that is too small for the body fits it all the same: springs stretch as far as they have to.
+void tell_of_tightness(const BuiltScene& built, DrapeVerdict& verdict) {
+    for (std::size_t k = 0; k < built.cloths.size(); ++k) {
+        const double strain = built.simulation.largest_strain(built.cloths[k]);
+        if (strain < tight_strain || strain > torn_strain) continue;
+        verdict.lines.push_back("warning: '" + built.scene.cloths[k].name + "' is stretched by " + percent_text(strain) +
+                                " at its tightest: it may be too small for the body (--scale makes it larger)");
+    }
+}
+
 }  // namespace
 
 DrapedFiles write_draped(const BuiltScene& built, const DrapeOptions& options, bool z_up) {
@@ -94,6 +104,7 @@ DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, co
     const WidestGap gap = widest_gap(built);
     if (gap.stitches > 0) verdict.lines.push_back(seam_text(gap, check));
     tell_of_sliding(built, drape, verdict);
+    tell_of_tightness(built, verdict);
     const std::string fault = fault_of(drape, check, gap);
     if (!fault.empty()) verdict.wrong = joined(options.outs) + ": " + fault;
     return verdict;

@@ -224,12 +224,11 @@ std::vector<std::string> end_warnings(const BuiltScene& built, const RunResult& 
     const Measures& m = result.measures;
     std::vector<std::string> warnings = strain_warnings(built, m.largest_strain);
     if (m.intersections > 0)
-        warnings.push_back(std::to_string(m.intersections) + " pairs of triangles cross in frame " +
-                           std::to_string(m.worst_frame));
+        warnings.push_back(std::to_string(m.intersections) + " pairs of triangles cross, summed over the frames");
     const int unsolved = result.totals.unsolved_steps;
     if (unsolved > 0)
         warnings.push_back(std::to_string(unsolved) + (unsolved == 1 ? " step was" : " steps were") +
-                           " taken unsolved (not_converged or tolerance_missed, steps.csv says which); take a shorter time_step");
+                           " taken unsolved (not_converged or tolerance_missed)");
     return warnings;
 }
 

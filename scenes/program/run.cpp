@@ -149,6 +149,10 @@ int run(RunOptions options) {
     if (options.folder.empty()) options.folder = from ? folder_of(options.resume) : default_folder(options.scene);
     const StopSignals signals;  // before the threads of the simulation
     BuiltScene built = built_scene(options, from ? &*from : nullptr);
+    if (signals.asked()) {
+        std::fprintf(stderr, "percale: %s: stopped before the first step; nothing was written\n", options.scene.c_str());
+        return stopped_by_signal;
+    }
     RunFolder folder(options.folder, built.scene, options.common.replay_hash);
     ProgressBar bar(!options.common.quiet && !options.verbose, built.scene.latest_end());
     std::size_t start_moves = 0;

@@ -1,7 +1,9 @@
 #include "program/stop_signals.h"
 
 #include <signal.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
@@ -12,12 +14,21 @@ namespace percale::program {
 
 namespace {
 
+/// Hosts may send both signals at once, or one to each process and to all: only what comes later is meant as a second one.
+constexpr std::chrono::milliseconds second_signal_after{500};
+
 /// Waits for one signal after the other. The second ends the program as it is: what is half written has a name of its own.
 void take_signals(const sigset_t& set, std::atomic<bool>& asked) {
+    std::chrono::steady_clock::time_point first;
     int signal = 0;
     while (sigwait(&set, &signal) == 0) {
-        if (asked.exchange(true)) std::_Exit(stopped_by_signal);
-        std::fprintf(stderr, "percale: stops after this step; the same once more stops it at once\n");
+        const auto now = std::chrono::steady_clock::now();
+        if (!asked.exchange(true)) {
+            first = now;
+            std::fprintf(stderr, "%spercale: stopping; once more ends it at once\n", isatty(STDERR_FILENO) == 1 ? "\n" : "");
+        } else if (now - first > second_signal_after) {
+            std::_Exit(stopped_by_signal);
+        }
     }
 }
 

@@ -6,8 +6,8 @@
 namespace percale::program {
 
 /// From its construction on, a first interrupt or termination signal no longer ends the program but waits to be asked about, so
-/// that a step is finished and a report written; a second one ends it at once, with the exit code of a stopped one. Construct
-/// once, and before starting threads: they inherit the mask.
+/// that a step is finished and a report written; one that comes half a second later or more ends it at once, with the exit code
+/// of a stopped one. Construct once, and before starting threads: they inherit that the signals are blocked.
 class StopSignals {
 public:
     StopSignals();

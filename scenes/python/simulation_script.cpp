@@ -210,7 +210,7 @@ void bind_world(SimulationClass& simulation) {
             [](SharedSimulation& self, double seconds) { self.change([&](Simulation& s) { s.set_time_limit(seconds); }); },
             py::arg("seconds"),
             "Wall time of a step, s, 1e-6 ... 1e6; 0: none. A step that has used it up is taken as it is:\n"
-            "report.out_of_time; where pins and obstacles have not arrived after 20 iterations more it fails\n"
+            "report.out_of_time; where pins and obstacles have not arrived after some 20 iterations more it fails\n"
             "(work_limit). Results then depend on the machine.");
 }
 

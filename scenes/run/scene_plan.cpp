@@ -62,6 +62,13 @@ std::string steps_text(const Scene& scene) {
 ScenePlan plan_of(const BuiltScene& built) {
     ScenePlan plan = built.simulation.plan(changes_of(built.scene));
     plan.warnings.insert(plan.warnings.begin(), built.warnings.begin(), built.warnings.end());
+    const double end = built.scene.latest_end();
+    const auto late = std::ranges::find_if(built.scene.events, [&](const EventSpec& event) { return event.time > end; });
+    if (late != built.scene.events.end()) {  // their times ascend
+        plan.warnings.push_back(std::to_string(built.scene.events.end() - late) + " of " +
+                                counted(static_cast<long>(built.scene.events.size()), "event") + " would come after the end, " +
+                                short_number(end) + " s, the first at " + short_number(late->time) + " s");
+    }
     return plan;
 }
 

@@ -121,8 +121,8 @@ public:
     /// Wall time of a step, s, 1e-6 ... 1e6, or 0 (none, as before the first call): for hosts that have to go on. An implicit
     /// step that has used it up is taken as it is after the Newton iteration under way, each piece of it after one at least:
     /// StepReport says out_of_time, and not_converged or, of an adaptive step, tolerance_missed. Nothing crosses, pins and
-    /// obstacles are where they go; what is missing is that the cloth gave way to all forces. Where they have not arrived after
-    /// 20 iterations more, as after a jump, the step fails (work_limit, out_of_time) and nothing moves: `teleport` what jumped.
+    /// obstacles are where they go; what is missing is that the cloth gave way to all forces. Where these have not arrived after
+    /// some 20 iterations more, as after a jump, the step fails (work_limit, out_of_time), nothing moves: `teleport` what jumped.
     /// The clock starts when `prepare` has done what is to do. Explicit schemes do not look at it: what their steps cost is known
     /// before. Results then depend on the machine; without it no decision reads a clock. Not part of saved states.
     void set_time_limit(double seconds);

@@ -237,7 +237,7 @@ TEST_CASE("features pressed together call after call stop before rounding decide
         for (int call = 0; call < 60; ++call) {
             four.to = four.from;
             for (int k = 0; k < movers; ++k) four.to[k] += push;
-            safe = safe_time(four, shape, std::max(0.05 * apart, rounding_floor(four)), 1.0);
+            safe = safe_time(four, shape, floor_of_cut(four, apart, 1e-30), 1.0);
             four.from = at(four, safe);
             apart = distance(four, shape, 0.0);
         }

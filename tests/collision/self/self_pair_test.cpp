@@ -158,7 +158,7 @@ TEST_CASE("edges at a small angle are in contact where their ends are too far ap
     SelfPair pair = *crossing;
     CHECK(sheets.contact(pair).jumps);
     CHECK(sheets.contact(pair).relative_zone == 0.0);
-    // The ends rise by 5 mm: above a fifth of this thickness.
+    // Over its length the edge rises by 10 mm: more than a fifth of this thickness.
     pair.thickness = 0.04;
     CHECK_FALSE(sheets.contact(pair).jumps);
     CHECK(sheets.contact(pair).relative_zone == 1.0);

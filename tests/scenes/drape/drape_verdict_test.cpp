@@ -30,7 +30,33 @@ bool tells_of_sliding(const DrapeVerdict& verdict) {
                                [](const std::string& line) { return line.find("slid down by ") != std::string::npos; });
 }
 
+bool tells_of_tightness(const DrapeVerdict& verdict) {
+    return std::ranges::any_of(verdict.lines,
+                               [](const std::string& line) { return line.find("may be too small") != std::string::npos; });
+}
+
 }  // namespace
+
+TEST_CASE("a garment that is stretched by a quarter and more is said to be tight, one that would have torn to have torn") {
+    const TestFolder folder;
+    const DrapeOptions options = ring_around_post(folder, 9.0);
+    BuiltScene built = build_scene(drape_scene(options).scene);
+    const Drape drape = settle(built, options, [](double) { return false; });
+    const std::span<const Vec3> end = built.simulation.positions(built.cloths[0]);
+    const std::vector<Vec3> draped(end.begin(), end.end());
+    const double draped_strain = built.simulation.largest_strain();
+    const auto verdict = [&](double strain) {
+        std::vector<Vec3> x = draped;
+        for (Vec3& place : x) place *= (1.0 + strain) / (1.0 + draped_strain);
+        built.simulation.set_positions(built.cloths[0], x);
+        return verdict_of(built, options, drape, {});
+    };
+    CHECK_FALSE(tells_of_tightness(verdict(0.2)));
+    CHECK(tells_of_tightness(verdict(0.3)));
+    const DrapeVerdict torn = verdict(1.5);
+    CHECK_FALSE(tells_of_tightness(torn));
+    CHECK(torn.lines[1].find("torn") != std::string::npos);
+}
 
 TEST_CASE("a garment that slides down is told of, one that holds is not") {
     const TestFolder folder;

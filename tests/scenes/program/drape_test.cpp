@@ -239,7 +239,7 @@ TEST_CASE("garments are draped over each other from the inside out, each into it
     };
     CHECK(refusal({"-o", "c.obj"}).find("it takes one for each garment") != std::string::npos);
     CHECK(refusal({"-o", "c.obj", "-o", "c.obj"}).find("is said twice") != std::string::npos);
-    CHECK(refusal({"-o", "sheet.obj", "-o", "c.obj"}).find("would overwrite sheet.obj") != std::string::npos);
+    CHECK(refusal({"-o", "c.obj", "-o", "./block.obj"}).find("would overwrite block.obj") != std::string::npos);
     CHECK(folder.file_count() == 5);
 }
 

@@ -59,18 +59,33 @@ TEST_CASE("a run that is interrupted or terminated finishes its step, writes its
 TEST_CASE("a second signal ends a run in the midst of its step, and leaves no report") {
     const TestFolder folder;
     folder.write("sheet.toml", falling_sheet());
-    // Its one step takes seconds.
+    // Its one step takes many seconds.
     const std::vector<std::string> long_step = {"run",   "sheet.toml",
                                                 "-o",    "out",
-                                                "--set", "cloth.sheet.grid.vertices=[301, 301]",
-                                                "--set", "cloth.sheet.pin=[0, 300]",
+                                                "--set", "cloth.sheet.grid.vertices=[401, 401]",
+                                                "--set", "cloth.sheet.pin=[0, 400]",
                                                 "--set", "step.time_step=0.1",
                                                 "--set", "duration=0.1"};
     StartedRun run(folder, long_step);
     run.wait_for(folder, "out/frames/sheet_00000.obj");
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
     run.send(SIGINT);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::this_thread::sleep_for(std::chrono::milliseconds(800));
     CHECK(run.end(SIGINT) == 130);
     CHECK_FALSE(folder.holds("out/report.json"));
+}
+
+TEST_CASE("two signals at once are one, on several threads too") {
+    const TestFolder folder;
+    folder.write("sheet.toml", falling_sheet());
+    const std::vector<std::string> arguments = {"run",   "sheet.toml",
+                                                "-o",    "out",
+                                                "--set", "cloth.sheet.grid.vertices=[61, 61]",
+                                                "--set", "cloth.sheet.pin=[0, 60]",
+                                                "--set", "step.threads=3",
+                                                "--set", "duration=1000"};
+    StartedRun run(folder, arguments);
+    run.wait_for(folder, "out/frames/sheet_00000.obj");
+    run.send(SIGINT);
+    CHECK(run.end(SIGTERM) == 130);
+    CHECK(nlohmann::json::parse(folder.read("out/report.json")).at("status") == "stopped");
 }

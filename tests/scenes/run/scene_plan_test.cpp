@@ -51,6 +51,15 @@ TEST_CASE("motion and events of the file are known before the first step") {
     CHECK_FALSE(skips(built(box + gravity, weightless), "energy of gravity"));
 }
 
+TEST_CASE("events after the end are warned of") {
+    const auto warnings = [](const std::string& end) {
+        return plan_of(built(falling_sheet() + pin_event, {{"duration", end}})).warnings;
+    };
+    CHECK(warnings("0.05").empty());
+    REQUIRE(warnings("0.04").size() == 1);
+    CHECK_THAT(warnings("0.04")[0], Catch::Contains("1 of 1 event would come after the end, 0.04 s, the first at 0.05 s"));
+}
+
 TEST_CASE("the plan tells what the start needed") {
     CHECK(plan_text(built(sheet_on_box())).find("moved out of") == std::string::npos);
     std::string inside = sheet_on_box();
