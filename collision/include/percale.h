@@ -199,7 +199,7 @@ percale_status percale_set_work_limit(percale_simulation* simulation, int iterat
 /* Wall time of a step, s, 1e-6 ... 1e6; 0: none. A step that has used it up is taken as it is, and says out_of_time;
    where pins and obstacles have not arrived after some 20 iterations more it fails (PERCALE_STEP_WORK_LIMIT). */
 percale_status percale_set_time_limit(percale_simulation* simulation, double seconds);
-/* m, and m/s, of all vertices of a cloth. For starts that are not at rest. */
+/* m, and m/s, -1e9 ... 1e9, of all vertices of a cloth. For starts that are not at rest. */
 percale_status percale_set_positions(percale_simulation* simulation, int cloth, const double* positions, size_t vertex_count);
 percale_status percale_set_velocities(percale_simulation* simulation, int cloth, const double* velocities, size_t vertex_count);
 /* Puts a cloth back to where it was added, at rest; its contacts are forgotten. Pins stay, where it was added, and so do time,

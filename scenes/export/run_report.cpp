@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/text.h"
 #include "export/run_settings.h"
 #include "percale/cleaning.h"
 #include "percale/error.h"
@@ -223,11 +224,10 @@ ordered_json skipped_list(std::span<const Skip> skipped) {
 std::vector<std::string> end_warnings(const BuiltScene& built, const RunResult& result) {
     const Measures& m = result.measures;
     std::vector<std::string> warnings = strain_warnings(built, m.largest_strain);
-    if (m.intersections > 0)
-        warnings.push_back(std::to_string(m.intersections) + " pairs of triangles cross, summed over the frames");
+    if (m.intersections > 0) warnings.push_back(counted(m.intersections, "pair") + " of triangles cross, summed over the frames");
     const int unsolved = result.totals.unsolved_steps;
     if (unsolved > 0)
-        warnings.push_back(std::to_string(unsolved) + (unsolved == 1 ? " step was" : " steps were") +
+        warnings.push_back(counted(unsolved, "step") + (unsolved == 1 ? " was" : " were") +
                            " taken unsolved (not_converged or tolerance_missed)");
     return warnings;
 }

@@ -1,9 +1,10 @@
-#include <fcntl.h>
 #include <signal.h>
-#include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <thread>
 
 #include "tests/scenes/program/run_program.h"
@@ -16,29 +17,15 @@ using percale::scenes::test::falling_sheet;
 
 namespace {
 
-/// Starts a run that would last for hours, and waits until it has written a frame.
-pid_t start_endless_run(const TestFolder& folder) {
+/// Starts a run of a falling sheet with other settings, and waits until it has written a frame.
+std::unique_ptr<StartedRun> started(const TestFolder& folder, std::span<const std::string> settings) {
     folder.write("sheet.toml", falling_sheet());
-    const pid_t child = fork();
-    if (child == 0) {
-        const int nowhere = open("/dev/null", O_WRONLY);
-        dup2(nowhere, STDOUT_FILENO);
-        dup2(nowhere, STDERR_FILENO);
-        const std::string scene = folder.path("sheet.toml"), out = folder.path("out");
-        execl(PERCALE_PROGRAM, PERCALE_PROGRAM, "run", scene.c_str(), "-o", out.c_str(), "--set", "duration=10000", "--set",
-              "step.time_step=1e-5", "--fps", "1", nullptr);
-        _exit(99);
-    }
-    for (int i = 0; i < 500 && !folder.holds("out/frames/sheet_00000.obj"); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    return child;
-}
-
-int exit_code_after(pid_t child, int signal) {
-    kill(child, signal);
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    std::vector<std::string> arguments = {"run", "sheet.toml", "-o", "out", "--fps", "1"};
+    for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    auto run = std::make_unique<StartedRun>(folder, arguments);
+    run->wait_for(folder, "out/frames/sheet_00000.obj");
+    REQUIRE(folder.holds("out/frames/sheet_00000.obj"));
+    return run;
 }
 
 }  // namespace
@@ -46,7 +33,7 @@ int exit_code_after(pid_t child, int signal) {
 TEST_CASE("a run that is interrupted or terminated finishes its step, writes its report and says so") {
     for (const int signal : {SIGINT, SIGTERM}) {
         const TestFolder folder;
-        CHECK(exit_code_after(start_endless_run(folder), signal) == 130);
+        CHECK(started(folder, std::array<std::string, 2>{"duration=10000", "step.time_step=1e-5"})->end(signal) == 130);
         const auto report = nlohmann::json::parse(folder.read("out/report.json"));
         CHECK(report.at("status") == "stopped");
         const int steps = report.at("steps");
@@ -58,34 +45,23 @@ TEST_CASE("a run that is interrupted or terminated finishes its step, writes its
 
 TEST_CASE("a second signal ends a run in the midst of its step, and leaves no report") {
     const TestFolder folder;
-    folder.write("sheet.toml", falling_sheet());
-    // Its one step takes many seconds.
-    const std::vector<std::string> long_step = {"run",   "sheet.toml",
-                                                "-o",    "out",
-                                                "--set", "cloth.sheet.grid.vertices=[401, 401]",
-                                                "--set", "cloth.sheet.pin=[0, 400]",
-                                                "--set", "step.time_step=0.1",
-                                                "--set", "duration=0.1"};
-    StartedRun run(folder, long_step);
-    run.wait_for(folder, "out/frames/sheet_00000.obj");
-    run.send(SIGINT);
+    // A step takes a minute.
+    const std::array<std::string, 6> long_step{
+        "cloth.sheet.grid.vertices=[401, 401]", "cloth.sheet.pin=[0, 400]", "step.scheme=backward_euler",
+        "step.newton_tolerance=1e-10",          "step.time_step=1",         "duration=1000"};
+    const auto run = started(folder, long_step);
+    run->send(SIGINT);
     std::this_thread::sleep_for(std::chrono::milliseconds(800));
-    CHECK(run.end(SIGINT) == 130);
+    CHECK(run->end(SIGINT) == 130);
     CHECK_FALSE(folder.holds("out/report.json"));
 }
 
 TEST_CASE("two signals at once are one, on several threads too") {
     const TestFolder folder;
-    folder.write("sheet.toml", falling_sheet());
-    const std::vector<std::string> arguments = {"run",   "sheet.toml",
-                                                "-o",    "out",
-                                                "--set", "cloth.sheet.grid.vertices=[61, 61]",
-                                                "--set", "cloth.sheet.pin=[0, 60]",
-                                                "--set", "step.threads=3",
-                                                "--set", "duration=1000"};
-    StartedRun run(folder, arguments);
-    run.wait_for(folder, "out/frames/sheet_00000.obj");
-    run.send(SIGINT);
-    CHECK(run.end(SIGTERM) == 130);
+    const std::array<std::string, 4> threads{"cloth.sheet.grid.vertices=[61, 61]", "cloth.sheet.pin=[0, 60]", "step.threads=3",
+                                             "duration=1000"};
+    const auto run = started(folder, threads);
+    run->send(SIGINT);
+    CHECK(run->end(SIGTERM) == 130);
     CHECK(nlohmann::json::parse(folder.read("out/report.json")).at("status") == "stopped");
 }
