@@ -277,7 +277,7 @@ TEST_CASE("A wrong seam is refused and changes nothing") {
     const auto refused_point = [&](const Stitch& stitch) {
         return scene_error([&] { tube.simulation.add_seam(tube.front, tube.front, std::vector{stitch}); });
     };
-    CHECK(refused_point({0, 1, 2, 1.5}) == "seam: the share of a stitch = 1.5  is outside the allowed range 0 ... 1");
+    CHECK(refused_point({0, 1, 2, 1.5}) == "seam: the share of a stitch = 1.5 is outside the allowed range 0 ... 1");
     CHECK(refused_point({1, 1, 2, 0.5}) == "seam: vertex 1 of front is sewn to itself");
     CHECK(scene_error([&] { tube.simulation.seam_gaps({3}); }) == "there is no seam 3, seams are 0 ... 0");
     CHECK(tube.simulation.state_hash() == hash);
