@@ -222,6 +222,11 @@ constexpr double much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
 
 // ---- drape/
 
+/// A garment of more m (`least_huge_garment`) and of more times the body's size (`huge_garment_ratio`) is in another unit than
+/// m: in the one that makes it nearest to `garment_ratio` of the body. Smaller: tablecloths over cups are taken for centimetres.
+/// Larger: a hat in centimetres is not.
+constexpr double least_huge_garment = 8.0, huge_garment_ratio = 5.0, garment_ratio = 0.6;
+
 /// m. `drape` calls a seam with a wider gap not sewn. Smaller: tight gathers fail. Larger: seams closed on the wrong side of a
 /// limb pass.
 constexpr double widest_sewn_gap = 0.01;

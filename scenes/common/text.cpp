@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <regex>
 
 namespace percale::scenes {
 
@@ -28,6 +30,21 @@ std::string percent_text(double share) {
     const double percent = 100.0 * share, size = std::abs(percent);
     if (!(size < 1e9)) return short_number(percent) + " %";
     return (size < 10.0 ? short_number(std::round(10.0 * percent) / 10.0) : std::to_string(std::lround(percent))) + " %";
+}
+
+std::string number_advice(const std::string& text) {
+    static const std::regex comma(R"(\s*([+-]?\d+),(\d+)\s*)"),
+        with_unit(R"(\s*([+-]?\d*\.?\d+(?:[eE][+-]?\d+)?)\s*([A-Za-z%].*))");
+    static const std::map<std::string, std::pair<double, const char*>> factors = {
+        {"mm", {1e-3, "m"}}, {"cm", {1e-2, "m"}}, {"g", {1e-3, "kg"}}, {"ms", {1e-3, "s"}}};
+    std::smatch part;
+    if (std::regex_match(text, part, comma)) return "; decimals take a point: " + part.str(1) + "." + part.str(2);
+    if (!std::regex_match(text, part, with_unit)) return "";
+    const auto factor = factors.find(part.str(2));
+    if (factor == factors.end()) return "; a number is written without its unit: " + part.str(1);
+    const auto& [scale, unit] = factor->second;
+    return std::string("; a number is written without its unit, in ") + unit + ": " +
+           number_text(std::stod(short_number(scale * std::stod(part.str(1)))));
 }
 
 std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }

@@ -16,6 +16,10 @@ std::string short_number(double value);
 /// A share in percent: "12 %", "0.4 %".
 std::string percent_text(double share);
 
+/// For a text where a number must be: "; decimals take a point: 0.005" of "0,005", "; a number is written without its unit: 5" of
+/// "5 N", with mm, cm, g and ms in m, kg and s. "" where the text is no such number.
+std::string number_advice(const std::string& text);
+
 /// "1 step", "12 steps".
 std::string counted(long count, const std::string& what);
 

@@ -65,7 +65,10 @@ public:
     DrapeScene make() {
         set_up();
         add_fabrics();
-        guess_up(extent_of(options_.body(), options_.body_part));
+        const Vec3 body = extent_of(options_.body(), options_.body_part);
+        guess_up(body);
+        body_unit_ = unit_of(options_.body(), options_.body_unit, "--body-unit", extent_of(options_.body(), "").maxCoeff(), 0.0);
+        body_size_ = body_unit_ * body.maxCoeff();
         for (const std::string& file : options_.garments()) add_garment(file);
         refuse_short_time();
         add_body();
@@ -112,12 +115,14 @@ private:
         if (made_.z_up) turn_ = {.w = std::sqrt(0.5), .x = -std::sqrt(0.5)};
     }
 
-    double unit_of(const std::string& file, const std::string& said, const char* option, const Vec3& extent) {
+    /// m. A `body` of 0 m says nothing of the size.
+    double unit_of(const std::string& file, const std::string& said, const char* option, double extent, double body) {
         if (!said.empty()) return metres.at(said);
-        const std::string unit = guessed_unit(extent.maxCoeff());
+        const std::string unit = guessed_unit(extent, body);
         if (unit != "m")
-            note(file + " is " + short_number(extent.maxCoeff()) + " units large, so its unit is taken as " + unit + " (" +
-                 option + " m, if it is m)");
+            note(file + " is " + short_number(extent) + " units large" +
+                 (body > 0.0 ? " and the body " + short_number(body) + " m" : "") + ", so its unit is taken as " + unit +
+                 ", which makes it " + short_number(metres.at(unit) * extent) + " m (" + option + " m, if it is m)");
         return metres.at(unit);
     }
 
@@ -142,7 +147,7 @@ private:
         const std::string& file = cloth.place.file;
         cloth.mesh = file;
         cloth.part = options_.garment_part;
-        cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file, ""));
+        cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file, "").maxCoeff(), body_size_);
         cloth.pose.rotation = product(cloth.pose.rotation, turn_);
         std::size_t stitches = extension_of(file) == ".obj" ? find_obj_stitches(file).size() : 0;
         if (stitches > 0 && !cloth.part.empty()) {
@@ -188,7 +193,7 @@ private:
         body.name = "body";
         body.mesh = options_.body();
         body.part = options_.body_part;
-        body.unit = unit_of(options_.body(), options_.body_unit, "--body-unit", extent_of(options_.body(), ""));
+        body.unit = body_unit_;
         body.pose.rotation = turn_;
         body.friction = options_.friction;
         body.place = {.file = options_.body()};
@@ -205,6 +210,7 @@ private:
     const DrapeOptions& options_;
     DrapeScene made_;
     Rotation turn_ = {};
+    double body_unit_ = 1.0, body_size_ = 0.0;  // m
 };
 
 }  // namespace
@@ -240,9 +246,14 @@ void check_drape(const DrapeOptions& options) {
     }
 }
 
-std::string guessed_unit(double extent) {
-    if (extent >= millimetre_extent) return "mm";
-    return extent >= centimetre_extent ? "cm" : "m";
+std::string guessed_unit(double extent, double body) {
+    if (body <= 0.0) {
+        if (extent >= millimetre_extent) return "mm";
+        return extent >= centimetre_extent ? "cm" : "m";
+    }
+    if (extent < least_huge_garment || extent < huge_garment_ratio * body) return "m";
+    const auto misfit = [&](const char* unit) { return std::abs(std::log(metres.at(unit) * extent / (garment_ratio * body))); };
+    return misfit("cm") <= misfit("mm") ? "cm" : "mm";
 }
 
 bool stands_along_z(const Vec3& extent) { return extent.z() > standing_ratio * extent.y(); }

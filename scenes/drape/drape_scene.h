@@ -39,8 +39,9 @@ struct DrapeOptions {
 /// Throws SceneError for a value out of range, or outputs that do not go with the garments or cannot be written.
 void check_drape(const DrapeOptions& options);
 
-/// "mm", "cm" or "m": in which unit garments and bodies of that many units are 0.1 to some 10 m large.
-std::string guessed_unit(double extent);
+/// "mm", "cm" or "m": in which unit a mesh of that many units is 0.1 to some 10 m large, and beside a body of so many m (where
+/// it is above 0) of a garment's size. m where both may be.
+std::string guessed_unit(double extent, double body = 0.0);
 
 /// Whether a body with this bounding box is much taller along z than along y.
 bool stands_along_z(const Vec3& extent);

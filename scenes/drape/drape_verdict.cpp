@@ -106,7 +106,9 @@ DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, co
     tell_of_sliding(built, drape, verdict);
     tell_of_tightness(built, verdict);
     const std::string fault = fault_of(drape, check, gap);
-    if (!fault.empty()) verdict.wrong = joined(options.outs) + ": " + fault;
+    const std::string outs = joined(options.outs);
+    if (!fault.empty())
+        verdict.wrong = outs + ": " + fault + "; " + outs + (options.outs.size() > 1 ? " hold" : " holds") + " how it was then";
     return verdict;
 }
 

@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <sstream>
 #include <tuple>
 
 #include "common/scene_file_error.h"
@@ -93,6 +94,15 @@ void check_depth(const std::string& text, const std::string& name) {
 // A value that begins like this was meant as TOML; anything else that is not TOML is a bare word.
 bool begins_like_toml(char first) { return first == '[' || first == '{' || first == '"' || first == '\''; }
 
+/// Of the number that a line's last key has for a value, if that is why the line is not TOML.
+std::string advice_on_line(const std::string& text, int line) {
+    std::istringstream lines(text);
+    std::string words;
+    for (int number = 1; number <= line; ++number) std::getline(lines, words);
+    const std::string value = words.substr(words.rfind('=') + 1);
+    return number_advice(value.substr(0, value.find('#')));
+}
+
 }  // namespace
 
 TomlNode* TomlNode::find(std::string_view wanted) {
@@ -108,7 +118,8 @@ TomlNode parse_toml(const std::string& text, const std::string& name) {
     try {
         return converted(toml::parse(text, name), name);
     } catch (const toml::parse_error& error) {
-        fail_at(place_of(error.source(), name), "not valid TOML: " + std::string(error.description()));
+        const SourcePlace place = place_of(error.source(), name);
+        fail_at(place, "not valid TOML: " + std::string(error.description()) + advice_on_line(text, place.line));
     }
 }
 

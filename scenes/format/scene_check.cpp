@@ -28,6 +28,7 @@ struct Spot {
     if (shown.ends_with("rotation") && node.kind == TomlKind::list)
         advice =
             "; it is a unit quaternion [w, x, y, z]: a turn by the angle a about the unit vector n is [cos(a/2), sin(a/2) n]";
+    if (node.kind == TomlKind::text) advice += number_advice(node.text);
     fail_at(node.place, shown + " must be " + kind_text(key) + unit + ", not " + described(node) + advice);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/nearest_name.h"
+#include "common/text.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
@@ -24,6 +25,24 @@ const std::vector<std::string> commands = {"run",     "plan",   "check",  "expla
 void check_command_name(const std::string& word) {
     if (word.empty() || word.front() == '-' || std::find(commands.begin(), commands.end(), word) != commands.end()) return;
     throw SceneError("no such command '" + word + "'" + scenes::suggestion(word, commands));
+}
+
+/// Three numbers after an option are words or have commas between them. With both, as in "0 1,5 0", a comma was meant as a point.
+void check_commas(const std::vector<std::string>& words) {
+    for (const char* option : {"--move", "--rotate"}) {
+        const auto found = std::find(words.begin(), words.end(), option);
+        if (words.end() - found < 3 || found[1].find(',') != std::string::npos) continue;
+        for (const std::string& word : {found[2], words.end() - found > 3 ? found[3] : std::string()})
+            if (const std::string advice = scenes::number_advice(word); !advice.empty())
+                throw SceneError(std::string(option) + " " + found[1] + " " + found[2] + " ...: '" + word + "' is no number" +
+                                 advice);
+    }
+}
+
+/// "Could not convert: --thickness = 5mm" and what to write instead.
+std::string conversion_text(const std::string& what) {
+    const std::size_t value = what.find(" = ");
+    return what + (value == std::string::npos ? "" : scenes::number_advice(what.substr(value + 3)));
 }
 
 /// Words that no option and no argument takes: the first that looks like an option, else the first, is named.
@@ -67,10 +86,13 @@ int parse_and_act(int argc, char** argv) {
     add_stress_command(program, action);
     add_sweep_command(program, action);
     if (argc > 1) check_command_name(argv[1]);
+    check_commas({argv, argv + argc});
     try {
         program.parse(argc, argv);
     } catch (const CLI::ExtrasError&) {
         fail_unexpected(program);
+    } catch (const CLI::ConversionError& error) {
+        throw SceneError(conversion_text(error.what()) + " (see --help)");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return program.exit(error);
         throw SceneError(std::string(error.what()) + " (see --help)");

@@ -68,3 +68,13 @@ TEST_CASE("short numbers have three digits, and one of a thing has no s") {
     CHECK(counted(0, "step") == "0 steps");
     CHECK(counted(12, "step") == "12 steps");
 }
+
+TEST_CASE("a number with a decimal comma or a unit is told how it is written") {
+    CHECK(number_advice("0,005") == "; decimals take a point: 0.005");
+    CHECK(number_advice(" -1,5 ") == "; decimals take a point: -1.5");
+    CHECK(number_advice("5mm") == "; a number is written without its unit, in m: 0.005");
+    CHECK(number_advice("1.5 cm") == "; a number is written without its unit, in m: 0.015");
+    CHECK(number_advice("150g") == "; a number is written without its unit, in kg: 0.15");
+    CHECK(number_advice("20 N/m") == "; a number is written without its unit: 20");
+    for (const char* text : {"", "soft", "1,2,3", "a,b", "[1, 2]"}) CHECK(number_advice(text).empty());
+}

@@ -50,10 +50,12 @@ TEST_CASE("meshes in centimetres with z up make the scene that they make in metr
     options.rotate = {0.0, 0.0, 30.0};
     const DrapeScene turned = drape_scene(options);
     CHECK(turned.z_up);
-    REQUIRE(turned.notes.size() > 2);  // the sheet of 40 units may be one of 40 m, which doctor doubts
+    REQUIRE(turned.notes.size() == 3);
     CHECK(turned.notes[0].find("stands along z") != std::string::npos);
-    CHECK(turned.notes[1].find("170 units large, so its unit is taken as cm (--body-unit m") != std::string::npos);
-    options.garment_unit = "cm";
+    CHECK(turned.notes[1].find("170 units large, so its unit is taken as cm, which makes it 1.7 m (--body-unit m") !=
+          std::string::npos);
+    CHECK(turned.notes[2].find("40 units large and the body 1.7 m, so its unit is taken as cm, which makes it 0.4 m") !=
+          std::string::npos);
     const BuiltScene again = build_scene(drape_scene(options).scene);
     CHECK(farthest(built.cloth_meshes[0].vertices, again.cloth_meshes[0].vertices) < 1e-6);
     std::vector<Vec3> box = again.obstacle_meshes[0].vertices;
@@ -106,6 +108,12 @@ TEST_CASE("units are guessed so that things are 0.1 to some 10 m large") {
     CHECK(guessed_unit(1.8) == "m");
     CHECK(guessed_unit(180.0) == "cm");
     CHECK(guessed_unit(1800.0) == "mm");
+    CHECK(guessed_unit(48.0, 1.75) == "cm");   // a skirt of 0.48 m
+    CHECK(guessed_unit(480.0, 1.75) == "mm");  // not one of 4.8 m
+    CHECK(guessed_unit(200.0, 1.75) == "cm");  // a robe
+    CHECK(guessed_unit(20.0, 1.75) == "cm");   // a hat
+    CHECK(guessed_unit(2.0, 0.1) == "m");      // a cloth over a cup
+    CHECK(guessed_unit(60.0, 20.0) == "m");    // a tent
     CHECK(stands_along_z({0.5, 0.3, 1.8}));
     CHECK_FALSE(stands_along_z({0.5, 1.8, 0.3}));
     CHECK_FALSE(stands_along_z({1.0, 1.0, 1.0}));

@@ -62,6 +62,8 @@ TEST_CASE("tables in double brackets become a list of tables in their order") {
 TEST_CASE("text that is not TOML is an error with file, line and column") {
     CHECK(error_of([] { parse_toml("a = 1\nb = [1, 2\n", "file.toml"); }).starts_with("file.toml:"));
     CHECK(error_of([] { parse_toml("a = 1\nb 2\n", "file.toml"); }).starts_with("file.toml:2:3: not valid TOML"));
+    CHECK(error_of([] { parse_toml("a = 1\nb = 0,005  # m\n", "f"); }).ends_with("; decimals take a point: 0.005"));
+    CHECK(error_of([] { parse_toml("b = 5mm\n", "f"); }).ends_with("; a number is written without its unit, in m: 0.005"));
     CHECK(error_of([] { parse_toml("a = 1\na = 2\n", "file.toml"); }).starts_with("file.toml:2:"));
     CHECK(error_of([] { parse_toml("a = \"\xff\"\n", "file.toml"); }).starts_with("file.toml:1:"));
     CHECK(error_of([] { parse_toml(std::string("a = \0", 5), "file.toml"); }).starts_with("file.toml:1:"));

@@ -70,6 +70,7 @@ TEST_CASE("a missing required key is named at its table") {
 
 TEST_CASE("a wrong kind of value says what was expected and what was there") {
     CHECK(fault("duration = \"two\"\n") == "t:1:12: duration must be a number or \"rest\" (s), not the text \"two\"");
+    CHECK(fault("duration = \"20ms\"\n").ends_with("\"20ms\"; a number is written without its unit, in s: 0.02"));
     CHECK(fault("title = 3\n") == "t:1:9: title must be a text, not the number 3");
     CHECK(fault("step = 3\n") == "t:1:8: step must be a table, not the number 3");
     CHECK(fault("cloth = 3\n") == "t:1:9: cloth must be a list of tables, not the number 3");

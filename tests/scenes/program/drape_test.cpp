@@ -107,6 +107,7 @@ TEST_CASE("when the time is up the garment is written all the same, and the spee
         run_program({"drape", "sheet.obj", "block.obj", "-o", "draped.obj", "--seconds", "0.05"}, folder.path());
     CHECK(run.exit_code == 1);
     CHECK(run.error.find("m/s") != std::string::npos);
+    CHECK(run.error.find("; draped.obj holds how it was then") != std::string::npos);
     CHECK(folder.holds("draped.obj"));
 }
 
@@ -122,6 +123,21 @@ TEST_CASE("a garment that is not on the body at the end is told to be moved") {
         {"drape", "sheet.obj", "block.obj", "-o", "slid.obj", "--seconds", "1.5", "--move", "0.13", "0", "0"}, folder.path());
     CHECK(slid.exit_code == 1);
     CHECK(slid.error.find("percale: slid.obj: fell off the body; use --move") == 0);
+}
+
+TEST_CASE("numbers with decimal commas or units are refused, and what to write is said") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    const auto with = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"drape", "sheet.obj", "block.obj", "-o", "draped.obj"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_program(arguments, folder.path());
+    };
+    CHECK(refused(with({"--move", "0", "1,5", "0"}), "'1,5' is no number; decimals take a point: 1.5"));
+    CHECK(refused(with({"--rotate", "0", "0", "1,5"}), "'1,5' is no number; decimals take a point: 1.5"));
+    CHECK(refused(with({"--thickness", "5mm"}), "--thickness = 5mm; a number is written without its unit, in m: 0.005 (see"));
+    CHECK(refused(with({"--thickness", "0,005"}), "--thickness = 0,005; decimals take a point: 0.005"));
+    CHECK_FALSE(folder.holds("draped.obj"));
 }
 
 TEST_CASE("files in millimetres drape as the same files in metres do") {
