@@ -10,7 +10,7 @@
 
 namespace percale::scenes {
 
-constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 8, .words = "checkpoint"};
+constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 9, .words = "checkpoint"};
 
 template <class Archive, OfType<Pinch> Value>
 void exchange(Archive& archive, Value& pinch) {
@@ -40,8 +40,8 @@ void exchange(Archive& archive, Value& checks) {
 
 template <class Archive, OfType<Measures> Value>
 void exchange(Archive& archive, Value& m) {
-    archive(m.intersections, m.deepest_penetration, m.smallest_distance, m.worst_frame, m.largest_strain, m.energy_gain, m.worst,
-            m.steps);
+    archive(m.intersections, m.deepest_penetration, m.smallest_distance, m.worst_frame, m.largest_strain, m.strain_time,
+            m.strained_cloth, m.energy_gain, m.worst, m.steps);
 }
 
 template <class Archive, OfType<Timeline::MovingPin> Value>

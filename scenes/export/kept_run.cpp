@@ -208,7 +208,7 @@ RunResult KeptRun::run(BuiltScene& built, const std::function<bool()>& stop_aske
     settings.from = from_ ? &from_->run : nullptr;
     settings.from_file = from_ ? checkpoint : "";
     RunResult result = run_scene(built, hooks, settings);
-    folder.finish(built, result, judge(expectations, measure_values(result.measures), result.timed));
+    folder.finish(built, result, judge_run(expectations, result.measures, result.timed, built.scene));
     // One that stays does no harm: what a report tells of is looked at first, and the next run into the folder takes it away.
     std::error_code error;
     if (result.status != RunStatus::stopped) fs::remove(checkpoint, error);

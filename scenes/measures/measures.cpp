@@ -89,8 +89,18 @@ double energy_gain(const StepReport& report, double energy_before) {
 
 void add_step(Measures& measures, const StepReport& report, double energy_before) {
     measures.smallest_distance = std::min(measures.smallest_distance, report.smallest_distance);
-    measures.largest_strain = std::max(measures.largest_strain, report.largest_strain);
+    if (report.largest_strain > measures.largest_strain) {
+        measures.largest_strain = report.largest_strain;
+        measures.strain_time = report.time;
+    }
     measures.energy_gain = std::max(measures.energy_gain, energy_gain(report, energy_before));
+}
+
+void find_strained_cloth(Measures& measures, const StepReport& report, const Simulation& simulation,
+                         std::span<const ClothId> cloths) {
+    if (measures.largest_strain == 0.0 || measures.strain_time != report.time) return;
+    const auto strain = [&](const ClothId cloth) { return simulation.largest_strain(cloth); };
+    measures.strained_cloth = static_cast<int>(std::ranges::max_element(cloths, {}, strain) - cloths.begin());
 }
 
 void add_end(Measures& measures, const Simulation& simulation, std::span<const ClothId> cloths) {
@@ -200,6 +210,29 @@ std::string pinch_text(const Pinch& pinch, const Scene& scene) {
     return name(first) + (first == second ? "" : " and " + name(second)) +
            " pinched cloth; what yields (on_pinch) was dented, by up to " + short_number(pinch.yielded) + " m, from " +
            short_number(pinch.from) + " s to " + short_number(pinch.to) + " s";
+}
+
+namespace {
+
+/// Where and when what was measured over a whole run was worst; "" where that is not known.
+std::string place_of(const std::string& measure, const Measures& measures, const Scene& scene) {
+    if (measure == "largest_strain" && measures.strained_cloth >= 0)
+        return " (cloth '" + scene.cloths[static_cast<std::size_t>(measures.strained_cloth)].name + "' at " +
+               short_number(measures.strain_time) + " s)";
+    const bool of_frames = measure == "intersections" || measure == "deepest_penetration" || measure == "smallest_distance";
+    return of_frames && measures.worst_frame >= 0 ? " (worst in frame " + std::to_string(measures.worst_frame) + ")" : "";
+}
+
+}  // namespace
+
+std::vector<ExpectationResult> judge_run(std::span<const Expectation> expectations, const Measures& measures,
+                                         std::span<const double> timed, const Scene& scene) {
+    std::vector<ExpectationResult> results = judge(expectations, measure_values(measures), timed);
+    for (ExpectationResult& result : results) {
+        if (!result.passed && !result.expectation.at && !result.expectation.during)
+            result.text += place_of(result.expectation.measure, measures, scene);
+    }
+    return results;
 }
 
 std::map<std::string, double> measure_values(const Measures& measures) {

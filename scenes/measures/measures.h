@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "format/expectations.h"
 #include "format/scene.h"
 #include "garment/seam_stitches.h"
 #include "percale/certify.h"
@@ -73,6 +74,8 @@ struct Measures {
     double smallest_distance = std::numeric_limits<double>::infinity();  // m, over steps and frames; infinity: never near
     int worst_frame = -1;                                                // frame with the smallest distance; -1: never near
     double largest_strain = 0.0;    // (l - l0)/l0 of structural springs, over what was measured; NaN: nothing
+    double strain_time = 0.0;       // s, when it was reached
+    int strained_cloth = -1;        // in which cloth, in the order of the scene; -1: nothing was strained
     double speed_at_end = 0.0;      // m/s, largest of a vertex
     double rms_speed_at_end = 0.0;  // m/s, over all vertices
     double energy_gain = 0.0;       // J, largest rise in a step beyond its work; NaN: not measured
@@ -125,11 +128,19 @@ double energy_gain(const StepReport& report, double energy_before);
 
 void add_step(Measures& measures, const StepReport& report, double energy_before);
 
+/// Which cloth has the largest strain, if that is of the step that was added last.
+void find_strained_cloth(Measures& measures, const StepReport& report, const Simulation& simulation,
+                         std::span<const ClothId> cloths);
+
 /// Speeds and heights of all cloths as they are now.
 void add_end(Measures& measures, const Simulation& simulation, std::span<const ClothId> cloths);
 
 /// Largest distance between the cloths' vertices, taken in order, and the reference's, m. The counts must be equal.
 double largest_vertex_distance(const Simulation& simulation, std::span<const ClothId> cloths, std::span<const Vec3> reference);
+
+/// Judges all expectations of a run; where one failed that is of the whole run, its text says where and when it was worst.
+std::vector<ExpectationResult> judge_run(std::span<const Expectation> expectations, const Measures& measures,
+                                         std::span<const double> timed, const Scene& scene);
 
 /// By name, as expectations use them; worst_frame included, without what was not measured.
 std::map<std::string, double> measure_values(const Measures& measures);

@@ -180,7 +180,7 @@ int run(RunOptions options) {
     bar.clear();
     if (!options.common.quiet) print_moves_after(start_moves, built.simulation);
     const std::vector<ExpectationResult> expectations =
-        judge(expected_of(built.scene, options.common), measure_values(result.measures), result.timed);
+        judge_run(expected_of(built.scene, options.common), result.measures, result.timed, built.scene);
     folder.finish(built, result, expectations);
     if (!options.common.quiet) print_summary(options, built, result, expectations);
     if (options.report) leave_page(options);

@@ -92,7 +92,7 @@ public:
         run_.result = run_scene(built_, hooks, {.certify_steps = wishes_.certify_steps});
         const std::vector<Expectation> expected =
             wishes_.certify_steps ? with_every_step(built_.scene.expectations) : built_.scene.expectations;
-        run_.expectations = judge(expected, measure_values(run_.result.measures), run_.result.timed);
+        run_.expectations = judge_run(expected, run_.result.measures, run_.result.timed, built_.scene);
         run_.report = run_report_text(built_, run_.result, records_, run_.expectations);
         if (folder_) folder_->finish(built_, run_.result, run_.expectations);
     }

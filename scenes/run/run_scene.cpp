@@ -229,6 +229,7 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, doub
         script.rest->look(built.simulation, built.cloths, report, gravity_at(built.scene, report.time - 0.5 * report.dt),
                           !script.timeline.more_to_come(built, report.time));
     add_step(result.measures, report, before);
+    find_strained_cloth(result.measures, report, built.simulation, built.cloths);
     add_accepted(totals, report);
     script.energy_gain = energy_gain(report, before);
     script.step = std::move(report);

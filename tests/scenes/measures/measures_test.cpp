@@ -134,13 +134,16 @@ TEST_CASE("negative work counts: energy taken out by an obstacle must be gone") 
 
 TEST_CASE("strain and distance take their extreme over the steps") {
     Measures measures;
+    double time = 0.0;
     for (const double strain : {0.05, 0.2, 0.1}) {
         StepReport report = step_report(0.0, 0.0, 0.0);
+        report.time = time += 1.0;
         report.largest_strain = strain;
         report.smallest_distance = 0.5 - strain;
         add_step(measures, report, 0.0);
     }
     CHECK(measures.largest_strain == 0.2);
+    CHECK(measures.strain_time == 2.0);
     CHECK(measures.smallest_distance == Approx(0.3));
 }
 

@@ -48,7 +48,7 @@ TEST_CASE("each `matches` is held against its own file") {
     BuiltScene built = build_scene(parse_scene(text, folder.path("test.toml")));
     const RunResult result = run_scene(built);
     const std::vector<ExpectationResult> verdicts =
-        judge(built.scene.expectations, measure_values(result.measures), result.timed);
+        judge_run(built.scene.expectations, result.measures, result.timed, built.scene);
     REQUIRE(verdicts.size() == 2);
     CHECK(*verdicts[0].value == Approx(4.0).epsilon(1e-3));
     CHECK_FALSE(verdicts[0].passed);

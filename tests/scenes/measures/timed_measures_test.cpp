@@ -23,7 +23,7 @@ struct Judged {
 Judged run(const std::string& scene, std::span<const Override> overrides = {}) {
     BuiltScene built = build_scene(parse_scene(scene, "test.toml", overrides));
     Judged judged{run_scene(built), {}};
-    judged.verdicts = judge(built.scene.expectations, measure_values(judged.result.measures), judged.result.timed);
+    judged.verdicts = judge_run(built.scene.expectations, judged.result.measures, judged.result.timed, built.scene);
     return judged;
 }
 
@@ -119,4 +119,17 @@ TEST_CASE("what was measured goes along with a checkpoint, and a time that is ov
     state.timed.clear();
     BuiltScene third = build_scene(parse_scene(scene, "test.toml"));
     CHECK_THROWS_WITH(run_scene(third, {}, {.from = &state}), Catch::Contains("what was expected of it"));
+}
+
+TEST_CASE("a strain that is too large is told with its cloth and its time") {
+    const auto sheet = [](const std::string& name, const std::string& density) {
+        return "[fabric." + name + "]\narea_density = " + density + "\nsprings = { structural = 100 }\n[[cloth]]\nname = \"" +
+               name + "\"\nfabric = \"" + name + "\"\ngrid = { size = [0.2, 0.2], vertices = [3, 3] }\npin = [0]\n";
+    };
+    const Judged judged = run("duration = 0.1\n[step]\ntime_step = 0.01\n" + sheet("light", "0.1") + sheet("heavy", "1.0") +
+                              "[[expect]]\nlargest_strain = { below = 1e-6 }\n[[expect]]\nlargest_strain = { below = 1.0 }\n");
+    REQUIRE(judged.verdicts.size() == 2);
+    CHECK(judged.result.measures.strained_cloth == 1);
+    CHECK(judged.verdicts[0].text.find(": failed (cloth 'heavy' at 0.") != std::string::npos);
+    CHECK(judged.verdicts[1].text.ends_with(": passed"));
 }

@@ -22,7 +22,7 @@ inline void write_run(const std::string& path, const std::string& scene, const s
     hooks.frame = [&](const Frame& frame) { folder.add(frame); };
     hooks.step = [&](const StepReport& report, const Simulation& simulation) { folder.add(report, simulation); };
     const RunResult result = run_scene(built, hooks);
-    folder.finish(built, result, judge(built.scene.expectations, measure_values(result.measures)));
+    folder.finish(built, result, judge_run(built.scene.expectations, result.measures, result.timed, built.scene));
 }
 
 /// A cloth of 3 x 3 vertices that falls by 0.1 m a frame above a ball that rests, as OBJ files and records.
