@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <regex>
 
@@ -37,6 +38,9 @@ std::string number_advice(const std::string& text) {
         with_unit(R"(\s*([+-]?\d*\.?\d+(?:[eE][+-]?\d+)?)\s*([A-Za-z%].*))");
     static const std::map<std::string, std::pair<double, const char*>> factors = {
         {"mm", {1e-3, "m"}}, {"cm", {1e-2, "m"}}, {"g", {1e-3, "kg"}}, {"ms", {1e-3, "s"}}};
+    // A regex takes a call for each letter: long texts, which are no numbers either, would exhaust the stack.
+    constexpr std::size_t longest_number = 40;
+    if (text.size() > longest_number) return "";
     std::smatch part;
     if (std::regex_match(text, part, comma)) return "; decimals take a point: " + part.str(1) + "." + part.str(2);
     if (!std::regex_match(text, part, with_unit)) return "";
@@ -44,7 +48,7 @@ std::string number_advice(const std::string& text) {
     if (factor == factors.end()) return "; a number is written without its unit: " + part.str(1);
     const auto& [scale, unit] = factor->second;
     return std::string("; a number is written without its unit, in ") + unit + ": " +
-           number_text(std::stod(short_number(scale * std::stod(part.str(1)))));
+           number_text(std::strtod(short_number(scale * std::strtod(part.str(1).c_str(), nullptr)).c_str(), nullptr));
 }
 
 std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
