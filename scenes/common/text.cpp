@@ -48,7 +48,7 @@ std::string number_advice(const std::string& text) {
     if (factor == factors.end()) return "; a number is written without its unit: " + part.str(1);
     const auto& [scale, unit] = factor->second;
     return std::string("; a number is written without its unit, in ") + unit + ": " +
-           number_text(std::strtod(short_number(scale * std::strtod(part.str(1).c_str(), nullptr)).c_str(), nullptr));
+           short_number(scale * std::strtod(part.str(1).c_str(), nullptr));
 }
 
 std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }

@@ -214,13 +214,14 @@ std::string pinch_text(const Pinch& pinch, const Scene& scene) {
 
 namespace {
 
-/// Where and when what was measured over a whole run was worst; "" where that is not known.
+/// Where and when what was measured over a whole run was largest, or nearest; "" where that is not known, as of depth, by which
+/// the worst frame is not chosen.
 std::string place_of(const std::string& measure, const Measures& measures, const Scene& scene) {
     if (measure == "largest_strain" && measures.strained_cloth >= 0)
         return " (cloth '" + scene.cloths[static_cast<std::size_t>(measures.strained_cloth)].name + "' at " +
                short_number(measures.strain_time) + " s)";
-    const bool of_frames = measure == "intersections" || measure == "deepest_penetration" || measure == "smallest_distance";
-    return of_frames && measures.worst_frame >= 0 ? " (worst in frame " + std::to_string(measures.worst_frame) + ")" : "";
+    const bool of_frames = measure == "intersections" || measure == "smallest_distance";
+    return of_frames && measures.worst_frame >= 0 ? " (nearest in frame " + std::to_string(measures.worst_frame) + ")" : "";
 }
 
 }  // namespace

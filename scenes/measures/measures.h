@@ -138,7 +138,8 @@ void add_end(Measures& measures, const Simulation& simulation, std::span<const C
 /// Largest distance between the cloths' vertices, taken in order, and the reference's, m. The counts must be equal.
 double largest_vertex_distance(const Simulation& simulation, std::span<const ClothId> cloths, std::span<const Vec3> reference);
 
-/// Judges all expectations of a run; where one failed that is of the whole run, its text says where and when it was worst.
+/// Judges all expectations of a run; where one failed that is of the whole run, its text says in which cloth and when, or in
+/// which frame.
 std::vector<ExpectationResult> judge_run(std::span<const Expectation> expectations, const Measures& measures,
                                          std::span<const double> timed, const Scene& scene);
 

@@ -147,6 +147,21 @@ TEST_CASE("strain and distance take their extreme over the steps") {
     CHECK(measures.smallest_distance == Approx(0.3));
 }
 
+TEST_CASE("what failed over a whole run is told with the frame, what passed or is of a time is not") {
+    Measures measures;
+    measures.intersections = 3;
+    measures.worst_frame = 12;
+    std::vector<Expectation> none(3);
+    for (Expectation& expectation : none) expectation.measure = "intersections";
+    none[1].highest = 5.0;
+    none[2].at = 1.0;
+    const std::vector<double> timed = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(), 2.0};
+    const auto verdicts = judge_run(none, measures, timed, Scene{});
+    CHECK(verdicts[0].text == "intersections 3, expected = 0: failed (nearest in frame 12)");
+    CHECK(verdicts[1].text.ends_with(": passed"));
+    CHECK(verdicts[2].text.ends_with(": failed"));
+}
+
 TEST_CASE("speeds at the end are the largest and the root mean square over all vertices") {
     Sheet sheet;
     sheet.simulation.set_velocities(sheet.cloths[0],
