@@ -41,6 +41,16 @@ std::string far_text(const std::string& mover, double travel) {
     return text.str();
 }
 
+/// What else may be wrong with a step that failed.
+std::string jump_text(const StepReport& report) {
+    if (report.jump <= 0.0) return "";
+    std::ostringstream text;
+    text
+        << "; something moves " << report.jump
+        << " m beside the cloth in this one step: if it jumped, teleport cloth and obstacles together and set their targets anew";
+    return text.str();
+}
+
 std::string failure_text(const StepReport& report) {
     std::ostringstream text;
     const bool by_cloth = report.blocking_obstacle < 0 && !report.blocking_name.empty();
@@ -192,7 +202,8 @@ const char* solver_word(LinearSolver solver) {
 std::string StepReport::explanation() const {
     std::ostringstream text;
     text << "step from t = " << (ok() ? time - dt : time) << " s over " << dt << " s: " << status_word(status);
-    if (!ok()) text << ", " << failure_text(*this);
+    if (!ok()) text << ", " << failure_text(*this) << jump_text(*this);
+    if (status == StepStatus::not_converged && stretched_cloth >= 0) text << ", " << stretch_text(*this);
     text << " (" << newton_iterations << " Newton and " << linear_iterations << " linear iterations, relative residual "
          << residual << ", " << halvings << " halvings" << (dropped.total() > 0 ? "; dropped: " + dropped.text() : "")
          << (out_of_time ? "; ended by its time limit" : "") << ")";

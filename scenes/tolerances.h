@@ -148,7 +148,7 @@ constexpr double whole_steps_rounding = 1e-9, least_last_step = 1e-3;
 /// Strain from which a run warns that cloth would have torn. Smaller: it warns of knits that stretch.
 constexpr double torn_strain = 1.0;
 
-/// Strain from which drape warns that a garment is tight. Smaller: it warns of knits made to stretch.
+/// Strain from which a run and drape warn that a garment is tight. Smaller: it warns of knits made to stretch.
 constexpr double tight_strain = 0.25;
 
 /// Share of a strain limit by which cloth may pass it untold.
@@ -168,6 +168,9 @@ constexpr std::size_t shown_elements = 4;
 /// m. Meshes of bodies and garments are 0.1 to some 10 m large; from the first on they look like cm, from the second like mm,
 /// and up to the third like a unit too much.
 constexpr double centimetre_extent = 50.0, millimetre_extent = 500.0, tiny_extent = 2e-3;
+
+/// Share of a cloth's median edge: rims nearer than that were likely meant to be one.
+constexpr double near_rim_share = 0.05;
 
 /// Times the mesh's size: farther from the origin rounding spoils its shape.
 constexpr double farthest_extents = 1e4;

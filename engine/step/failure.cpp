@@ -108,6 +108,11 @@ void tell_failure(const StepScene& scene, SpanEnd end, const Workspace& work, St
     report.status = scene.plan.obstacles_move ? StepStatus::obstacle_too_fast : StepStatus::pin_blocked;
 }
 
+void tell_unsolved(const StepScene& scene, const Workspace& work, StepReport& report) {
+    report.status = StepStatus::not_converged;
+    if (!scene.plan.pins_move) name_stretched_cloth(scene, work, report);
+}
+
 void tell_too_far(const StepScene& scene, const MotionParts& motion, StepReport& report) {
     report.travel = motion.travel;
     if (motion.vertex >= 0) {

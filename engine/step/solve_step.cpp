@@ -137,7 +137,7 @@ private:
             }
             if (result.is_usable(next.last_try)) {
                 keep(result);
-                if (result.end != SpanEnd::solved) report_.status = StepStatus::not_converged;
+                if (result.end != SpanEnd::solved) tell_unsolved(scene_, work_, report_);
                 report_.out_of_time = report_.out_of_time || result.out_of_time;
                 report_.smallest_dt = std::min(report_.smallest_dt, next.length());
                 report_.largest_dt = std::max(report_.largest_dt, next.length());

@@ -178,7 +178,9 @@ StepReport step(World& world) {
     const MotionParts motion = motion_parts(world.scene, world.state.cloth);
     if (motion.count > most_step_parts) return refuse_far(world, motion);
     StepReport report = motion.count > 1 ? step_divided(world, motion.count) : step_once(world);
-    return any_yields(world.scene.script) ? step_yielding(world, motion.count, std::move(report)) : report;
+    if (any_yields(world.scene.script)) report = step_yielding(world, motion.count, std::move(report));
+    if (!report.ok() && motion.count >= jump_parts) report.jump = motion.travel;
+    return report;
 }
 
 }  // namespace percale

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "common/text.h"
+#include "garment/cloth_warnings.h"
 #include "percale/certify.h"
 #include "percale/cleaning.h"
 #include "percale/error.h"
@@ -135,9 +136,15 @@ void find_cloth_shape(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
     found.add_elements(bends ? Severity::error : Severity::warning, "folded_flat", facts.folded_flat,
                        "pair|pairs of vertices opposite an edge at the same place, where a bending spring has no length",
                        "unfold the mesh there, or set springs.bend = 0");
+    const std::string join = "merge vertices by distance in the mesh, or sew them (a [[seam]], lines \"stitch\" in the OBJ file)";
     found.add_elements(Severity::warning, "repeated_places", facts.repeated_places,
-                       "vertex|vertices at the place of an earlier one, not joined to it: the cloth comes apart there",
-                       "merge vertices by distance in the mesh, or sew them with a [[seam]]");
+                       "vertex|vertices at the place of an earlier one, not joined to it: the cloth comes apart there", join);
+    const double near = near_rim_share * facts.median_edge;
+    if (!cloth.sewn && near > 0.0)
+        found.add_elements(Severity::warning, "near_rims", near_rim_vertices(cloth.mesh, facts, near),
+                           "vertex|vertices of a rim less than " + short_number(near) +
+                               " m beside another one, not joined to it: the cloth is open there",
+                           join);
     found.add_elements(Severity::warning, "pinched_vertices", facts.pinched_vertices,
                        "vertex|vertices by which alone pieces hang together (non-manifold)",
                        "split the mesh at them, or join the pieces by an edge");
@@ -254,10 +261,9 @@ std::vector<Finding> examine_obstacle(const ExaminedMesh& obstacle) {
 
 namespace {
 
-/// Garments have rims and bodies are closed.
 bool looks_swapped(const ExaminedMesh& cloth, const ExaminedMesh& obstacle) {
     if (!cloth.from_file || !obstacle.from_file || cloth.filled || !cloth.facts.watertight()) return false;
-    return !mesh_facts(joined_by_place(obstacle.mesh).mesh).watertight();
+    return !is_watertight(joined_by_place(obstacle.mesh).mesh);
 }
 
 }  // namespace
@@ -276,8 +282,7 @@ std::vector<Finding> examine_pair(const ExaminedMesh& cloth, const ExaminedMesh&
         return found.take();
     }
     if (looks_swapped(cloth, obstacle))
-        found.add(Severity::warning, "swapped",
-                  "it is a closed surface and " + obstacle.name + " is not: were their meshes swapped?",
+        found.add(Severity::warning, "swapped", swapped_text(obstacle.name),
                   "name the garment's mesh as cloth and the body's as obstacle; leave it so if the cloth is meant to be closed");
     std::array<double, 3> sides;
     for (int axis = 0; axis < 3; ++axis) sides[axis] = obstacle.facts.highest[axis] - obstacle.facts.lowest[axis];

@@ -135,11 +135,6 @@ void find_unused_fabrics(const Scene& scene, std::vector<Finding>& found) {
     }
 }
 
-bool pins_nothing(const ClothSpec& cloth) {
-    const auto* indices = std::get_if<VertexIndices>(&cloth.pin);
-    return indices != nullptr && indices->vertices.empty();
-}
-
 bool pulls(const Scene& scene) {
     return scene.step.gravity != Vec3::Zero() ||
            std::any_of(scene.events.begin(), scene.events.end(), [](const EventSpec& event) {
@@ -153,7 +148,7 @@ void find_free_fall(const Scene& scene, std::vector<Finding>& found) {
                                     [](const EventSpec& event) { return std::holds_alternative<PinEvent>(event.what); });
     if (!scene.obstacles.empty() || !scene.seams.empty() || pinned || !pulls(scene)) return;
     for (const ClothSpec& cloth : scene.cloths) {
-        if (!pins_nothing(cloth)) continue;
+        if (has_pins(cloth)) continue;
         found.push_back({.severity = scene.until_rest ? Severity::error : Severity::warning,
                          .kind = "free_fall",
                          .place = place_text(cloth.place),
@@ -323,7 +318,27 @@ void find_start_moves(const BuiltScene& built, std::vector<Finding>& found) {
                          .kind = "start_moved",
                          .place = place_text(cloth.place),
                          .what = start_move_text(move),
-                         .fix = "move it there by pose.translation, or set step.start = \"refuse\" to have it refused"});
+                         .fix = "move it there by pose.translation, enlarge it by pose.scale if it is too small for what it is "
+                                "around, or set step.start = \"refuse\" to have it refused"});
+    }
+}
+
+/// Pins in the world that a body is going to leave behind.
+void find_left_pins(const BuiltScene& built, std::vector<Finding>& found) {
+    const Scene& scene = built.scene;
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+        const double size = mesh_facts(built.cloth_meshes[i]).extent();
+        for (const ObstacleSpec& obstacle : scene.obstacles) {
+            const double displacement =
+                (obstacle_pose_at(obstacle, scene.latest_end()).translation - obstacle_pose_at(obstacle, 0.0).translation).norm();
+            if (!has_pins_in_world(scene.cloths[i]) || displacement < size) continue;
+            found.push_back({.severity = Severity::note,
+                             .kind = "pins_stay",
+                             .place = place_text(scene.cloths[i].pin_place),
+                             .what = "the pins of cloth '" + scene.cloths[i].name + "' stay in the world, and obstacle '" +
+                                     obstacle.name + "' goes " + short_number(displacement) + " m away",
+                             .fix = "pin = { box = ..., to = \"" + obstacle.name + "\" } if they belong to it"});
+        }
     }
 }
 
@@ -337,8 +352,12 @@ void examine_built(const Scene& scene, std::vector<Finding>& found) {
     for (const TriangleMesh& mesh : built.cloth_meshes) vertices += mesh.vertices.size();
     read_references(built.scene, vertices);
     const ScenePlan plan = plan_of(built);
-    for (const std::string& warning : plan.warnings) found.push_back(plan_warning(scene, plan, warning));
+    for (const std::string& warning : plan.warnings) {
+        const bool known = std::ranges::find(found, warning, &Finding::what) != found.end();  // swapped meshes
+        if (!known) found.push_back(plan_warning(scene, plan, warning));
+    }
     find_start_moves(built, found);
+    find_left_pins(built, found);
     append(examine_cost(built, plan), found);
 }
 

@@ -200,10 +200,17 @@ private:
         made_.scene.obstacles.push_back(body);
     }
 
-    /// What is an error building the scene refuses.
+    /// What is an error building the scene refuses. Where the mesh itself is to be mended, it is said how.
     void ask_doctor() {
+        const auto among = [](const Finding& finding, std::initializer_list<std::string_view> kinds) {
+            return std::ranges::find(kinds, finding.kind) != kinds.end();
+        };
         for (const Finding& finding : examine_scene_meshes(made_.scene)) {
-            if (finding.severity == Severity::warning) note("warning: " + finding.what);
+            const bool open = finding.role == MeshRole::cloth && among(finding, {"repeated_places", "near_rims", "parts"});
+            made_.comes_apart = made_.comes_apart || open;
+            if (finding.severity != Severity::warning) continue;
+            const bool of_mesh = among(finding, {"repeated_places", "near_rims", "pinched_vertices", "slivers", "edge_lengths"});
+            note("warning: " + finding.what + (of_mesh ? "; " + finding.fix : ""));
         }
     }
 

@@ -24,14 +24,16 @@ std::string restless_text(const Drape& drape) {
            " m/s, all at " + short_number(drape.rest.rms_speed) + " m/s rms";
 }
 
-std::string fault_of(const Drape& drape, const FrameCheck& check, const WidestGap& gap) {
+std::string fault_of(const Drape& drape, const FrameCheck& check, const WidestGap& gap, bool comes_apart) {
     if (!check.clean()) return unclean_text(check);
     if (gap.width > widest_sewn_gap) return unsewn_text(gap);
     if (drape.end == DrapeEnd::settled) return {};
     const bool away = drape.end == DrapeEnd::time_up && std::isinf(check.smallest_distance);
     if (drape.end == DrapeEnd::fell || away) {
         return std::string(drape.met ? "fell off the body" : "never met the body") +
-               "; use --move to start it where it can catch, or a size that holds";
+               (comes_apart ? "; pieces or rims of it are joined by nothing, merge their vertices by distance in the mesh; or "
+                            : "; ") +
+               "use --move to start it where it can catch, or a size that holds";
     }
     return restless_text(drape);
 }
@@ -50,16 +52,6 @@ void tell_of_sliding(const BuiltScene& built, const Drape& drape, DrapeVerdict& 
         if (drop < far_slid) continue;
         verdict.lines.push_back("warning: '" + built.scene.cloths[k].name + "' slid down by " + short_number(drop) +
                                 " m in the mean since it was sewn: it does not hold where it was drawn");
-    }
-}
-
-/// A garment that is too small for the body fits it all the same: springs stretch as far as they have to.
-void tell_of_tightness(const BuiltScene& built, DrapeVerdict& verdict) {
-    for (std::size_t k = 0; k < built.cloths.size(); ++k) {
-        const double strain = built.simulation.largest_strain(built.cloths[k]);
-        if (strain < tight_strain || strain > torn_strain) continue;
-        verdict.lines.push_back("warning: '" + built.scene.cloths[k].name + "' is stretched by " + percent_text(strain) +
-                                " at its tightest: it may be too small for the body (--scale makes it larger)");
     }
 }
 
@@ -86,7 +78,8 @@ DrapedFiles write_draped(const BuiltScene& built, const DrapeOptions& options, b
     return files;
 }
 
-DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, const Drape& drape, const DrapedFiles& files) {
+DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, const Drape& drape, const DrapedFiles& files,
+                        bool comes_apart) {
     DrapeVerdict verdict;
     const FrameCheck& check = files.check;
     if (options.no_self_contact && files.own_crossings > 0) {
@@ -104,8 +97,9 @@ DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, co
     const WidestGap gap = widest_gap(built);
     if (gap.stitches > 0) verdict.lines.push_back(seam_text(gap, check));
     tell_of_sliding(built, drape, verdict);
-    tell_of_tightness(built, verdict);
-    const std::string fault = fault_of(drape, check, gap);
+    for (const std::string& text : tight_warnings(built))
+        verdict.lines.push_back("warning: " + text + " (--scale makes it larger)");
+    const std::string fault = fault_of(drape, check, gap, comes_apart);
     const std::string outs = joined(options.outs);
     if (!fault.empty())
         verdict.wrong = outs + ": " + fault + "; " + outs + (options.outs.size() > 1 ? " hold" : " holds") + " how it was then";

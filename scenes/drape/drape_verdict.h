@@ -21,6 +21,7 @@ struct DrapeVerdict {
     std::vector<std::string> lines = {};
     std::string wrong = {};
 };
-DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, const Drape& drape, const DrapedFiles& files);
+DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, const Drape& drape, const DrapedFiles& files,
+                        bool comes_apart = false);
 
 }  // namespace percale::scenes

@@ -62,6 +62,18 @@ struct ClothSpec {
     SourcePlace place;
 };
 
+/// Whether a vertex of it is pinned at the start.
+inline bool has_pins(const ClothSpec& cloth) {
+    const auto* indices = std::get_if<VertexIndices>(&cloth.pin);
+    return indices == nullptr || !indices->vertices.empty();
+}
+
+/// Whether some of its pins stay where they are, and belong to no obstacle.
+inline bool has_pins_in_world(const ClothSpec& cloth) {
+    const auto* box = std::get_if<VertexBox>(&cloth.pin);
+    return has_pins(cloth) && (box == nullptr || box->to.empty());
+}
+
 /// One keyframe; what it does not say stays as the previous one (the first: as the pose) has it.
 struct Keyframe {
     double time = 0.0;  // s

@@ -21,13 +21,18 @@ struct Spot {
     }
 };
 
+constexpr const char* quaternion_advice =
+    "; it is a unit quaternion [w, x, y, z]: a turn by the angle a about the unit vector n is [cos(a/2), sin(a/2) n]";
+
+/// "[0]" of "cloth.0.pose.rotation[0]" goes: what is left is the value as a whole.
+bool is_rotation(const std::string& shown) { return shown.substr(0, shown.rfind('[')).ends_with("rotation"); }
+
 [[noreturn]] void fail_kind(const TomlNode& node, const SceneKey& key, const std::string& shown) {
     const std::string unit = key.unit.empty() ? "" : " (" + key.unit + ")";
     const bool one_table = key.kind == KeyKind::table_list && node.kind == TomlKind::table;
     std::string advice = one_table ? "; write [[" + shown + "]]" : "";
-    if (shown.ends_with("rotation") && node.kind == TomlKind::list)
-        advice =
-            "; it is a unit quaternion [w, x, y, z]: a turn by the angle a about the unit vector n is [cos(a/2), sin(a/2) n]";
+    if (is_rotation(shown) && node.kind == TomlKind::list) advice = quaternion_advice;
+    if (key.kind == KeyKind::named_tables) advice = "; write [" + shown + ".NAME], once for each";
     if (node.kind == TomlKind::text) advice += number_advice(node.text);
     fail_at(node.place, shown + " must be " + kind_text(key) + unit + ", not " + described(node) + advice);
 }
@@ -38,7 +43,8 @@ void check_number(const TomlNode& node, const SceneKey& key, const std::string& 
     const std::string value = shown + " = " + number_text(node.number) + unit;
     if (!std::isfinite(node.number)) fail_at(node.place, value + " is not finite");
     if (node.number < key.lowest || node.number > key.highest)
-        fail_at(node.place, value + " is out of range; allowed: " + range_text(key));
+        fail_at(node.place,
+                value + " is out of range; allowed: " + range_text(key) + (is_rotation(shown) ? quaternion_advice : ""));
 }
 
 void check_numbers(const TomlNode& node, const SceneKey& key, const std::string& shown) {
@@ -180,11 +186,25 @@ void check_table_list(const TomlNode& node, const SceneKey& key, const Spot& spo
     }
 }
 
+/// Whether what stands under [fabric] is "springs = { structural = 1 }", a key of a fabric, and no fabric of that name.
+bool is_meant_for_nameless(const TomlNode& node, const std::string& path) {
+    const SceneKey* key = find_scene_key(path + "." + node.key);
+    if (key == nullptr || node.kind != TomlKind::table) return key != nullptr;
+    const std::vector<std::string> inside = keys_inside(key->path), named = keys_inside(path);
+    const auto fits = [&](const TomlNode& entry) {
+        return std::ranges::find(inside, entry.key) != inside.end() && std::ranges::find(named, entry.key) == named.end();
+    };
+    return !node.entries.empty() && std::ranges::all_of(node.entries, fits);
+}
+
 void check_named_tables(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
     if (node.kind != TomlKind::table) fail_kind(node, key, spot.shown);
     for (const TomlNode& table : node.entries) {
         faults.attempt([&] {
             const std::string& name = table.key;
+            if (is_meant_for_nameless(table, spot.path))
+                fail_at(table.key_place, "[" + spot.shown + "] lacks a name; write [" + spot.shown + ".NAME], not [" +
+                                             spot.shown + "], above '" + name + "'");
             if (table.kind != TomlKind::table)
                 fail_at(table.place,
                         spot.shown + "." + name + " must be a table [" + spot.shown + ".NAME], not " + described(table));

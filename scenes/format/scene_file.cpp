@@ -104,6 +104,10 @@ std::string file_text(const std::string& file) {
 Scene scene_with(TomlNode document, const std::string& name, std::span<const Override> overrides, FaultList& faults) {
     document.place = {.file = name};
     if (document.entries.empty()) fail_at(document.place, "is empty; a scene needs at least one [fabric.NAME] and one [[cloth]]");
+    if (document.find("panel") != nullptr && document.find("cloth") == nullptr)
+        throw SceneError(name +
+                         ": is a sewing pattern, not a scene file: a scene names it as pattern of a [[cloth]], percale "
+                         "drape sews it around a body, percale sew writes its mesh");
     for (const Override& override : overrides) apply_override(document, override);
     check_document(document, faults);
     if (!faults.found.empty()) return {};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -227,6 +228,49 @@ MeshFacts mesh_facts(const TriangleMesh& mesh) {
     facts.pinched_vertices = pinched(mesh);
     add_parts(mesh, facts);
     return facts;
+}
+
+bool is_watertight(const TriangleMesh& mesh) {
+    const std::vector<Side> sides = sorted_sides(mesh.triangles);
+    for (std::size_t first = 0; first < sides.size(); first += 2) {
+        const bool two = first + 1 < sides.size() && sides[first].ends == sides[first + 1].ends;
+        const bool more = first + 2 < sides.size() && sides[first].ends == sides[first + 2].ends;
+        if (!two || more || sides[first].forward == sides[first + 1].forward) return false;
+    }
+    return true;
+}
+
+std::vector<int> near_rim_vertices(const TriangleMesh& mesh, const MeshFacts& facts, double distance) {
+    std::vector<VertexPair> joined;
+    std::vector<int> rim;
+    for (const VertexPair& edge : facts.open_edges) rim.insert(rim.end(), edge.begin(), edge.end());
+    std::sort(rim.begin(), rim.end());
+    rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
+    for (const Side& side : sorted_sides(mesh.triangles)) joined.push_back(side.ends);
+    std::sort(joined.begin(), joined.end());
+
+    using Cell = std::array<long, 3>;
+    const auto cell_of = [&](const Vec3& x) {
+        return Cell{std::lround(x.x() / distance), std::lround(x.y() / distance), std::lround(x.z() / distance)};
+    };
+    std::map<Cell, std::vector<int>> cells;
+    for (const int v : rim) cells[cell_of(mesh.vertices[v])].push_back(v);
+    const auto is_near = [&](int v, int other) {
+        const double apart = (mesh.vertices[v] - mesh.vertices[other]).norm();
+        const VertexPair pair = {std::min(v, other), std::max(v, other)};
+        return apart > 0.0 && apart < distance && !std::binary_search(joined.begin(), joined.end(), pair);
+    };
+    const auto has_near = [&](int v) {
+        const Cell own = cell_of(mesh.vertices[v]);
+        for (int k = 0; k < 27; ++k) {
+            const auto cell = cells.find({own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1});
+            if (cell == cells.end()) continue;
+            if (std::ranges::any_of(cell->second, [&](int other) { return is_near(v, other); })) return true;
+        }
+        return false;
+    };
+    std::erase_if(rim, [&](int v) { return !has_near(v); });
+    return rim;
 }
 
 JoinedMesh joined_by_place(const TriangleMesh& mesh) {

@@ -69,6 +69,8 @@ public:
     TomlPattern(const TomlNode& document, const std::string& name) : document_(document) { pattern_.file = name; }
 
     Pattern read() {
+        if (document_.find("cloth") != nullptr && document_.find("panel") == nullptr)
+            throw SceneError(pattern_.file + ": is a scene file, not a sewing pattern: percale run takes it");
         check_keys(document_, "a pattern", {"title", "unit", "panel", "seam"});
         read_unit();
         for (const TomlNode& node : list_in(needed(document_, "a pattern", "panel"), "panel")) add_panel(node);

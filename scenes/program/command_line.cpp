@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -27,16 +28,30 @@ void check_command_name(const std::string& word) {
     throw SceneError("no such command '" + word + "'" + scenes::suggestion(word, commands));
 }
 
+/// "help" and "help run" are "--help" and "run --help".
+std::vector<std::string> with_help_option(std::vector<std::string> words) {
+    if (words.empty() || words.front() != "help") return words;
+    words.erase(words.begin());
+    words.emplace_back("--help");
+    return words;
+}
+
+bool is_number(const std::string& word) {
+    char* end = nullptr;
+    std::strtod(word.c_str(), &end);
+    return !word.empty() && end == word.c_str() + word.size();
+}
+
 /// Three numbers after an option are words or have commas between them. With both, as in "0 1,5 0", a comma was meant as a point.
-void check_commas(const std::vector<std::string>& words) {
-    for (const char* option : {"--move", "--rotate"}) {
-        const auto found = std::find(words.begin(), words.end(), option);
-        if (words.end() - found < 3 || found[1].find(',') != std::string::npos) continue;
-        for (const std::string& word : {found[2], words.end() - found > 3 ? found[3] : std::string()})
-            if (const std::string advice = scenes::number_advice(word); !advice.empty())
-                throw SceneError(std::string(option) + " " + found[1] + " " + found[2] + " ...: '" + word + "' is no number" +
-                                 advice);
-    }
+void check_three_numbers(const std::vector<std::string>& words, const std::string& option) {
+    const auto found = std::find(words.begin(), words.end(), option);
+    if (words.end() - found < 2 || found[1].find(',') != std::string::npos) return;
+    const std::vector<std::string> three(found + 1, found + std::min<std::ptrdiff_t>(4, words.end() - found));
+    const auto wrong = std::find_if_not(three.begin(), three.end(), is_number);
+    if (wrong == three.end() && three.size() == 3) return;
+    const std::string what = wrong == three.end() ? std::to_string(three.size()) + " are given"
+                                                  : "'" + *wrong + "' is no number" + scenes::number_advice(*wrong);
+    throw SceneError(option + " takes three numbers, as in " + option + " 0 1.5 0, but " + what);
 }
 
 /// "Could not convert: --thickness = 5mm" and what to write instead.
@@ -85,10 +100,12 @@ int parse_and_act(int argc, char** argv) {
     add_sew_command(program, action);
     add_stress_command(program, action);
     add_sweep_command(program, action);
-    if (argc > 1) check_command_name(argv[1]);
-    check_commas({argv, argv + argc});
+    std::vector<std::string> words = with_help_option({argv + 1, argv + argc});
+    if (!words.empty()) check_command_name(words.front());
+    for (const char* option : {"--move", "--rotate"}) check_three_numbers(words, option);
+    std::reverse(words.begin(), words.end());  // as the parser takes them
     try {
-        program.parse(argc, argv);
+        program.parse(words);
     } catch (const CLI::ExtrasError&) {
         fail_unexpected(program);
     } catch (const CLI::ConversionError& error) {

@@ -30,8 +30,9 @@ struct DrapeCommand {
     bool quiet = false;
 };
 
-int finish(const BuiltScene& built, const DrapeCommand& command, const Drape& drape, bool z_up) {
-    const DrapeVerdict verdict = verdict_of(built, command.drape, drape, write_draped(built, command.drape, z_up));
+int finish(const BuiltScene& built, const DrapeCommand& command, const Drape& drape, const DrapeScene& made) {
+    const DrapeVerdict verdict =
+        verdict_of(built, command.drape, drape, write_draped(built, command.drape, made.z_up), made.comes_apart);
     if (!command.quiet) {
         for (const std::string& line : verdict.lines) std::printf("%s\n", line.c_str());
     }
@@ -43,7 +44,11 @@ int finish(const BuiltScene& built, const DrapeCommand& command, const Drape& dr
 std::size_t print_start(const DrapeOptions& options, const DrapeScene& made, const BuiltScene& built) {
     std::printf("%s onto %s\n", joined(options.garments()).c_str(), options.body().c_str());
     for (const std::string& note : made.notes) std::printf("%s\n", note.c_str());
-    for (const std::string& warning : built.warnings) std::printf("warning: %s\n", warning.c_str());
+    for (const std::string& text : built.warnings) {
+        const std::string warning = "warning: " + text;
+        const bool told = std::ranges::find(made.notes, warning) != made.notes.end();  // swapped meshes
+        if (!told) std::printf("%s\n", warning.c_str());
+    }
     const std::size_t moves = print_start_moves(built.simulation);
     std::fflush(stdout);
     return moves;
@@ -70,7 +75,7 @@ std::optional<int> drape_once(const DrapeCommand& command, const StopSignals& si
                         drape.failure.c_str());
         return std::nullopt;
     }
-    if (drape.end != DrapeEnd::failed) return finish(built, command, drape, made.z_up);
+    if (drape.end != DrapeEnd::failed) return finish(built, command, drape, made);
     std::fprintf(stderr, "percale: %s: nothing was written: %s\n", garments.c_str(), drape.failure.c_str());
     return not_as_expected;
 }

@@ -65,6 +65,12 @@ std::size_t print_start(const RunOptions& options, const BuiltScene& built) {
     return moves;
 }
 
+/// As soon as it is known: cloth that tears makes steps dear, and a run may take long to its end.
+void print_torn(const BuiltScene& built, const StepReport& report) {
+    std::printf("warning: at %.3g s %s\n", report.time, strain_warnings(built, report.largest_strain).front().c_str());
+    std::fflush(stdout);
+}
+
 /// Leaves what is wrong with a start beside the output folder; the name of the file, or nothing where it cannot be written.
 std::string leave_picture(const RunOptions& options, const TriangleMesh& triangles) {
     std::string folder = options.folder;
@@ -156,6 +162,7 @@ int run(RunOptions options) {
     RunFolder folder(options.folder, built.scene, options.common.replay_hash);
     ProgressBar bar(!options.common.quiet && !options.verbose, built.scene.latest_end());
     std::size_t start_moves = 0;
+    bool torn = false;  // it was said
     RunHooks hooks;
     hooks.begin = [&] {
         from ? folder.begin_from(from->folder, folder_of(options.resume)) : folder.begin();
@@ -165,6 +172,11 @@ int run(RunOptions options) {
     hooks.step = [&](const StepReport& report, const Simulation& simulation) {
         folder.add(report, simulation);
         if (options.verbose) std::printf("%s\n", report.explanation().c_str());
+        if (!options.common.quiet && !torn && report.largest_strain > torn_strain) {
+            torn = true;
+            bar.clear();
+            print_torn(built, report);
+        }
         bar.show(simulation.time());
     };
     hooks.stop_asked = [&] { return signals.asked(); };

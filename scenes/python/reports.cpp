@@ -86,6 +86,7 @@ void bind_trouble(py::class_<StepReport>& report) {
         .def_readonly("second_obstacle", &StepReport::second_obstacle, "Pushes the cloth towards the blocking one.")
         .def_readonly("second_name", &StepReport::second_name)
         .def_readonly("travel", &StepReport::travel, "m, of an obstacle or a pin that moves too far for a step.")
+        .def_readonly("jump", &StepReport::jump, "m, of one that moves so far that a step, which failed, had 8 parts or more.")
         .def_readonly("pinched", &StepReport::pinched, "Places where obstacles give way to cloth.")
         .def_readonly("yielded", &StepReport::yielded, "m, how far such an obstacle is from where it should be.")
         .def_readonly("yielded_in_vain", &StepReport::yielded_in_vain)

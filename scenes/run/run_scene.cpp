@@ -306,7 +306,8 @@ public:
             if ((stop || due) && hooks_.checkpoint) hooks_.checkpoint(state());
             if (!stop) continue;
             result_.status = RunStatus::stopped;
-            result_.reason = lengths_.made_text(built_.simulation.time());
+            result_.reason =
+                "stopped at " + short_number(built_.simulation.time()) + " of " + short_number(built_.scene.latest_end()) + " s";
             return;
         }
         if (script_.rest) end_at_rest(script_.rest->figures());

@@ -231,10 +231,13 @@ void check_start(BuiltScene& built) {
     }
 }
 
-bool has_pins_in_world(const ClothSpec& cloth) {
-    if (const auto* indices = std::get_if<VertexIndices>(&cloth.pin)) return !indices->vertices.empty();
-    const auto* box = std::get_if<VertexBox>(&cloth.pin);
-    return box == nullptr || box->to.empty();
+/// What is likely a mistake.
+void add_doubts(BuiltScene& built) {
+    std::vector<TriangleMesh> obstacles;
+    for (std::size_t k = 0; k < built.obstacles.size(); ++k) obstacles.push_back(obstacle_now(built, k));
+    for (const auto& doubts :
+         {cloth_warnings(built.scene, built.cloth_meshes), meeting_warnings(built.scene, built.cloth_meshes, obstacles)})
+        built.warnings.insert(built.warnings.end(), doubts.begin(), doubts.end());
 }
 
 /// Cloth that would have torn, and what often is why.
@@ -297,6 +300,17 @@ std::vector<std::string> strain_warnings(const BuiltScene& built, double largest
     return warnings;
 }
 
+std::vector<std::string> tight_warnings(const BuiltScene& built) {
+    std::vector<std::string> warnings;
+    for (std::size_t k = 0; k < built.cloths.size(); ++k) {
+        const double strain = built.simulation.largest_strain(built.cloths[k]);
+        if (has_pins(built.scene.cloths[k]) || strain < tight_strain || strain > torn_strain) continue;
+        warnings.push_back("'" + built.scene.cloths[k].name + "' is stretched by " + percent_text(strain) +
+                           " at its tightest: it may be too small for the body");
+    }
+    return warnings;
+}
+
 std::vector<ClothStitches> sewn_stitches(const BuiltScene& built) {
     std::vector<ClothStitches> sewn;
     for (const BuiltSeam& seam : built.seams) sewn.push_back(seam.sewn);
@@ -330,9 +344,8 @@ BuiltScene build_scene(const Scene& given) {
         at_place_of(cloth, [&] { add_cloth(built, cloth); });
         pin_cloth(built, cloth);
     }
-    const std::vector<std::string> doubts = cloth_warnings(scene, built.cloth_meshes);
-    built.warnings.insert(built.warnings.end(), doubts.begin(), doubts.end());
     for (const ObstacleSpec& obstacle : scene.obstacles) at_place_of(obstacle, [&] { add_obstacle(built, obstacle); });
+    add_doubts(built);
     for (const SeamSpec& seam : scene.seams) add_seam(built, seam);
     sew_other_patterns(built);
     for (const PairSpec& pair : built.scene.pairs) at_place(pair.place, "", [&] { set_pair(built, pair); });

@@ -43,6 +43,10 @@ TriangleMesh obstacle_now(const BuiltScene& built, std::size_t obstacle);
 /// strain_limit by more than a tenth of it.
 std::vector<std::string> strain_warnings(const BuiltScene& built, double largest_strain);
 
+/// What to tell of cloth without pins that is tight now: one that is too small for a body fits it all the same, springs stretch
+/// as far as they have to.
+std::vector<std::string> tight_warnings(const BuiltScene& built);
+
 /// What all seams have sewn.
 std::vector<ClothStitches> sewn_stitches(const BuiltScene& built);
 

@@ -41,9 +41,4 @@ double StepLengths::next(double now) {
     return length_;
 }
 
-std::string StepLengths::made_text(double now) const {
-    if (scene_.step.adaptive) return "stopped at " + std::to_string(now) + " of " + std::to_string(scene_.latest_end()) + " s";
-    return "stopped after " + std::to_string(made_) + " of " + std::to_string(count_.steps) + " steps";
-}
-
 }  // namespace percale::scenes

@@ -19,8 +19,6 @@ public:
     bool over(double now) const;
     /// Of the next step.
     double next(double now);
-    /// "stopped after 3 of 60 steps"
-    std::string made_text(double now) const;
 
 private:
     /// In steps of step.time_step.

@@ -92,6 +92,15 @@ TEST_CASE("Failures say what failed and what to do") {
     fast.second_obstacle = 5;
     fast.second_name = "anvil";
     CHECK(mentions(fast.explanation(), {"obstacle 3 (press)", "obstacle 5 (anvil)", "close on the cloth", "0.0625"}));
+    fast.jump = 1.5;
+    CHECK(mentions(fast.explanation(), {"close on the cloth", "something moves 1.5 m beside the cloth", "teleport"}));
+    StepReport slow = report_of(StepStatus::not_converged);
+    CHECK_FALSE(mentions(slow.explanation(), {"stretched"}));
+    slow.stretched_cloth = 1;
+    slow.stretched_name = "cape";
+    slow.stretched_pins = 3;
+    slow.stretch = 4.0;
+    CHECK(mentions(slow.explanation(), {"not_converged, an edge of cloth 1 (cape) is stretched to 5 times", "3 pinned"}));
     CHECK(mentions(report_of(StepStatus::not_finite).explanation(), {"infinite", "shorter time step"}));
 }
 

@@ -125,15 +125,16 @@ struct StepReport {
     int blocked_vertex = -1;
     int blocking_obstacle = -1;               // -1 where it is cloth, too; blocking_name then says so
     std::string blocked_name, blocking_name;  // of that cloth and obstacle
-    double travel = 0.0;                      // m, beside the cloth, of an obstacle or a pin that moves too far for a step
-    int pinched = 0;                          // places where obstacles give way to cloth, ObstacleSettings::yields
-    double yielded = 0.0;          // m, how far the farthest vertex of such an obstacle is from where it should be, at the end
+    double travel = 0.0;   // m, beside the cloth, of an obstacle or a pin that moves too far for a step, which is not tried
+    double jump = 0.0;     // m, likewise, of one that moves so far that the step, which failed, was made in 8 parts or more
+    int pinched = 0;       // places where obstacles give way to cloth, ObstacleSettings::yields
+    double yielded = 0.0;  // m, how far the farthest vertex of such an obstacle is from where it should be, at the end
     bool yielded_in_vain = false;  // of a failed step: what closed on the cloth gave way, but not enough in 64 parts
     std::array<int, 2> pinching{
         -1, -1};               // the obstacles between which the cloth has least room; both the same where it pinches alone
     int second_obstacle = -1;  // pushes the cloth towards the blocking one
     std::string second_name;
-    int stretched_cloth = -1;  // of a failed step: held by pins and stretched to more than twice its length
+    int stretched_cloth = -1;  // of a step that failed or did not converge: held by pins, stretched to more than twice its length
     int stretched_pins = 0;    // how many of its vertices are pinned
     double stretch = 0.0;      // its largest strain
     std::string stretched_name;

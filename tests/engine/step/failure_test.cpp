@@ -72,6 +72,21 @@ TEST_CASE("Cloth that is stretched between its pins and what moves is named, in 
     CHECK(stuck.report.stretched_cloth == -1);
 }
 
+TEST_CASE("A step that is kept unsolved names the cloth that its pins hold back") {
+    Stuck stuck;
+    tell_unsolved(stuck.world.scene, stuck.world.work, stuck.report);
+    CHECK(stuck.report.status == StepStatus::not_converged);
+    CHECK(stuck.report.stretched_cloth == -1);
+    stuck.world.work.newton.current.positions.add(0, Vec3(-4.0, 0.0, 0.0));
+    tell_unsolved(stuck.world.scene, stuck.world.work, stuck.report);
+    CHECK(stuck.report.stretched_cloth == 0);
+    CHECK(stuck.report.stretch == Approx(8.0));
+    stuck.report = {};
+    stuck.world.scene.plan.pins_move = true;  // then they are not what stays behind
+    tell_unsolved(stuck.world.scene, stuck.world.work, stuck.report);
+    CHECK(stuck.report.stretched_cloth == -1);
+}
+
 TEST_CASE("A pinned vertex in the way of an obstacle is named") {
     Stuck stuck;
     stuck.world.scene.plan.obstacles_move = true;

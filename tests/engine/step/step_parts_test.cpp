@@ -82,6 +82,7 @@ TEST_CASE("Where a part fails, all parts are taken back") {
     const StepReport report = scene.simulation.step();
     CHECK(report.status == StepStatus::obstacle_too_fast);
     CHECK(report.parts > 5);
+    CHECK(report.jump == Approx(1.5).epsilon(0.05));
     CHECK(report.dt == 1.0 / 60.0);
     CHECK(report.energy.total() == Approx(scene.simulation.energy().total()));
     CHECK(report.time == scene.simulation.time());

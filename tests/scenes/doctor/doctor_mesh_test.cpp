@@ -155,6 +155,16 @@ TEST_CASE("a closed cloth and an open obstacle were likely swapped, unless the c
     CHECK(find(pair(ball, shifted(ball, {0, 0.5, 0}), false), "swapped") == nullptr);
 }
 
+TEST_CASE("rims that lie side by side were likely meant to be joined, unless a seam joins them") {
+    const TriangleMesh open = both(free_sheet(), shifted(free_sheet(), {0.602, 0, 0}));
+    check_only(of_cloth(open), "near_rims", Severity::warning);
+    CHECK(find(of_cloth(open), "near_rims")->count == 14);
+    ExaminedMesh sewn = examined(MeshRole::cloth, open);
+    sewn.sewn = true;
+    CHECK(find(examine_cloth(sewn, {}), "near_rims") == nullptr);
+    CHECK(find(of_cloth(both(free_sheet(), shifted(free_sheet(), {0.61, 0, 0}))), "near_rims") == nullptr);
+}
+
 TEST_CASE("pieces, and triangles wound against each other, are notes for cloth") {
     const auto pieces = of_cloth(both(free_sheet(), shifted(free_sheet(), {0, 0.1, 0})));
     REQUIRE(pieces.size() == 1);

@@ -326,3 +326,24 @@ TEST_CASE("every shipped scene passes, and nothing in it will go wrong by its pl
     }
     CHECK(scenes > 20);
 }
+
+TEST_CASE("pins in the world are a note where a body goes far away, pins on it and pins beside a still body are not") {
+    const std::string pins = "cloth.sheet.pin", lifted = quiet_scene() + lift;
+    CHECK(severity(examined(lifted, {{pins, "[0]"}}), "pins_stay") == "note");
+    CHECK_THAT(find(examined(lifted, {{pins, "[0]"}}), "pins_stay")->what, Catch::Contains(" m away"));
+    CHECK(severity(examined(quiet_scene(), {{pins, "[0]"}}), "pins_stay") == "none");
+    CHECK(severity(examined(lifted), "pins_stay") == "none");
+}
+
+TEST_CASE("meshes that look swapped are told of once") {
+    const TestFolder folder;
+    const TriangleMesh sheet = free_sheet(), ball = shifted(make_sphere(0.2, 2), {0, 0.5, 0});
+    write_obj(folder.path("sheet.obj"), sheet.vertices, sheet.triangles);
+    write_obj(folder.path("ball.obj"), ball.vertices, ball.triangles);
+    const std::string text =
+        "[fabric.f]\nsprings.structural = 100.0\n[[cloth]]\nname = \"a\"\nfabric = \"f\"\nmesh = \"ball.obj\"\n"
+        "[[obstacle]]\nname = \"b\"\nmesh = \"sheet.obj\"\n";
+    const auto found = examine_scene_file(folder.write("scene.toml", text), {});
+    const auto told = [](const Finding& finding) { return finding.what.find("were their meshes swapped?") != std::string::npos; };
+    CHECK(std::count_if(found.begin(), found.end(), told) == 1);
+}

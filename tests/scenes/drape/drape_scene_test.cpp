@@ -5,6 +5,7 @@
 
 #include "scenes/meshes/obj_file.h"
 #include "scenes/run/scene_build.h"
+#include "tests/scenes/faulty_meshes.h"
 #include "tests/scenes/message_of.h"
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
@@ -87,6 +88,19 @@ TEST_CASE("a garment that is closed and a body that is not were likely swapped")
     CHECK_FALSE(told());
     std::swap(options.files[0], options.files[1]);
     CHECK(told());
+}
+
+TEST_CASE("a garment of pieces that nothing joins is known, and said how to mend") {
+    const TestFolder folder;
+    const DrapeOptions options = write_files(folder, [](const Vec3& x) { return x; });
+    CHECK_FALSE(drape_scene(options).comes_apart);
+    const TriangleMesh open = both(free_sheet(), shifted(free_sheet(), {0.602, 0, 0}));
+    write_obj(options.files[0], open.vertices, open.triangles);
+    const DrapeScene made = drape_scene(options);
+    CHECK(made.comes_apart);
+    CHECK(std::ranges::any_of(made.notes, [](const std::string& note) {
+        return note.find("14 vertices of a rim") != note.npos && note.find("; merge vertices by distance") != note.npos;
+    }));
 }
 
 TEST_CASE("a mesh with stitches is sewn as a pattern is, without weight until it is, one without is not") {

@@ -340,3 +340,22 @@ TEST_CASE("a report read back as text says what it said, in every bit of its num
     folder.write("report.json", text);
     CHECK(nlohmann::json::parse(read_report_text(folder.path())) == nlohmann::json::parse(text));
 }
+
+TEST_CASE("a run that finishes with tight cloth says so, and one with pins does not") {
+    for (const bool pinned : {false, true}) {
+        BuiltScene scene = built(sheet_on_box(), {{"cloth.sheet.pin", pinned ? "[0]" : "[]"}});
+        RunResult result = run_scene(scene);
+        CHECK(end_warnings(scene, result).empty());
+        const std::span<const Vec3> end = scene.simulation.positions(scene.cloths[0]);
+        std::vector<Vec3> wide(end.begin(), end.end());
+        for (Vec3& x : wide) x *= 1.3;
+        scene.simulation.set_positions(scene.cloths[0], wide);
+        const std::vector<std::string> said = end_warnings(scene, result);
+        REQUIRE(said.size() == (pinned ? 0 : 1));
+        if (!pinned)
+            CHECK(said[0] ==
+                  "'sheet' is stretched by 30 % at its tightest: it may be too small for the body (pose.scale makes it larger)");
+        result.totals.contacts_most = 0;
+        CHECK(end_warnings(scene, result).empty());
+    }
+}

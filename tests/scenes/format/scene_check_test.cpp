@@ -76,8 +76,9 @@ TEST_CASE("a wrong kind of value says what was expected and what was there") {
     CHECK(fault("cloth = 3\n") == "t:1:9: cloth must be a list of tables, not the number 3");
     CHECK(fault("[obstacle]\nname = \"ball\"\n") == "t:1:1: obstacle must be a list of tables, not a table; write [[obstacle]]");
     CHECK(fault("cloth = [3]\n") == "t:1:10: cloth.0 must be a list of tables, not the number 3");
-    CHECK(fault("fabric = 3\n") == "t:1:10: fabric must be a table of named tables, not the number 3");
-    CHECK(fault("[fabric]\nthickness = 3\n") == "t:2:13: fabric.thickness must be a table [fabric.NAME], not the number 3");
+    CHECK(fault("fabric = 3\n") ==
+          "t:1:10: fabric must be a table of named tables, not the number 3; write [fabric.NAME], once for each");
+    CHECK(fault("[fabric]\none = 3\n") == "t:2:7: fabric.one must be a table [fabric.NAME], not the number 3");
     CHECK(fault("[step]\nnewton_iterations = 2.5\n") ==
           "t:2:21: step.newton_iterations must be a whole number, not the number 2.5");
     CHECK(fault("[step]\ntime_step = \"small\"\n") ==
@@ -234,4 +235,20 @@ TEST_CASE("a part of a document is checked as it is in the whole") {
     CHECK(fault_of("[springs]\nshear = 1.0", "fabric").find("[fabric.springs] lacks 'structural'") != std::string::npos);
     FaultList first(false);
     CHECK_NOTHROW(check_part(parse_toml("time_step = 0.5", "t"), "step", first));
+}
+
+TEST_CASE("a fabric without a name is told how to have one, a fabric with the name of a key is not") {
+    const std::string advice = "[fabric] lacks a name; write [fabric.NAME], not [fabric], above '";
+    CHECK(fault("[fabric]\narea_density = 0.2\n") == "t:2:1: " + advice + "area_density'");
+    CHECK(fault("[fabric]\nsprings = { structural = 500 }\n") == "t:2:1: " + advice + "springs'");
+    CHECK(fault_after("[fabric.springs]\narea_density = 0.2\nsprings = { structural = 500 }\n") == no_fault);
+    CHECK(fault("[[fabric]]\nname = \"f\"\n") ==
+          "t:1:1: fabric must be a table of named tables, not a list of 1; write [fabric.NAME], once for each");
+}
+
+TEST_CASE("a rotation in degrees, and one of three numbers, are told what a quaternion is") {
+    const std::string advice = "; it is a unit quaternion [w, x, y, z]: a turn by the angle a about";
+    CHECK(fault_after("pose = { rotation = [0, 90, 0, 0] }\n").find("allowed: -1.001 ... 1.001" + advice) != std::string::npos);
+    CHECK(fault_after("pose = { rotation = [0, 90, 0] }\n").find("not a list of 3" + advice) != std::string::npos);
+    CHECK(fault_after("pose = { translation = [0, 9e99, 0] }\n").find("quaternion") == std::string::npos);
 }

@@ -1,8 +1,10 @@
 #include "scenes/garment/cloth_warnings.h"
 
 #include "scenes/format/scene_file.h"
+#include "scenes/meshes/obj_file.h"
 #include "scenes/run/scene_build.h"
 #include "tests/scenes/scene_texts.h"
+#include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
 using namespace percale;
@@ -36,4 +38,52 @@ TEST_CASE("two cloths in one place are warned of where they do not meet") {
     CHECK(warnings[0].find("cloths 'a' and 'b' lie in one place and pass through each other") == 0);
     CHECK(warnings_of("thickness = 0.005", apart).empty());
     CHECK(warnings_of("thickness = 0.005\nself_contact = true", near).empty());
+}
+
+namespace {
+
+/// A scene of a small sheet 1 m above and `beside` a block, both from files, with more of the scene behind the sheet.
+std::vector<std::string> meeting(double beside, const std::string& more = "") {
+    const test::TestFolder folder;
+    const TriangleMesh sheet = make_grid(0.2, 0.2, 3, 3), block = make_box(Vec3(0.2, 0.2, 0.2));
+    write_obj(folder.path("sheet.obj"), sheet.vertices, sheet.triangles);
+    write_obj(folder.path("block.obj"), block.vertices, block.triangles);
+    const std::string text = "[fabric.f]\nsprings.structural = 100.0\n[[cloth]]\nname = \"a\"\nfabric = \"f\"\n" +
+                             std::string("mesh = \"sheet.obj\"\npose.translation = [") + std::to_string(beside) + ", 1, 0]\n" +
+                             more + "[[obstacle]]\nname = \"block\"\nmesh = \"block.obj\"\n";
+    return build_scene(load_scene(folder.write("t.toml", text))).warnings;
+}
+
+}  // namespace
+
+TEST_CASE("cloth that can meet no obstacle is warned of, with how far it is away") {
+    CHECK(meeting(0.0).empty());
+    CHECK(meeting(0.4).empty());  // it may unfold
+    const auto missing = meeting(1.2);
+    REQUIRE(missing.size() == 1);
+    CHECK(missing[0] ==
+          "no cloth can meet an obstacle from where it starts, cloth 'a' starts 1 m away from obstacle 'block'; is everything in "
+          "its place, and in one unit?");
+    // Whatever else moves it may bring it there.
+    CHECK(meeting(1.2, "[[event]]\ntime = 0.1\nwind = [-5, 0, 0]\n").empty());
+    CHECK(meeting(1.2, "[[obstacle]]\nname = \"floor\"\nshape = { plane = {} }\npose.translation = [0, -1, 0]\n").empty());
+    CHECK(meeting(0.0, "pin = [0]\n").size() == 1);  // it hangs 1 m above
+}
+
+TEST_CASE("a mesh of a cloth that is closed and one of an obstacle that is not are warned of") {
+    const test::TestFolder folder;
+    const TriangleMesh sheet = make_grid(0.2, 0.2, 3, 3), block = make_box(Vec3(0.2, 0.2, 0.2));
+    write_obj(folder.path("sheet.obj"), sheet.vertices, sheet.triangles);
+    write_obj(folder.path("block.obj"), block.vertices, block.triangles);
+    const auto warnings = [&](const std::string& cloth, const std::string& obstacle, const std::string& more = "") {
+        const std::string text =
+            "[fabric.f]\nsprings.structural = 100.0\n" + more + "[[cloth]]\nname = \"a\"\nfabric = \"f\"\nmesh = \"" + cloth +
+            ".obj\"\npose.translation = [0, 1, 0]\n[[obstacle]]\nname = \"b\"\nmesh = \"" + obstacle + ".obj\"\n";
+        return build_scene(load_scene(folder.write("t.toml", text))).warnings;
+    };
+    CHECK(warnings("sheet", "block").empty());
+    CHECK(warnings("block", "sheet") ==
+          std::vector<std::string>{"cloth 'a': it is a closed surface and obstacle 'b' is not: were their meshes swapped?"});
+    CHECK(warnings("block", "block").empty());
+    CHECK(warnings("block", "sheet", "gas_volume = 0.008\n").empty());
 }

@@ -169,3 +169,29 @@ TEST_CASE("a mesh joined by place has the triangles that are left, with their nu
     CHECK(joined.number[3] == 4);
     CHECK(joined.number[4] == 6);
 }
+
+TEST_CASE("watertight is what it is among the facts") {
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        const TriangleMesh mesh = soup(seed, 5, 1 + static_cast<int>(seed % 8));
+        if (is_watertight(mesh) != mesh_facts(mesh).watertight()) FAIL_CHECK("seed " << seed);
+    }
+    CHECK(is_watertight(make_sphere(1.0, 2)));
+    CHECK_FALSE(is_watertight(free_sheet()));
+    CHECK_FALSE(is_watertight(turned(both(free_sheet(), make_sphere(1.0, 1)))));
+}
+
+TEST_CASE("rims that are near each other are those that every pair of vertices says") {
+    TriangleMesh other = shifted(free_sheet(), {0.602, 0, 0});  // 2 mm beside the first along one side
+    const TriangleMesh two = both(free_sheet(), other);
+    const auto near = [](const TriangleMesh& mesh, double distance) {
+        return near_rim_vertices(mesh, mesh_facts(mesh), distance);
+    };
+    CHECK(near(two, 0.001).empty());
+    const std::vector<int> found = near(two, 0.003);
+    CHECK(found.size() == 14);
+    for (const int v : found) CHECK(std::abs(std::abs(two.vertices[v].x() - 0.301) - 0.001) < 1e-9);
+    CHECK(near(free_sheet(), 0.09).empty());
+    CHECK(near(free_sheet(), 0.15).size() == 8);                  // across the corners, where no edge is
+    CHECK(near(both(free_sheet(), free_sheet()), 0.05).empty());  // in one place is another finding
+    CHECK(near(both(free_sheet(), shifted(free_sheet(), {0, 2e-4, 0})), 1e-3).size() == 48);  // all of both rims
+}

@@ -72,4 +72,8 @@ TEST_CASE("what is wrong in a pattern is told at its place") {
     CHECK(error_of([] { read_pattern_toml("not_there.toml"); }).find("cannot be read") != std::string::npos);
 }
 
+TEST_CASE("a scene file is not taken for a pattern") {
+    CHECK(fault(small_scene()) == "t: is a scene file, not a sewing pattern: percale run takes it");
+}
+
 }  // namespace percale::scenes::test

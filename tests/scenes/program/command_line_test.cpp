@@ -23,6 +23,28 @@ TEST_CASE("the help of every command shows an example of it") {
     }
 }
 
+TEST_CASE("help is an option by itself and before a command") {
+    CHECK(run_program({"help"}).out == run_program({"--help"}).out);
+    CHECK(run_program({"help", "drape"}).out == run_program({"drape", "--help"}).out);
+    CHECK(run_program({"help", "drape"}).exit_code == 0);
+    CHECK(refused(run_program({"help", "drap"}), "no such command 'drap'; did you mean 'drape'?"));
+}
+
+TEST_CASE("an option that takes three numbers says so where it gets others") {
+    const auto with = [](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"drape", "no_such_garment.obj", "b.obj"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_program(arguments);
+    };
+    CHECK(refused(with({"--move", "0", "1.53", "-o", "x.obj"}),
+                  "--move takes three numbers, as in --move 0 1.5 0, but '-o' is no number"));
+    CHECK(refused(with({"-o", "x.obj", "--rotate", "90", "0"}), "--rotate takes three numbers, as in"));
+    CHECK(refused(with({"-o", "x.obj", "--rotate", "90", "0"}), "but 2 are given"));
+    // What is right goes on, to the files.
+    CHECK(refused(with({"-o", "x.obj", "--move", "-1", "-.5", "2e-3"}), "cannot be read"));
+    CHECK(refused(with({"-o", "x.obj", "--move", "-1,-.5,2e-3"}), "cannot be read"));
+}
+
 TEST_CASE("a command that does not exist is refused with the nearest and all that there are") {
     CHECK(refused(run_program({"chek", "a.toml"}), "no such command 'chek'; did you mean 'check'? valid: run, plan, check, "));
     CHECK(refused(run_program({"simulate"}), "no such command 'simulate'; valid: run, plan, check, "));

@@ -5,6 +5,7 @@
 #include "percale/certify.h"
 #include "percale/mesh.h"
 #include "tests/scenes/drape/open_seam.h"
+#include "tests/scenes/faulty_meshes.h"
 #include "tests/scenes/program/run_program.h"
 #include "tests/support/catch.h"
 
@@ -123,6 +124,24 @@ TEST_CASE("a garment that is not on the body at the end is told to be moved") {
         {"drape", "sheet.obj", "block.obj", "-o", "slid.obj", "--seconds", "1.5", "--move", "0.13", "0", "0"}, folder.path());
     CHECK(slid.exit_code == 1);
     CHECK(slid.error.find("percale: slid.obj: fell off the body; use --move") == 0);
+}
+
+TEST_CASE("a garment that falls since its pieces are not joined is told to be mended, and swapped files are told of once") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    using namespace scenes::test;
+    const TriangleMesh open = both(free_sheet(), shifted(free_sheet(), {0.602, 0, 0}));
+    scenes::write_obj(folder.path("open.obj"), open.vertices, open.triangles);
+    const ProgramRun apart =
+        run_program({"drape", "open.obj", "block.obj", "-o", "draped.obj", "--seconds", "0.2", "--move", "3,0,0"}, folder.path());
+    CHECK(apart.exit_code == 1);
+    CHECK(apart.error.find("never met the body; pieces or rims of it are joined by nothing, merge their vertices") !=
+          std::string::npos);
+    const ProgramRun swapped =
+        run_program({"drape", "block.obj", "sheet.obj", "-o", "draped.obj", "--seconds", "0.01"}, folder.path());
+    const std::size_t first = swapped.out.find("were their meshes swapped?");
+    CHECK(first != std::string::npos);
+    CHECK(swapped.out.find("were their meshes swapped?", first + 1) == std::string::npos);
 }
 
 TEST_CASE("numbers with decimal commas or units are refused, and what to write is said") {
