@@ -202,11 +202,13 @@ const char* solver_word(LinearSolver solver) {
 std::string StepReport::explanation() const {
     std::ostringstream text;
     text << "step from t = " << (ok() ? time - dt : time) << " s over " << dt << " s: " << status_word(status);
-    if (!ok()) text << ", " << failure_text(*this) << jump_text(*this);
+    if (!ok()) text << ", " << failure_text(*this);
     if (status == StepStatus::not_converged && stretched_cloth >= 0) text << ", " << stretch_text(*this);
-    text << " (" << newton_iterations << " Newton and " << linear_iterations << " linear iterations, relative residual "
-         << residual << ", " << halvings << " halvings" << (dropped.total() > 0 ? "; dropped: " + dropped.text() : "")
-         << (out_of_time ? "; ended by its time limit" : "") << ")";
+    text << jump_text(*this) << " (" << newton_iterations << " Newton and " << linear_iterations
+         << " linear iterations, relative residual " << residual << ", " << halvings << " halvings"
+         << (dropped.total() > 0 ? "; dropped: " + dropped.text() : "") << (out_of_time ? "; ended by its time limit" : "");
+    if (time_error > 0.0) text << "; estimated error " << time_error << " m";
+    text << ")";
     return text.str();
 }
 

@@ -197,7 +197,7 @@ NewtonReport solve_stage(const ImplicitStage& stage, NewtonSpace& space, StageEn
     report.smallest_fraction = equations.smallest_fraction();
     report.largest_stiffness = equations.largest_stiffness();
     if (report.end == NewtonEnd::not_finite || report.end == NewtonEnd::blocked) return report;
-    if (stage.scene.settings.adaptive) report.time_error = time_error(error, space.current.velocities);
+    report.time_error = time_error(error, space.current.velocities);
     leave(equations, end);
     return report;
 }

@@ -27,7 +27,7 @@ struct Span {
 /// What became of a span. The state it leads to is kept or dropped by who asked for it.
 struct SpanResult {
     SpanEnd end = SpanEnd::solved;
-    double error = 0.0;  // m, estimated, of positions; adaptive steps only
+    double error = 0.0;  // m, estimated, of positions; of explicit schemes in adaptive steps only
     StepEnergy flows;    // J, work and, with the ledger, where energy went; nothing that is stored
     // Sums and extremes over its stages; the residual is the last one's.
     int newton_iterations = 0, linear_iterations = 0, line_search_cuts = 0;

@@ -35,7 +35,11 @@ public:
         : scene_(scene), start_(start), work_(work), report_(report) {}
 
     /// Null if a span failed that cannot be halved any more.
-    StepState* cover_whole() { return cover({0.0, 1.0}, start_); }
+    StepState* cover_whole() {
+        StepState* end = cover({0.0, 1.0}, start_);
+        report_.time_error = error_;
+        return end;
+    }
 
     /// By as many lengths as the tolerance asks for; what is accepted is in work.ends[2].
     StepState* cover_adaptively() {
@@ -72,6 +76,7 @@ public:
             std::swap(accepted, *end);
             if ((control.missed || !exact) && report_.status == StepStatus::ok) report_.status = StepStatus::tolerance_missed;
             ++report_.parts;
+            report_.time_error += error_;
             shortest = std::min(shortest, length);
             longest = std::max(longest, length);
             at = to;

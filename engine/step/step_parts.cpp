@@ -99,6 +99,7 @@ void add_part(StepReport part, StepReport& sum) {
     sum.smallest_dt = std::min(sum.smallest_dt, before.smallest_dt);
     sum.largest_dt = std::max(sum.largest_dt, before.largest_dt);
     sum.parts += before.parts;
+    sum.time_error += before.time_error;
     add_work(before, sum);
     if (sum.ok()) sum.out_of_time = sum.out_of_time || before.out_of_time;  // why it failed is the last part's
     sum.smallest_fraction = std::min(sum.smallest_fraction, before.smallest_fraction);

@@ -71,6 +71,10 @@ void bind_counts(py::class_<StepReport>& report) {
         .def_readonly("contacts", &StepReport::contacts, "Contact rows at the end.")
         .def_readonly("smallest_distance", &StepReport::smallest_distance, "m; infinity if nothing was near.")
         .def_readonly("contact_stiffness", &StepReport::contact_stiffness, "N/m, largest of the step.")
+        .def_readonly(
+            "time_error", &StepReport::time_error,
+            "m, estimated: what the length of the step costs in accuracy, in the mean of the worst cloth; 0 with explicit "
+            "schemes, unless adaptive.")
         .def_readonly("largest_strain", &StepReport::largest_strain, "Of structural springs; NaN unless it is measured.")
         .def_readonly("largest_speed", &StepReport::largest_speed, "m/s; likewise.");
 }
@@ -86,13 +90,13 @@ void bind_trouble(py::class_<StepReport>& report) {
         .def_readonly("second_obstacle", &StepReport::second_obstacle, "Pushes the cloth towards the blocking one.")
         .def_readonly("second_name", &StepReport::second_name)
         .def_readonly("travel", &StepReport::travel, "m, of an obstacle or a pin that moves too far for a step.")
-        .def_readonly("jump", &StepReport::jump, "m, of one that moves so far that a step, which failed, had 8 parts or more.")
+        .def_readonly("jump", &StepReport::jump, "m, of one that moves so far that the step was made in 8 parts or more.")
         .def_readonly("pinched", &StepReport::pinched, "Places where obstacles give way to cloth.")
         .def_readonly("yielded", &StepReport::yielded, "m, how far such an obstacle is from where it should be.")
         .def_readonly("yielded_in_vain", &StepReport::yielded_in_vain)
         .def_readonly("pinching", &StepReport::pinching, "Numbers of the obstacles between which cloth has least room.")
         .def_readonly("stretched_cloth", &StepReport::stretched_cloth,
-                      "Of a failed step: stretched to more than twice its length.")
+                      "Of a step that failed or did not converge: stretched to more than twice its length.")
         .def_readonly("stretched_pins", &StepReport::stretched_pins)
         .def_readonly("stretch", &StepReport::stretch)
         .def_readonly("stretched_name", &StepReport::stretched_name)

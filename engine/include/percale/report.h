@@ -109,7 +109,9 @@ struct StepReport {
     LinearSolver linear_solver = LinearSolver::automatic;  // in use at the end; automatic if nothing was solved
     int halvings = 0;                                      // how often a span was solved again as two halves
     DroppedSpans dropped;                                  // why that was done, and why adaptive lengths were rejected
-    double residual = 0.0;           // relative to the first of the step, or to gravity's impulse where that is larger
+    double residual = 0.0;    // relative to the first of the step, or to gravity's impulse where that is larger
+    double time_error = 0.0;  // m, estimated: what the length of the step costs in accuracy, in the mean of the worst cloth; the
+                              // solver's own error is at most newton_share of it. 0: explicit schemes, unless adaptive
     double smallest_fraction = 1.0;  // smallest part of a move that was free of crossing
     int sleeping_cloths = 0;         // at rest
     bool slept = false;              // all were: the step was not solved, the figures are those of the last one that was
@@ -126,7 +128,7 @@ struct StepReport {
     int blocking_obstacle = -1;               // -1 where it is cloth, too; blocking_name then says so
     std::string blocked_name, blocking_name;  // of that cloth and obstacle
     double travel = 0.0;   // m, beside the cloth, of an obstacle or a pin that moves too far for a step, which is not tried
-    double jump = 0.0;     // m, likewise, of one that moves so far that the step, which failed, was made in 8 parts or more
+    double jump = 0.0;     // m, likewise, of one that moves so far that the step is made in 8 parts or more
     int pinched = 0;       // places where obstacles give way to cloth, ObstacleSettings::yields
     double yielded = 0.0;  // m, how far the farthest vertex of such an obstacle is from where it should be, at the end
     bool yielded_in_vain = false;  // of a failed step: what closed on the cloth gave way, but not enough in 64 parts

@@ -68,6 +68,22 @@ TEST_CASE("A step of one iteration is linearly implicit and never redone") {
     CHECK(report.halvings == 0);
 }
 
+TEST_CASE("The estimated error of a backward Euler step in free fall is what the step is off, g dt^2 / 2") {
+    for (const double dt : {1.0 / 30.0, 1.0 / 120.0}) {
+        Simulation simulation({.time_step = dt});
+        const ClothId sheet = simulation.add_cloth(make_grid(0.4, 0.4, 5, 5), sheet_fabric());
+        const StepReport report = simulation.step();
+        REQUIRE(report.ok());
+        const double off = std::abs(simulation.positions(sheet)[0].y() + 0.5 * 9.81 * dt * dt);
+        CHECK(off == Approx(0.5 * 9.81 * dt * dt));
+        CHECK(report.time_error == Approx(off));
+        CHECK(mentions(report.explanation(), {"estimated error 0.0"}));
+    }
+    Simulation explicit_one({.time_step = 1e-4, .scheme = Scheme::rk4});
+    explicit_one.add_cloth(make_grid(0.4, 0.4, 5, 5), sheet_fabric());
+    CHECK(explicit_one.step().time_error == 0.0);
+}
+
 TEST_CASE("If halving does not help, the last state is accepted as not converged") {
     World world = sheet_world({.time_step = 1.0 / 60.0, .newton_tolerance = 1e-14, .newton_iterations = 2});
     Random random(5);

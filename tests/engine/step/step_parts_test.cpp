@@ -52,17 +52,20 @@ TEST_CASE("A step in which an obstacle moves far does what as many short ones do
 
     by_hand.simulation.set_time_step(1.0 / 60.0 / 10);
     int newton = 0;
-    double work = 0.0, rubbed = 0.0;
+    double work = 0.0, rubbed = 0.0, time_error = 0.0;
     for (int part = 1; part <= 10; ++part) {
         by_hand.aim(part == 10 ? 1.0 : part / 10.0);
         const StepReport short_one = by_hand.simulation.step();
         REQUIRE(short_one.ok());
         newton += short_one.newton_iterations;
+        time_error += short_one.time_error;
         work += short_one.energy.work;
         rubbed += short_one.energy.dissipated_friction;
     }
     CHECK(far.simulation.state_hash() == by_hand.simulation.state_hash());
     CHECK(report.newton_iterations == newton);
+    CHECK(report.time_error == Approx(time_error));
+    CHECK(report.jump == Approx(0.95).epsilon(0.01));
     CHECK(report.energy.work == Approx(work));
     CHECK(report.energy.dissipated_friction == Approx(rubbed));
     CHECK(report.energy.closure() < 1e-6);
