@@ -28,9 +28,9 @@ Vec3 apart(const SelfPair& pair, std::span<const Vec3> x) {
 /// Whether a contact that one step has left is none of the next. As with obstacles, a contact stays one while a step is solved.
 /// Of edges it does in the next ones, too, until their cloth is elsewhere than where it began: edges that are now flat, now a
 /// ridge would keep cloth moving that lies still.
-bool begins_anew(const SelfPair& pair, std::span<const Vec3> start) {
+bool begins_anew(const SelfPair& pair, const Vec3& began_apart, std::span<const Vec3> start) {
     if (pair.shape == PairShape::point_triangle) return true;
-    return (apart(pair, start) - pair.began_apart).norm() > tolerances::forgetting_displacement * pair.thickness;
+    return (apart(pair, start) - began_apart).norm() > tolerances::forgetting_displacement * pair.thickness;
 }
 
 }  // namespace
@@ -70,8 +70,8 @@ StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) co
 void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const Vec3> predicted, Workers* workers) {
     lists_.set_workers(workers);
     lists_.for_each([&](SelfList& list) {
-        for (SelfPair& pair : list.pairs) {
-            if (pair.zone > 0.0 && begins_anew(pair, start)) pair.zone = 0.0;
+        for (SelfPairRecord& record : list.records) {
+            if (record.zone > 0.0 && begins_anew(list.pairs[record.pair], record.began_apart, start)) record.zone = 0.0;
         }
     });
     lists_.begin_step(start, predicted);
@@ -112,28 +112,30 @@ void SelfContactDetection::add_rows_of(SelfList& list, std::span<const Vec3> pos
 }
 
 /// Measures a pair and adds its row; returns its distance, or infinity if it has none.
-double SelfContactDetection::measure(const SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows) {
+double SelfContactDetection::measure(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows) {
     const SelfPairContact contact = self_contact(pair, positions, lists_.surface());
     pair.reach = contact.distance + list.travel;
     const double least = contact.jumps ? 0.0 : tolerances::least_zone;
-    const double zone = std::max(contact.relative_zone, least) * thickness_at(pair, contact.weight);
-    if (contact.distance < zone && zone > tolerances::widened_zone * pair.zone) {
-        pair.zone = zone;
-        pair.began_apart = apart(pair, start_);
+    const double zone = std::max(contact.relative_zone, least) * thickness_at(pair, list.of_seam(pair), contact.weight);
+    if (contact.distance < zone && zone > tolerances::widened_zone * list.zone(pair)) {
+        SelfPairRecord& record = list.record_of(pair);
+        record.zone = zone;
+        record.began_apart = apart(pair, start_);
     }
-    if (contact.distance >= pair.zone) return infinity;
-    add_row(pair, contact, rows);
+    const double begun = list.zone(pair);
+    if (contact.distance >= begun) return infinity;
+    add_row(pair, begun, contact, rows);
     return contact.distance;
 }
 
-void SelfContactDetection::add_row(const SelfPair& pair, const SelfPairContact& contact, ContactRows& rows) const {
+void SelfContactDetection::add_row(const SelfPair& pair, double zone, const SelfPairContact& contact, ContactRows& rows) const {
     rows.vertex.push_back(pair.vertex);
     rows.weight.push_back(contact.weight);
     rows.direction.push_back(contact.direction);
     rows.obstacle_point.push_back(Vec3::Zero());
     rows.obstacle_displacement.push_back(Vec3::Zero());
     rows.distance.push_back(contact.distance);
-    rows.thickness.push_back(pair.zone);
+    rows.thickness.push_back(zone);
     rows.friction.push_back(0.5 * (friction_[pair.vertex[0]] + friction_[pair.vertex[3]]));
     rows.share.push_back(1.0);
     rows.obstacle.push_back(-1);

@@ -44,8 +44,8 @@ private:
     };
     void add_rows_of(SelfList& list, std::span<const Vec3> positions, double& smallest, ContactRows& rows);
     double cut(SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe);
-    double measure(const SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows);
-    void add_row(const SelfPair& pair, const SelfPairContact& contact, ContactRows& rows) const;
+    double measure(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows);
+    void add_row(const SelfPair& pair, double zone, const SelfPairContact& contact, ContactRows& rows) const;
 
     SelfContactLists lists_;
     std::vector<Vec3> start_;      // m, of the last refresh

@@ -197,8 +197,7 @@ void SelfContactLists::give_up_room(std::span<const Vec3> from, std::span<const 
     set_motion(from, to);
     for_each([&](SelfList& list) {
         const double wanted = shrink(list) + cloth_.clusters[list.first].skin + cloth_.clusters[list.second].skin;
-        const bool holds_memory = list.pairs.capacity() > tolerances::spare_pairs + 4 * list.pairs.size();
-        if (holds_memory || (!list.pairs.empty() && list.room - list.travel > tolerances::most_room * wanted)) list.give_up();
+        if (!list.pairs.empty() && list.room - list.travel > tolerances::most_room * wanted) list.give_up();
     });
 }
 

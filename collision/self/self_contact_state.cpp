@@ -13,12 +13,17 @@ void exchange(Archive& archive, Value& box) {
 template <class Archive, OfType<SelfPair> Value>
 void exchange(Archive& archive, Value& pair) {
     archive.choice(pair.shape, 2);
-    archive(pair.vertex, pair.feature, pair.thickness, pair.of_seam, pair.zone, pair.began_apart, pair.reach);
+    archive(pair.vertex, pair.feature, pair.record, pair.thickness, pair.reach);
+}
+
+template <class Archive, OfType<SelfPairRecord> Value>
+void exchange(Archive& archive, Value& record) {
+    archive(record.pair, record.of_seam, record.zone, record.began_apart);
 }
 
 template <class Archive, OfType<SelfList> Value>
 void exchange(Archive& archive, Value& list) {
-    archive(list.first, list.second, list.pairs, list.travel, list.room, list.smallest_reach, list.thickness);
+    archive(list.first, list.second, list.pairs, list.records, list.travel, list.room, list.smallest_reach, list.thickness);
 }
 
 template <class Archive, OfType<SelfGroup> Value>
@@ -51,6 +56,18 @@ bool is_good(const SelfPair& pair, const ClothSurface& surface) {
     return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
+/// Whether pairs and records name each other, one for one.
+bool has_good_records(const SelfList& list) {
+    long with_record = 0;
+    for (std::size_t i = 0; i < list.pairs.size(); ++i) {
+        const int record = list.pairs[i].record;
+        if (record == -1) continue;
+        if (!below(record, list.records.size()) || list.records[record].pair != static_cast<int>(i)) return false;
+        ++with_record;
+    }
+    return with_record == static_cast<long>(list.records.size());
+}
+
 /// Of the lists of a group, whose number each of its clusters has.
 void check(const SelfGroup& group, int number, std::span<const int> group_of_cluster, const ClothSurface& surface,
            const StateReader& state) {
@@ -61,6 +78,7 @@ void check(const SelfGroup& group, int number, std::span<const int> group_of_clu
         state.demand(clusters > last && list.first <= list.second && has(list.first) && has(list.second),
                      "a cluster that there is not");
         for (const SelfPair& pair : list.pairs) state.demand(is_good(pair, surface), "a pair that there is not");
+        state.demand(has_good_records(list), "a record of no pair");
         last = clusters;
     }
 }

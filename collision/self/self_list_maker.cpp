@@ -21,6 +21,20 @@ double thickness_from_rest(double distance, double h) {
     return std::min(h, std::max(tolerances::contact_of_rest * distance, tolerances::least_of_rest * h));
 }
 
+/// The pairs that are in contact, with their records.
+void keep_contacts(const SelfList& from, SelfList& to) {
+    to.pairs.clear();
+    to.records.clear();
+    for (const SelfPair& pair : from.pairs) {
+        if (from.zone(pair) == 0.0) continue;
+        const int number = static_cast<int>(to.pairs.size());
+        to.records.push_back(from.records[pair.record]);
+        to.records.back().pair = number;
+        to.pairs.push_back(pair);
+        to.pairs.back().record = number;
+    }
+}
+
 }  // namespace
 
 void SelfCloth::forget_boxes() {
@@ -42,8 +56,17 @@ void SelfCloth::set_feature_boxes(int cluster, std::span<const Vec3> positions) 
     for (const int t : own.triangles) triangle_boxes[t] = box_of(surface.triangles[t], positions);
 }
 
+SelfPairRecord& SelfList::record_of(SelfPair& pair) {
+    if (pair.record < 0) {
+        pair.record = static_cast<int>(records.size());
+        records.push_back({.pair = static_cast<int>(&pair - pairs.data())});
+    }
+    return records[pair.record];
+}
+
 void SelfList::clear(double with_room) {
-    pairs.clear();
+    pairs = {};  // most lists never again hold as many
+    records = {};
     travel = 0.0;
     room = with_room;
     smallest_reach = std::numeric_limits<double>::infinity();
@@ -51,20 +74,21 @@ void SelfList::clear(double with_room) {
 }
 
 void SelfList::give_up() {
-    std::erase_if(pairs, [](const SelfPair& pair) { return pair.zone == 0.0; });
-    pairs.shrink_to_fit();
+    SelfList contacts;
+    keep_contacts(*this, contacts);
+    pairs = std::move(contacts.pairs);
+    records = std::move(contacts.records);
     room = -1.0;
 }
 
 long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const Vec3> from) {
     cloth_ = &cloth;
-    filled_ = &list;
+    pairs_.clear();
+    records_.clear();
     considered_ = 0;
     const SelfCluster &a = cloth.clusters[list.first], &b = cloth.clusters[list.second];
     pair_ = cloth.pairs.of(a.cloth, b.cloth);
-    old_pairs_.clear();
-    std::copy_if(list.pairs.begin(), list.pairs.end(), std::back_inserter(old_pairs_),
-                 [](const SelfPair& pair) { return pair.zone > 0.0; });
+    keep_contacts(list, old_);
     list.clear(shrink_of(a, b) + a.skin + b.skin);
     const bool is_fine = tolerances::contact_of_rest * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
     const double thickness = 0.5 * (a.thickness + b.thickness);
@@ -75,11 +99,13 @@ long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const
     pair_vertices(near_first_, near_second_, reach, from);
     if (!one) pair_vertices(near_second_, near_first_, reach, from);
     pair_edges(one, reach, from);
-    for (const SelfPair& pair : list.pairs) {
+    for (const SelfPair& pair : pairs_) {
         list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         list.thickness = std::max(list.thickness, pair.thickness);
     }
     take_over_zones();
+    list.pairs.assign(pairs_.begin(), pairs_.end());  // no more memory than they take
+    list.records.assign(records_.begin(), records_.end());
     return considered_;
 }
 
@@ -153,13 +179,13 @@ double SelfListMaker::sewn_distance(const SelfPair& pair) const {
 }
 
 /// Sets the thickness of a pair near a seam, by the paths through it between vertices.
-void SelfListMaker::set_of_seam(SelfPair& pair) const {
+void SelfListMaker::set_of_seam(SelfPair& pair, std::array<double, 4>& of_seam) const {
     const bool edges = pair.shape == PairShape::edge_edge;
     double most = 0.0;
     for (int k = 0; k < (edges ? 4 : 3); ++k) {
         const std::array first{pair.vertex[edges ? k / 2 : 0]}, second{pair.vertex[edges ? 2 + k % 2 : 1 + k]};
-        pair.of_seam[k] = std::min(pair.thickness, tolerances::contact_of_seam * cloth_->sewn.distance(first, second));
-        most = std::max(most, pair.of_seam[k]);
+        of_seam[k] = std::min(pair.thickness, tolerances::contact_of_seam * cloth_->sewn.distance(first, second));
+        most = std::max(most, of_seam[k]);
     }
     pair.thickness = most;
 }
@@ -175,19 +201,31 @@ void SelfListMaker::consider(SelfPair pair, double room, std::span<const Vec3> f
     const bool one_cloth = cloth_->cloth[pair.vertex[0]] == cloth_->cloth[pair.vertex[3]];
     const double through_seam = sewn_distance(pair);
     if (through_seam == 0.0) return;
-    if (tolerances::contact_of_seam * through_seam < pair.thickness) set_of_seam(pair);
+    std::array<double, 4> of_seam = away_from_seams;
+    if (tolerances::contact_of_seam * through_seam < pair.thickness) set_of_seam(pair, of_seam);
     if (one_cloth) pair.thickness = std::min(pair.thickness, thickness_from_rest(self_distance(pair, cloth_->rest), thickness));
-    if (pair.reach < pair.thickness + room) filled_->pairs.push_back(pair);
+    if (pair.reach >= pair.thickness + room) return;
+    if (of_seam != away_from_seams) {
+        pair.record = static_cast<int>(records_.size());
+        records_.push_back({.pair = static_cast<int>(pairs_.size()), .of_seam = of_seam});
+    }
+    pairs_.push_back(pair);
 }
 
 /// What was a contact in the list being replaced stays one.
-void SelfListMaker::take_over_zones() const {
-    for (SelfPair& pair : filled_->pairs) {
+void SelfListMaker::take_over_zones() {
+    for (std::size_t i = 0; i < pairs_.size() && !old_.pairs.empty(); ++i) {
+        SelfPair& pair = pairs_[i];
         const auto same = [&](const SelfPair& old) { return old.shape == pair.shape && old.feature == pair.feature; };
-        const auto found = std::find_if(old_pairs_.begin(), old_pairs_.end(), same);
-        if (found == old_pairs_.end()) continue;
-        pair.zone = found->zone;
-        pair.began_apart = found->began_apart;
+        const auto found = std::find_if(old_.pairs.begin(), old_.pairs.end(), same);
+        if (found == old_.pairs.end()) continue;
+        if (pair.record < 0) {
+            pair.record = static_cast<int>(records_.size());
+            records_.push_back({.pair = static_cast<int>(i)});
+        }
+        const SelfPairRecord& old = old_.records[found->record];
+        records_[pair.record].zone = old.zone;
+        records_[pair.record].began_apart = old.began_apart;
     }
 }
 

@@ -50,14 +50,23 @@ struct SelfCloth {
 struct SelfList {
     int first = 0, second = 0;  // clusters, first <= second
     std::vector<SelfPair> pairs = {};
+    std::vector<SelfPairRecord> records = {};
     double travel = 0.0;          // m, bound of how much any distance has shrunk since the list was made
     double room = -1.0;           // m
     double smallest_reach = 0.0;  // smallest SelfPair::reach
     double thickness = 0.0;       // m, largest of its pairs
 
-    /// Made anew without a pair.
+    /// m, below what the contact of a pair of the list began; 0: it is none.
+    double zone(const SelfPair& pair) const { return pair.record < 0 ? 0.0 : records[pair.record].zone; }
+    const std::array<double, 4>& of_seam(const SelfPair& pair) const {
+        return pair.record < 0 ? away_from_seams : records[pair.record].of_seam;
+    }
+    /// Of a pair of the list, made where it has none.
+    SelfPairRecord& record_of(SelfPair& pair);
+
+    /// Without a pair, and without memory for one.
     void clear(double with_room);
-    /// Keeps contacts alone, and gives back memory: it has to be made anew.
+    /// Keeps contacts alone: it has to be made anew.
     void give_up();
 };
 
@@ -83,16 +92,17 @@ private:
     void find_near(const SelfCluster& cluster, Box other, double limit, Near& near) const;
     void pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from);
     void pair_edges(bool one, Reach reach, std::span<const Vec3> from);
-    void set_of_seam(SelfPair& pair) const;
+    void set_of_seam(SelfPair& pair, std::array<double, 4>& of_seam) const;
     double thickness_by_rest(std::span<const int> first, std::span<const int> second, double most) const;
     double sewn_distance(const SelfPair& pair) const;
     void consider(SelfPair pair, double room, std::span<const Vec3> from);
-    void take_over_zones() const;
+    void take_over_zones();
 
     const SelfCloth* cloth_ = nullptr;
-    SelfList* filled_ = nullptr;
-    ClothPair pair_;                   // of the clusters
-    std::vector<SelfPair> old_pairs_;  // that are contacts, of the list being made anew
+    ClothPair pair_;                       // of the clusters
+    SelfList old_;                         // the contacts of the list being made anew
+    std::vector<SelfPair> pairs_;          // found for it
+    std::vector<SelfPairRecord> records_;  // of these
     Near near_first_, near_second_;
     long considered_ = 0;
 };

@@ -97,8 +97,8 @@ SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const C
 
 }  // namespace
 
-double thickness_at(const SelfPair& pair, const std::array<double, 4>& weight) {
-    const std::array<double, 4>&w = weight, &at = pair.of_seam;
+double thickness_at(const SelfPair& pair, const std::array<double, 4>& of_seam, const std::array<double, 4>& weight) {
+    const std::array<double, 4>&w = weight, &at = of_seam;
     if (at[0] == no_seam) return pair.thickness;
     const double between = pair.shape == PairShape::edge_edge
                                ? -w[0] * (w[2] * at[0] + w[3] * at[1]) - w[1] * (w[2] * at[2] + w[3] * at[3])

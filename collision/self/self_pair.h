@@ -17,13 +17,20 @@ struct SelfPair {
     PairShape shape = PairShape::point_triangle;
     std::array<int, 4> vertex{-1, -1, -1, -1};  // the vertex and the face's corners; the ends of both edges
     std::array<int, 2> feature{-1, -1};         // vertex and triangle; two edges
+    int record = -1;                            // its number in SelfList::records; -1: it has none
     double thickness = 0.0;                     // m, below it they may be in contact
+    double reach = 0.0;  // distance + travel when last measured: reach - travel bounds the distance from below
+};
+
+/// What few pairs have beside: those near a seam, and those that are in contact or have been. Most of the memory of a cloth that
+/// lies in folds is pairs.
+struct SelfPairRecord {
+    int pair = -1;  // its number in SelfList::pairs
     /// m, near a seam: below what they are in contact where the vertex and corner k are closest, or the ends (0, 2), (0, 3),
     /// (1, 2) and (1, 3) of the edges.
     std::array<double, 4> of_seam = away_from_seams;
     double zone = 0.0;                // m, below what its contact began; 0: it is none
     Vec3 began_apart = Vec3::Zero();  // m, between the middles of its features then
-    double reach = 0.0;               // distance + travel when last measured: reach - travel bounds the distance from below
 };
 
 /// The exact closest points of a pair.
@@ -39,9 +46,9 @@ struct SelfPairContact {
     bool jumps = false;  // closest points of nearly parallel edges go from end to end
 };
 
-/// m, below which a pair is in contact where these weights say: between corners it passes from the one's to the other's, so that
-/// closest points that go from one face to the next meet no other thickness there.
-double thickness_at(const SelfPair& pair, const std::array<double, 4>& weight);
+/// m, below which a pair is in contact where these weights say (of_seam: SelfPairRecord): between corners it passes from the
+/// one's to the other's, so that closest points that go from one face to the next meet no other thickness there.
+double thickness_at(const SelfPair& pair, const std::array<double, 4>& of_seam, const std::array<double, 4>& weight);
 
 /// m.
 double self_distance(const SelfPair& pair, std::span<const Vec3> positions);

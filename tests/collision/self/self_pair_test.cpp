@@ -171,27 +171,27 @@ TEST_CASE("near a seam the thickness is each corner's there, between them in bet
     Random random(7);
     // Of vertices a and b with c, d and e.
     const std::array of_a{0.001, 0.002, 0.004}, of_b{0.003, 0.0015, 0.005};
-    const SelfPair face{.vertex = {0, 2, 3, 4}, .thickness = 1.0, .of_seam = {of_a[0], of_a[1], of_a[2], no_seam}};
-    const SelfPair next{.vertex = {0, 5, 3, 2}, .thickness = 1.0, .of_seam = {0.009, of_a[1], of_a[0], no_seam}};
-    const SelfPair edges{
-        .shape = PairShape::edge_edge, .vertex = {0, 1, 2, 3}, .thickness = 1.0, .of_seam = {of_a[0], of_a[1], of_b[0], of_b[1]}};
-    CHECK(thickness_at(face, {1, -1, 0, 0}) == of_a[0]);
-    CHECK(thickness_at(face, {1, 0, 0, -1}) == of_a[2]);
-    CHECK(thickness_at(edges, {0, 1, 0, -1}) == of_b[1]);
+    const SelfPair face{.vertex = {0, 2, 3, 4}, .thickness = 1.0}, next{.vertex = {0, 5, 3, 2}, .thickness = 1.0};
+    const SelfPair edges{.shape = PairShape::edge_edge, .vertex = {0, 1, 2, 3}, .thickness = 1.0};
+    using Four = std::array<double, 4>;
+    const auto of_face = [&](const Four& weight) { return thickness_at(face, {of_a[0], of_a[1], of_a[2], no_seam}, weight); };
+    const auto of_next = [&](const Four& weight) { return thickness_at(next, {0.009, of_a[1], of_a[0], no_seam}, weight); };
+    const auto of_edges = [&](const Four& weight) { return thickness_at(edges, {of_a[0], of_a[1], of_b[0], of_b[1]}, weight); };
+    CHECK(of_face({1, -1, 0, 0}) == of_a[0]);
+    CHECK(of_face({1, 0, 0, -1}) == of_a[2]);
+    CHECK(of_edges({0, 1, 0, -1}) == of_b[1]);
     for (int n = 0; n < 100; ++n) {
         const double s = random.number(0, 1), t = random.number(0, 1);
-        CHECK(thickness_at(face, {1, -s, s - 1, 0}) == Approx(s * of_a[0] + (1 - s) * of_a[1]));
-        CHECK(thickness_at(face, {1, -s, s - 1, 0}) == Approx(thickness_at(next, {1, 0, s - 1, -s})));
-        CHECK(thickness_at(face, {1, -s, s - 1, 0}) == Approx(thickness_at(edges, {1, 0, -s, s - 1})));
-        const double crossing = thickness_at(edges, {1 - s, s, t - 1, -t});
+        CHECK(of_face({1, -s, s - 1, 0}) == Approx(s * of_a[0] + (1 - s) * of_a[1]));
+        CHECK(of_face({1, -s, s - 1, 0}) == Approx(of_next({1, 0, s - 1, -s})));
+        CHECK(of_face({1, -s, s - 1, 0}) == Approx(of_edges({1, 0, -s, s - 1})));
+        const double crossing = of_edges({1 - s, s, t - 1, -t});
         CHECK((crossing > 0.001 && crossing < 0.003));
     }
-    SelfPair away = face;
-    away.of_seam = away_from_seams;
-    CHECK(thickness_at(away, {1, -0.3, -0.3, -0.4}) == 1.0);
+    CHECK(thickness_at(face, away_from_seams, {1, -0.3, -0.3, -0.4}) == 1.0);
     SelfPair thin = face;
     thin.thickness = 0.0005;
-    CHECK(thickness_at(thin, {1, 0, 0, -1}) == 0.0005);
+    CHECK(thickness_at(thin, {of_a[0], of_a[1], of_a[2], no_seam}, {1, 0, 0, -1}) == 0.0005);
 }
 
 TEST_CASE("a pair moves with its four vertices") {
