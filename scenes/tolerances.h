@@ -238,7 +238,8 @@ constexpr double widest_sewn_gap = 0.01;
 constexpr double late_closing = 1.0;
 
 /// A body that is by this factor taller along z than along y stands along z. Smaller: spheres and beds do. Larger: people do not.
-constexpr double standing_ratio = 1.5;
+/// A flat thing, less deep along y than this share of its size, lies there and does not stand.
+constexpr double standing_ratio = 1.5, least_standing_depth = 0.05;
 
 /// m. A garment from a pattern that hangs lower than this since it was sewn, in the mean, has slid down. Smaller: what the cloth
 /// gives by its own weight is told of.

@@ -263,7 +263,9 @@ std::string guessed_unit(double extent, double body) {
     return misfit("cm") <= misfit("mm") ? "cm" : "mm";
 }
 
-bool stands_along_z(const Vec3& extent) { return extent.z() > standing_ratio * extent.y(); }
+bool stands_along_z(const Vec3& extent) {
+    return extent.z() > standing_ratio * extent.y() && extent.y() > least_standing_depth * extent.maxCoeff();
+}
 
 DrapeScene drape_scene(const DrapeOptions& options) { return DrapeScenes(options).make(); }
 

@@ -131,6 +131,7 @@ TEST_CASE("units are guessed so that things are 0.1 to some 10 m large") {
     CHECK(stands_along_z({0.5, 0.3, 1.8}));
     CHECK_FALSE(stands_along_z({0.5, 1.8, 0.3}));
     CHECK_FALSE(stands_along_z({1.0, 1.0, 1.0}));
+    CHECK_FALSE(stands_along_z({1.2, 0.01, 1.2}));  // a sheet that lies
 }
 
 TEST_CASE("what doctor warns of is told, and options that are wrong are refused") {
