@@ -41,7 +41,7 @@ std::string far_text(const std::string& mover, double travel) {
     return text.str();
 }
 
-/// What else may be wrong with a step that failed.
+/// A step is made in parts where something moves far in it; whether it moved or jumped its caller knows.
 std::string jump_text(const StepReport& report) {
     if (report.jump <= 0.0) return "";
     std::ostringstream text;
@@ -207,7 +207,7 @@ std::string StepReport::explanation() const {
     text << jump_text(*this) << " (" << newton_iterations << " Newton and " << linear_iterations
          << " linear iterations, relative residual " << residual << ", " << halvings << " halvings"
          << (dropped.total() > 0 ? "; dropped: " + dropped.text() : "") << (out_of_time ? "; ended by its time limit" : "");
-    if (time_error > 0.0) text << "; estimated error " << time_error << " m";
+    if (ok() && time_error > 0.0) text << "; estimated error " << time_error << " m";
     text << ")";
     return text.str();
 }

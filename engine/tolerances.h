@@ -410,7 +410,7 @@ constexpr int most_late_iterations = 20;
 constexpr int most_step_parts = 64;
 constexpr double part_rounding = 1e-9, carried_pin_error = 1e-8;
 
-/// Parts of a step from which its report says that something may have jumped.
+/// Parts of a step that the travel of one thing asks for, from which the report says that it may have jumped.
 constexpr int jump_parts = 8;
 
 /// Strain of held cloth that the report of a step that failed, or did not converge, tells of.

@@ -42,6 +42,7 @@ void write_solution(const StepReport& from, percale_step_report& to) {
     to.dropped_not_finite = from.dropped.not_finite;
     to.dropped_inexact = from.dropped.inexact;
     to.residual = from.residual;
+    to.time_error = from.time_error;
     to.smallest_fraction = from.smallest_fraction;
     to.sleeping_cloths = from.sleeping_cloths;
     to.slept = from.slept;
@@ -61,6 +62,7 @@ void write_trouble(const StepReport& from, percale_step_report& to) {
     to.blocked_vertex = from.blocked_vertex;
     to.blocking_obstacle = from.blocking_obstacle;
     to.travel = from.travel;
+    to.jump = from.jump;
     to.pinched = from.pinched;
     to.yielded = from.yielded;
     to.yielded_in_vain = from.yielded_in_vain;

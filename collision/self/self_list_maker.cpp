@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
 #include "tolerances.h"
 
@@ -65,8 +64,8 @@ SelfPairRecord& SelfList::record_of(SelfPair& pair) {
 }
 
 void SelfList::clear(double with_room) {
-    pairs = {};  // most lists never again hold as many
-    records = {};
+    pairs = std::vector<SelfPair>();  // `= {}` would keep the memory, and most lists never again hold as many
+    records = std::vector<SelfPairRecord>();
     travel = 0.0;
     room = with_room;
     smallest_reach = std::numeric_limits<double>::infinity();

@@ -49,11 +49,13 @@ struct PartsAsked {
         const double turns = angle_between(start.rotation, end.rotation) / largest_part_turn;
         for (const ClothAhead& cloth : cloths) {
             if (!cloth.meets(start.translation, end.translation, obstacle.reach)) continue;
-            const double travel = travel_beside(cloth, displacement_of(obstacle)) + obstacle.shape_travel;
+            const double displacement = travel_beside(cloth, displacement_of(obstacle)),
+                         travel = displacement + obstacle.shape_travel;
             const double asked = std::max(turns, travel / (largest_part_travel * cloth.thickness()));
             if (asked <= parts) continue;
             parts = asked;
-            most = {.obstacle = number, .travel = travel};
+            const bool jumps = displacement >= jump_parts * largest_part_travel * cloth.thickness();
+            most = {.obstacle = number, .travel = travel, .jumps = jumps};
         }
     }
 
@@ -61,7 +63,7 @@ struct PartsAsked {
         const double travel = travel_beside(cloth, displacement);
         if (travel <= parts * largest_pin_travel * cloth.thickness()) return;
         parts = travel / (largest_pin_travel * cloth.thickness());
-        most = {.vertex = vertex, .travel = travel};
+        most = {.vertex = vertex, .travel = travel, .jumps = parts >= jump_parts};
     }
 
 private:

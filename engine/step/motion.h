@@ -20,6 +20,7 @@ struct MotionParts {
     int obstacle = -1;    // the one that asks for most, or
     int vertex = -1;      // the pinned vertex that does
     double travel = 0.0;  // m: how far it goes beside the cloth that it meets, or that it holds
+    bool jumps = false;   // so far that it may have jumped; what turns or bends does not
 };
 
 /// No obstacle that may meet a cloth turns by more than 15 degrees in a part, as its vertices go straight there, nor moves by

@@ -179,7 +179,7 @@ StepReport step(World& world) {
     if (motion.count > most_step_parts) return refuse_far(world, motion);
     StepReport report = motion.count > 1 ? step_divided(world, motion.count) : step_once(world);
     if (any_yields(world.scene.script)) report = step_yielding(world, motion.count, std::move(report));
-    if (motion.count >= jump_parts) report.jump = motion.travel;
+    if (motion.jumps) report.jump = motion.travel;
     return report;
 }
 

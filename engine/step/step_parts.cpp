@@ -108,6 +108,12 @@ void add_part(StepReport part, StepReport& sum) {
         sum.pinched = before.pinched;
         sum.pinching = before.pinching;
     }
+    if (before.stretch > sum.stretch) {
+        sum.stretch = before.stretch;
+        sum.stretched_cloth = before.stretched_cloth;
+        sum.stretched_pins = before.stretched_pins;
+        sum.stretched_name = before.stretched_name;
+    }
     StepEnergy energy = before.energy;
     add_step_energy(sum.energy, energy);
     sum.energy = energy;

@@ -86,8 +86,7 @@ Meshes read_meshes(const Scene& scene, std::vector<Finding>& found) {
         auto mesh = read_mesh(cloth, MeshRole::cloth, found, [&] { return start_mesh(scene, cloth); });
         if (!mesh) continue;
         mesh->sewn = is_sewn_to_itself(scene, cloth);
-        const auto fabric = scene.fabrics.find(cloth.fabric);
-        mesh->filled = fabric != scene.fabrics.end() && (fabric->second.pressure || fabric->second.gas_volume);
+        mesh->filled = scene.is_filled(cloth);
         meshes.cloths.push_back(std::move(*mesh));
         meshes.cloth_specs.push_back(&cloth);
     }
@@ -293,10 +292,10 @@ void find_bad_shapes(const Scene& scene, std::vector<Finding>& found) {
 }
 
 /// A warning of the plan says what and, behind a semicolon, what to do.
-Finding plan_warning(const Scene& scene, const ScenePlan& plan, const std::string& warning) {
+Finding plan_warning(const Scene& scene, const ScenePlan& plan, const std::string& warning, const std::string& kind) {
     const std::size_t semicolon = warning.rfind("; ");
     Finding finding{.severity = Severity::warning,
-                    .kind = "scheme",
+                    .kind = kind,
                     .place = place_text(scene.scheme_place),
                     .what = warning.substr(0, semicolon)};
     if (semicolon != std::string::npos) finding.fix = warning.substr(semicolon + 2);
@@ -323,15 +322,16 @@ void find_start_moves(const BuiltScene& built, std::vector<Finding>& found) {
     }
 }
 
-/// Pins in the world that a body is going to leave behind.
+/// Pins in the world that a body is going to leave behind; what events do to pins is meant.
 void find_left_pins(const BuiltScene& built, std::vector<Finding>& found) {
     const Scene& scene = built.scene;
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+        if (!has_pins_in_world(scene.cloths[i]) || scene.pins_have_events(scene.cloths[i])) continue;
         const double size = mesh_facts(built.cloth_meshes[i]).extent();
         for (const ObstacleSpec& obstacle : scene.obstacles) {
             const double displacement =
                 (obstacle_pose_at(obstacle, scene.latest_end()).translation - obstacle_pose_at(obstacle, 0.0).translation).norm();
-            if (!has_pins_in_world(scene.cloths[i]) || displacement < size) continue;
+            if (displacement < size) continue;
             found.push_back({.severity = Severity::note,
                              .kind = "pins_stay",
                              .place = place_text(scene.cloths[i].pin_place),
@@ -354,7 +354,8 @@ void examine_built(const Scene& scene, std::vector<Finding>& found) {
     const ScenePlan plan = plan_of(built);
     for (const std::string& warning : plan.warnings) {
         const bool known = std::ranges::find(found, warning, &Finding::what) != found.end();  // swapped meshes
-        if (!known) found.push_back(plan_warning(scene, plan, warning));
+        const bool of_scene = std::ranges::find(built.warnings, warning) != built.warnings.end();
+        if (!known) found.push_back(plan_warning(scene, plan, warning, of_scene ? "scene" : "scheme"));
     }
     find_start_moves(built, found);
     find_left_pins(built, found);

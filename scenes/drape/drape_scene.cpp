@@ -206,8 +206,11 @@ private:
             return std::ranges::find(kinds, finding.kind) != kinds.end();
         };
         for (const Finding& finding : examine_scene_meshes(made_.scene)) {
-            const bool open = finding.role == MeshRole::cloth && among(finding, {"repeated_places", "near_rims", "parts"});
+            const bool of_cloth = finding.role == MeshRole::cloth, sewn = !made_.scene.seams.empty();
+            const bool open = of_cloth && !sewn && among(finding, {"repeated_places", "near_rims"});
             made_.comes_apart = made_.comes_apart || open;
+            if (of_cloth && finding.kind == "parts")
+                note(finding.what + "; --garment-part takes one object or group of a file alone");
             if (finding.severity != Severity::warning) continue;
             const bool of_mesh = among(finding, {"repeated_places", "near_rims", "pinched_vertices", "slivers", "edge_lengths"});
             note("warning: " + finding.what + (of_mesh ? "; " + finding.fix : ""));

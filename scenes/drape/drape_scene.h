@@ -50,9 +50,8 @@ bool stands_along_z(const Vec3& extent);
 struct DrapeScene {
     Scene scene;
     std::vector<std::string> notes;
-    bool z_up = false;  // of the files
-    bool comes_apart =
-        false;  // a garment is of pieces that nothing joins, or has rims that look as if they were meant to be joined
+    bool z_up = false;         // of the files
+    bool comes_apart = false;  // a garment has rims that look as if they were meant to be joined
 };
 
 /// Meshes where they are, garments moved as asked, y up. Throws SceneError for options that do not go together.

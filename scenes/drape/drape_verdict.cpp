@@ -21,7 +21,8 @@ std::string unclean_text(const FrameCheck& check) {
 std::string restless_text(const Drape& drape) {
     return std::string("not at rest when ") + (drape.end == DrapeEnd::stopped ? "stopped" : "the time was up") + " after " +
            short_number(drape.last.time) + " s: the fastest vertex moves at " + short_number(drape.rest.largest_speed) +
-           " m/s, all at " + short_number(drape.rest.rms_speed) + " m/s rms";
+           " m/s, all at " + short_number(drape.rest.rms_speed) + " m/s rms" +
+           (drape.end == DrapeEnd::stopped ? "" : "; --seconds gives it longer, a larger --still is content with less");
 }
 
 std::string fault_of(const Drape& drape, const FrameCheck& check, const WidestGap& gap, bool comes_apart) {
@@ -31,8 +32,9 @@ std::string fault_of(const Drape& drape, const FrameCheck& check, const WidestGa
     const bool away = drape.end == DrapeEnd::time_up && std::isinf(check.smallest_distance);
     if (drape.end == DrapeEnd::fell || away) {
         return std::string(drape.met ? "fell off the body" : "never met the body") +
-               (comes_apart ? "; pieces or rims of it are joined by nothing, merge their vertices by distance in the mesh; or "
-                            : "; ") +
+               (comes_apart
+                    ? "; rims of it are joined by nothing where they meet, merge their vertices by distance in the mesh; or "
+                    : "; ") +
                "use --move to start it where it can catch, or a size that holds";
     }
     return restless_text(drape);

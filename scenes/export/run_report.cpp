@@ -224,7 +224,8 @@ ordered_json skipped_list(std::span<const Skip> skipped) {
 std::vector<std::string> end_warnings(const BuiltScene& built, const RunResult& result) {
     const Measures& m = result.measures;
     std::vector<std::string> warnings = strain_warnings(built, m.largest_strain);
-    if (result.status == RunStatus::finished && !built.obstacles.empty() && result.totals.contacts_most > 0)
+    const bool on_body = std::ranges::any_of(built.scene.obstacles, [](const ObstacleSpec& o) { return !o.mesh.empty(); });
+    if (result.status == RunStatus::finished && on_body && result.totals.contacts_most > 0)
         for (const std::string& text : tight_warnings(built)) warnings.push_back(text + " (pose.scale makes it larger)");
     if (m.intersections > 0) warnings.push_back(counted(m.intersections, "pair") + " of triangles cross, summed over the frames");
     const int unsolved = result.totals.unsolved_steps;

@@ -213,7 +213,20 @@ struct Scene {
         const auto found = fabrics.find(cloth.fabric);
         return found != fabrics.end() && found->second.self_contact;
     }
-    /// The first cloth that does; null: none.
+    /// Whether events pin, let go or move vertices of it.
+    bool pins_have_events(const ClothSpec& cloth) const {
+        const auto names = [&](const auto& what) {
+            if constexpr (requires { what.cloth; }) return what.cloth == cloth.name;
+            return false;
+        };
+        return std::ranges::any_of(events, [&](const EventSpec& event) { return std::visit(names, event.what); });
+    }
+    /// Whether it holds air.
+    bool is_filled(const ClothSpec& cloth) const {
+        const auto found = fabrics.find(cloth.fabric);
+        return found != fabrics.end() && (found->second.pressure || found->second.gas_volume);
+    }
+    /// The first cloth that meets itself and other such cloth; null: none.
     const ClothSpec* cloth_that_meets_cloth() const {
         for (const ClothSpec& cloth : cloths)
             if (meets_cloth(cloth)) return &cloth;

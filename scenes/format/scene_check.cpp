@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/nearest_name.h"
 #include "common/scene_file_error.h"
@@ -199,10 +200,13 @@ bool is_meant_for_nameless(const TomlNode& node, const std::string& path) {
 
 void check_named_tables(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
     if (node.kind != TomlKind::table) fail_kind(node, key, spot.shown);
+    bool told = false;  // of all keys once
     for (const TomlNode& table : node.entries) {
+        const bool nameless = is_meant_for_nameless(table, spot.path);
+        if (nameless && std::exchange(told, true)) continue;
         faults.attempt([&] {
             const std::string& name = table.key;
-            if (is_meant_for_nameless(table, spot.path))
+            if (nameless)
                 fail_at(table.key_place, "[" + spot.shown + "] lacks a name; write [" + spot.shown + ".NAME], not [" +
                                              spot.shown + "], above '" + name + "'");
             if (table.kind != TomlKind::table)

@@ -18,6 +18,11 @@
 namespace percale::scenes {
 namespace {
 
+/// What is said of patterns, those of GarmentCode in JSON included.
+constexpr const char* not_a_scene =
+    ": is a sewing pattern, not a scene file: a scene names it as pattern of a [[cloth]], percale drape sews it around a body, "
+    "percale sew writes its mesh";
+
 template <class Part>
 std::vector<std::string> checked_names(const std::vector<Part>& parts, const std::string& what, FaultList& faults) {
     std::vector<std::string> names;
@@ -90,6 +95,7 @@ std::string file_text(const std::string& file) {
     if (is_mesh_file(file)) {
         throw SceneError(file + ": is a mesh, not a scene file: a scene names it as mesh, percale drape needs no scene");
     }
+    if (std::filesystem::path(file).extension() == ".json") throw SceneError(file + not_a_scene);
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) throw SceneError(file + ": is a folder, not a scene file");
     std::ifstream in(file, std::ios::binary);
@@ -104,10 +110,7 @@ std::string file_text(const std::string& file) {
 Scene scene_with(TomlNode document, const std::string& name, std::span<const Override> overrides, FaultList& faults) {
     document.place = {.file = name};
     if (document.entries.empty()) fail_at(document.place, "is empty; a scene needs at least one [fabric.NAME] and one [[cloth]]");
-    if (document.find("panel") != nullptr && document.find("cloth") == nullptr)
-        throw SceneError(name +
-                         ": is a sewing pattern, not a scene file: a scene names it as pattern of a [[cloth]], percale "
-                         "drape sews it around a body, percale sew writes its mesh");
+    if (document.find("panel") != nullptr && document.find("cloth") == nullptr) throw SceneError(name + not_a_scene);
     for (const Override& override : overrides) apply_override(document, override);
     check_document(document, faults);
     if (!faults.found.empty()) return {};

@@ -1,7 +1,9 @@
 #include "garment/cloth_warnings.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <queue>
 
 #include "common/text.h"
 #include "meshes/mesh_facts.h"
@@ -23,22 +25,21 @@ bool in_one_place(const TriangleMesh& a, const TriangleMesh& b, double thickness
                               [&](const Vec3& x, const Vec3& y) { return (x - y).squaredNorm() < thickness * thickness; });
 }
 
-bool is_filled(const Scene& scene, const ClothSpec& cloth) {
-    const Fabric& fabric = scene.fabrics.at(cloth.fabric);
-    return fabric.pressure || fabric.gas_volume;
-}
-
 /// Garments have rims and bodies are closed.
 void warn_of_swapped(const Scene& scene, std::span<const TriangleMesh> starts, std::span<const TriangleMesh> obstacles,
                      std::vector<std::string>& warnings) {
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-        const ClothSpec& cloth = scene.cloths[i];
-        if (cloth.mesh.empty() || is_filled(scene, cloth) || !is_watertight(starts[i])) continue;
-        for (std::size_t k = 0; k < obstacles.size(); ++k) {
-            if (scene.obstacles[k].mesh.empty() || is_watertight(joined_by_place(obstacles[k]).mesh)) continue;
-            warnings.push_back("cloth '" + cloth.name + "': " + swapped_text("obstacle '" + scene.obstacles[k].name + "'"));
-        }
+    const auto is_closed = [&](const ClothSpec& cloth) {
+        return !cloth.mesh.empty() && !scene.is_filled(cloth) && is_watertight(starts[&cloth - scene.cloths.data()]);
+    };
+    const auto cloth = std::ranges::find_if(scene.cloths, is_closed);
+    if (cloth == scene.cloths.end()) return;
+    const ObstacleSpec* open = nullptr;
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        if (scene.obstacles[k].mesh.empty()) continue;
+        if (is_watertight(joined_by_place(obstacles[k]).mesh)) return;  // there is a body
+        open = &scene.obstacles[k];
     }
+    if (open != nullptr) warnings.push_back("cloth '" + cloth->name + "': " + swapped_text("obstacle '" + open->name + "'"));
 }
 
 struct Box {
@@ -60,22 +61,51 @@ struct Box {
     }
 };
 
-/// Nothing but gravity moves anything.
+/// m, which no two of its vertices are farther apart, however it unfolds: twice the longest of the shortest paths along edges
+/// from one vertex (Dijkstra 1959). Infinite where it is of several pieces.
+double unfolded_size(const TriangleMesh& mesh) {
+    std::vector<std::vector<int>> next(mesh.vertices.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            next[t[k]].push_back(t[(k + 1) % 3]);
+            next[t[(k + 1) % 3]].push_back(t[k]);
+        }
+    }
+    std::vector<double> path(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
+    path[0] = 0.0;
+    open.push({0.0, 0});
+    while (!open.empty()) {
+        const auto [length, v] = open.top();
+        open.pop();
+        if (length > path[v]) continue;
+        for (const int w : next[v]) {
+            const double by_v = length + (mesh.vertices[v] - mesh.vertices[w]).norm();
+            if (by_v >= path[w]) continue;
+            path[w] = by_v;
+            open.push({by_v, w});
+        }
+    }
+    return 2.0 * *std::ranges::max_element(path);
+}
+
+/// Nothing but gravity moves anything, and no cloth another.
 bool only_falls(const Scene& scene) {
     const auto still = [](const ObstacleSpec& obstacle) {
         const bool endless = obstacle.mesh.empty() && std::holds_alternative<PlaneShape>(obstacle.shape);
         return !endless && obstacle.motion.empty() && !obstacle.spin && !obstacle.bends();
     };
-    return scene.events.empty() && scene.seams.empty() && !scene.step.wind && std::ranges::all_of(scene.obstacles, still) &&
-           std::ranges::all_of(scene.cloths, [&](const ClothSpec& cloth) {
-               return cloth.pattern.empty() && cloth.rest.empty() && !is_filled(scene, cloth);
+    const bool alone = scene.cloths.size() == 1 || scene.cloth_that_meets_cloth() == nullptr;
+    return alone && scene.events.empty() && scene.seams.empty() && !scene.step.wind &&
+           std::ranges::all_of(scene.obstacles, still) && std::ranges::all_of(scene.cloths, [&](const ClothSpec& cloth) {
+               return cloth.pattern.empty() && cloth.rest.empty() && !scene.is_filled(cloth);
            });
 }
 
-/// Where cloth may come: as it starts and as far around as it is large, and from there along gravity, where no pin holds it.
-Box reach_of(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start) {
+/// Where cloth of that size may come: as far around its start, and from there along gravity, where no pin holds it.
+Box reach_of(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, double size) {
     Box box(start);
-    box.grow((box.highest - box.lowest).norm() + scene.fabrics.at(cloth.fabric).thickness);
+    box.grow(size + scene.fabrics.at(cloth.fabric).thickness);
     if (has_pins(cloth)) return box;
     for (int axis = 0; axis < 3; ++axis) {
         const double pull = scene.step.gravity[axis];
@@ -91,18 +121,24 @@ void warn_of_missing(const Scene& scene, std::span<const TriangleMesh> starts, s
     double nearest = std::numeric_limits<double>::infinity();
     std::string pair;
     for (std::size_t i = 0; i < starts.size(); ++i) {
-        const Box box(starts[i]), reach = reach_of(scene, scene.cloths[i], starts[i]);
+        const ClothSpec& cloth = scene.cloths[i];
+        const auto gap_to = [&](const TriangleMesh& obstacle, double size) {
+            return reach_of(scene, cloth, starts[i], size).gap(Box(obstacle));
+        };
+        const auto meets = [&](double size) {
+            return std::ranges::any_of(obstacles, [&](const TriangleMesh& obstacle) { return gap_to(obstacle, size) <= 0.0; });
+        };
+        if (meets(0.0) || meets(unfolded_size(starts[i]))) return;
         for (std::size_t k = 0; k < obstacles.size(); ++k) {
-            const Box obstacle(obstacles[k]);
-            if (reach.gap(obstacle) <= 0.0) return;
-            if (box.gap(obstacle) >= nearest) continue;
-            nearest = box.gap(obstacle);
-            pair = "cloth '" + scene.cloths[i].name + "' starts " + short_number(nearest) + " m away from obstacle '" +
-                   scene.obstacles[k].name + "'";
+            const double gap = gap_to(obstacles[k], 0.0);
+            if (gap >= nearest) continue;
+            nearest = gap;
+            pair =
+                "cloth '" + cloth.name + "' stays " + short_number(gap) + " m beside obstacle '" + scene.obstacles[k].name + "'";
         }
     }
-    warnings.push_back("no cloth can meet an obstacle from where it starts, " + pair +
-                       "; is everything in its place, and in one unit?");
+    warnings.push_back("no cloth can meet an obstacle from where it starts: " + pair +
+                       "; move it there by pose.translation, or say the unit of its mesh");
 }
 
 }  // namespace

@@ -249,16 +249,25 @@ std::vector<int> near_rim_vertices(const TriangleMesh& mesh, const MeshFacts& fa
     for (const Side& side : sorted_sides(mesh.triangles)) joined.push_back(side.ends);
     std::sort(joined.begin(), joined.end());
 
-    using Cell = std::array<long, 3>;
+    // Of the edges of the rim at a vertex the shortest: what is nearer than half of it lies on another stretch of rim.
+    std::vector<double> shortest(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+    for (const auto& [a, b] : facts.open_edges) {
+        const double length = (mesh.vertices[a] - mesh.vertices[b]).norm();
+        shortest[a] = std::min(shortest[a], length);
+        shortest[b] = std::min(shortest[b], length);
+    }
+
+    using Cell = std::array<double, 3>;  // whole numbers
     const auto cell_of = [&](const Vec3& x) {
-        return Cell{std::lround(x.x() / distance), std::lround(x.y() / distance), std::lround(x.z() / distance)};
+        return Cell{std::round(x.x() / distance), std::round(x.y() / distance), std::round(x.z() / distance)};
     };
     std::map<Cell, std::vector<int>> cells;
     for (const int v : rim) cells[cell_of(mesh.vertices[v])].push_back(v);
     const auto is_near = [&](int v, int other) {
         const double apart = (mesh.vertices[v] - mesh.vertices[other]).norm();
         const VertexPair pair = {std::min(v, other), std::max(v, other)};
-        return apart > 0.0 && apart < distance && !std::binary_search(joined.begin(), joined.end(), pair);
+        const double limit = std::min(distance, 0.5 * std::min(shortest[v], shortest[other]));
+        return apart > 0.0 && apart < limit && !std::binary_search(joined.begin(), joined.end(), pair);
     };
     const auto has_near = [&](int v) {
         const Cell own = cell_of(mesh.vertices[v]);

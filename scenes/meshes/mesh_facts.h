@@ -41,8 +41,8 @@ MeshFacts mesh_facts(const TriangleMesh& mesh);
 /// Whether every edge has two triangles, wound alike: MeshFacts::watertight() without the rest.
 bool is_watertight(const TriangleMesh& mesh);
 
-/// Vertices of open edges that have a vertex of another open edge within `distance`, not in their own place and of no triangle in
-/// common: where a mesh was cut, or was never joined. Ascending.
+/// Vertices of open edges that have a vertex of another open edge within `distance` and half of the open edges at either, not in
+/// their own place and of no edge in common: where a mesh was cut, or was never joined. Ascending.
 std::vector<int> near_rim_vertices(const TriangleMesh& mesh, const MeshFacts& facts, double distance);
 
 /// A mesh as contact sees it: corners at the same place are one vertex, the first of them, and triangles that are flat or

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -32,17 +33,18 @@ void check_command_name(const std::string& word) {
 std::vector<std::string> with_help_option(std::vector<std::string> words) {
     if (words.empty() || words.front() != "help") return words;
     words.erase(words.begin());
+    if (!words.empty() && words.front() == "help") words.erase(words.begin());
     words.emplace_back("--help");
     return words;
 }
 
 bool is_number(const std::string& word) {
     char* end = nullptr;
-    std::strtod(word.c_str(), &end);
-    return !word.empty() && end == word.c_str() + word.size();
+    const double number = std::strtod(word.c_str(), &end);
+    return !word.empty() && end == word.c_str() + word.size() && std::isfinite(number);
 }
 
-/// Three numbers after an option are words or have commas between them. With both, as in "0 1,5 0", a comma was meant as a point.
+/// The parser takes whatever follows, and says little of it. Numbers with commas between them, "0,1.5,0", are its own.
 void check_three_numbers(const std::vector<std::string>& words, const std::string& option) {
     const auto found = std::find(words.begin(), words.end(), option);
     if (words.end() - found < 2 || found[1].find(',') != std::string::npos) return;
@@ -102,7 +104,8 @@ int parse_and_act(int argc, char** argv) {
     add_sweep_command(program, action);
     std::vector<std::string> words = with_help_option({argv + 1, argv + argc});
     if (!words.empty()) check_command_name(words.front());
-    for (const char* option : {"--move", "--rotate"}) check_three_numbers(words, option);
+    const bool drapes = !words.empty() && words.front() == "drape";
+    if (drapes) check_three_numbers(words, "--move"), check_three_numbers(words, "--rotate");
     std::reverse(words.begin(), words.end());  // as the parser takes them
     try {
         program.parse(words);

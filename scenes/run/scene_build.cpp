@@ -304,7 +304,9 @@ std::vector<std::string> tight_warnings(const BuiltScene& built) {
     std::vector<std::string> warnings;
     for (std::size_t k = 0; k < built.cloths.size(); ++k) {
         const double strain = built.simulation.largest_strain(built.cloths[k]);
-        if (has_pins(built.scene.cloths[k]) || strain < tight_strain || strain > torn_strain) continue;
+        const ClothSpec& cloth = built.scene.cloths[k];
+        const bool held = has_pins(cloth) || built.scene.pins_have_events(cloth) || built.scene.is_filled(cloth);
+        if (held || cloth.grid || strain < tight_strain || strain > torn_strain) continue;
         warnings.push_back("'" + built.scene.cloths[k].name + "' is stretched by " + percent_text(strain) +
                            " at its tightest: it may be too small for the body");
     }

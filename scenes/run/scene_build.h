@@ -43,8 +43,8 @@ TriangleMesh obstacle_now(const BuiltScene& built, std::size_t obstacle);
 /// strain_limit by more than a tenth of it.
 std::vector<std::string> strain_warnings(const BuiltScene& built, double largest_strain);
 
-/// What to tell of cloth without pins that is tight now: one that is too small for a body fits it all the same, springs stretch
-/// as far as they have to.
+/// What to tell of garments that are tight now: one that is too small for a body fits it all the same, springs stretch as far as
+/// they have to. Cloth that is pinned or filled is stretched by that, and a grid is no garment.
 std::vector<std::string> tight_warnings(const BuiltScene& built);
 
 /// What all seams have sewn.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "format/scene.h"
 #include "run/step_count.h"
 

@@ -165,20 +165,23 @@ typedef struct percale_step_report {
     double largest_strain;    /* of structural springs, (l - l0)/l0 */
     double largest_speed;     /* m/s */
     int blocked_by_pin, blocked_cloth, blocked_vertex, blocking_obstacle; /* of a failed step; -1: none */
-    double travel;                       /* m, beside the cloth, of an obstacle or a pin that moves too far for a step */
-    int pinched;                         /* places where obstacles give way to cloth */
-    int yielded_in_vain;                 /* 1, of a failed step: what closed on the cloth gave way, but not enough */
-    double yielded;                      /* m, farthest that an obstacle's vertex is from where it should be */
-    int pinching[2];                     /* obstacles between which the cloth has least room; -1: none */
-    int second_obstacle;                 /* pushes the cloth towards the blocking one; -1: none */
-    int stretched_cloth, stretched_pins; /* of a failed step: held by pins and stretched to more than twice its length */
-    double stretch;                      /* its largest strain */
-    uint64_t contact_hash;               /* of the contact rows at the end */
+    double travel;       /* m, beside the cloth, of an obstacle or a pin that moves too far for a step */
+    int pinched;         /* places where obstacles give way to cloth */
+    int yielded_in_vain; /* 1, of a failed step: what closed on the cloth gave way, but not enough */
+    double yielded;      /* m, farthest that an obstacle's vertex is from where it should be */
+    int pinching[2];     /* obstacles between which the cloth has least room; -1: none */
+    int second_obstacle; /* pushes the cloth towards the blocking one; -1: none */
+    int stretched_cloth,
+        stretched_pins;    /* of a step that failed or did not converge: held by pins, stretched to more than twice its length */
+    double stretch;        /* its largest strain */
+    uint64_t contact_hash; /* of the contact rows at the end */
     double kinetic, gravity, elastic, contact, work; /* J, as in percale_energy */
     double dissipated_material, dissipated_friction, dissipated_contact, dissipated_integrator, residual_work, imbalance;
     double refresh_s, evaluate_s, force_s, setup_s, solve_s, cut_s, measure_s; /* CPU seconds of the calling thread */
     double cpu_s;                                                              /* of all threads */
-    int out_of_time; /* 1: percale_set_time_limit ended it before it was solved */
+    int out_of_time;   /* 1: percale_set_time_limit ended it before it was solved */
+    double time_error; /* m, estimated: what the length of the step costs in accuracy, in the mean of the worst cloth */
+    double jump;       /* m, beside the cloth, of what moves so far that the step is made in 8 parts or more */
 } percale_step_report;
 
 /* What is wrong with a refused start: an obstacle that the cloth crosses, is inside of or touches, or cloth against cloth. */

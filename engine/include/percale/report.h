@@ -111,7 +111,8 @@ struct StepReport {
     DroppedSpans dropped;                                  // why that was done, and why adaptive lengths were rejected
     double residual = 0.0;    // relative to the first of the step, or to gravity's impulse where that is larger
     double time_error = 0.0;  // m, estimated: what the length of the step costs in accuracy, in the mean of the worst cloth; the
-                              // solver's own error is at most newton_share of it. 0: explicit schemes, unless adaptive
+                              // solver's own error is at most newton_share of it where no newton_tolerance is set, and where it
+                              // converged. 0: explicit schemes, unless adaptive
     double smallest_fraction = 1.0;  // smallest part of a move that was free of crossing
     int sleeping_cloths = 0;         // at rest
     bool slept = false;              // all were: the step was not solved, the figures are those of the last one that was

@@ -17,7 +17,8 @@ using Counts = std::vector<int*>;
 Fields figures_of(StepReport& report) {
     StageTimes& stages = report.stages;
     Fields fields{&report.time, &report.dt, &report.smallest_dt, &report.largest_dt, &report.residual, &report.smallest_fraction};
-    fields.insert(fields.end(), {&report.smallest_distance, &report.contact_stiffness, &report.largest_strain, &report.travel});
+    fields.insert(fields.end(), {&report.smallest_distance, &report.contact_stiffness, &report.largest_strain, &report.travel,
+                                 &report.time_error, &report.jump});
     fields.insert(fields.end(), {&report.largest_speed, &report.yielded, &report.stretch, &report.cpu_s, &stages.refresh});
     fields.insert(fields.end(), {&stages.evaluate, &stages.force, &stages.setup, &stages.solve, &stages.cut, &stages.measure});
     StepEnergy& energy = report.energy;
@@ -29,7 +30,8 @@ Fields figures_of(StepReport& report) {
 /// In the order of figures_of.
 Fields figures_of(percale_step_report& told) {
     Fields fields{&told.time, &told.dt, &told.smallest_dt, &told.largest_dt, &told.residual, &told.smallest_fraction};
-    fields.insert(fields.end(), {&told.smallest_distance, &told.contact_stiffness, &told.largest_strain, &told.travel});
+    fields.insert(fields.end(), {&told.smallest_distance, &told.contact_stiffness, &told.largest_strain, &told.travel,
+                                 &told.time_error, &told.jump});
     fields.insert(fields.end(), {&told.largest_speed, &told.yielded, &told.stretch, &told.cpu_s, &told.refresh_s});
     fields.insert(fields.end(), {&told.evaluate_s, &told.force_s, &told.setup_s, &told.solve_s, &told.cut_s, &told.measure_s});
     fields.insert(fields.end(), {&told.kinetic, &told.gravity, &told.elastic, &told.contact, &told.work});

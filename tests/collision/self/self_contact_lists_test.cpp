@@ -239,6 +239,7 @@ TEST_CASE("what has been a contact stays one where lists are made anew") {
     const auto before = zones_of(lists);
     x[0].y() += 10.0;  // the lists no longer hold
     lists.cover(x, x);
+    lists.for_each([](const SelfList& list) { CHECK(list.pairs.capacity() == list.pairs.size()); });
     int taken = 0;
     for (const auto& [key, zone] : zones_of(lists)) {
         const auto old = before.find(key);
@@ -246,6 +247,22 @@ TEST_CASE("what has been a contact stays one where lists are made anew") {
         taken += zone > 0.0;
     }
     CHECK(taken > marked / 2);
+}
+
+TEST_CASE("a list that holds no pair any more holds no memory either") {
+    SelfList list;
+    list.pairs.resize(100);
+    list.record_of(list.pairs[7]).zone = 0.01;
+    list.record_of(list.pairs[40]).zone = 0.0;
+    REQUIRE(list.record_of(list.pairs[7]).pair == 7);
+    REQUIRE(list.records.size() == 2);
+    list.give_up();
+    REQUIRE(list.pairs.size() == 1);
+    CHECK(list.zone(list.pairs[0]) == 0.01);
+    CHECK(list.records[0].pair == 0);
+    CHECK(list.pairs.capacity() < 3);
+    list.clear(1.0);
+    CHECK(list.pairs.capacity() + list.records.capacity() == 0);
 }
 
 TEST_CASE("cloth that meets no cloth is in no list") {

@@ -134,6 +134,19 @@ TEST_CASE("An obstacle that jumps farther than cloth can follow fails the step a
     CHECK(scene.simulation.obstacle_pose(scene.plane).translation == Vec3::Zero());
 }
 
+TEST_CASE("What turns or goes a few parts far in a step did not jump") {
+    RestingSheet scene;
+    scene.simulation.move_obstacle(scene.plane, {.rotation = {std::cos(1.2), 0.0, std::sin(1.2), 0.0}});  // 137 degrees about y
+    const StepReport turn = scene.simulation.step();
+    CHECK(turn.parts >= 8);
+    CHECK(turn.jump == 0.0);
+    RestingSheet other;
+    other.simulation.move_obstacle(other.plane, {.translation = Vec3(0.3, 0.0, 0.0)});
+    const StepReport slow = other.simulation.step();
+    CHECK(slow.parts > 1);
+    CHECK(slow.jump == 0.0);
+}
+
 TEST_CASE("A pin that jumps farther than cloth with contact can follow fails the step at once, too") {
     RestingSheet scene;
     const std::uint64_t hash = scene.simulation.state_hash();

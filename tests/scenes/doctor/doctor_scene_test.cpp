@@ -333,6 +333,8 @@ TEST_CASE("pins in the world are a note where a body goes far away, pins on it a
     CHECK_THAT(find(examined(lifted, {{pins, "[0]"}}), "pins_stay")->what, Catch::Contains(" m away"));
     CHECK(severity(examined(quiet_scene(), {{pins, "[0]"}}), "pins_stay") == "none");
     CHECK(severity(examined(lifted), "pins_stay") == "none");
+    const std::string unpinned = lifted + "[[event]]\ntime = 0.05\nunpin = { cloth = \"sheet\", vertices = [0] }\n";
+    CHECK(severity(examined(unpinned, {{pins, "[0]"}}), "pins_stay") == "none");
 }
 
 TEST_CASE("meshes that look swapped are told of once") {

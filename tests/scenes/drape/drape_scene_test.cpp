@@ -99,6 +99,9 @@ TEST_CASE("a garment of pieces that nothing joins is known, and said how to mend
     const DrapeScene made = drape_scene(options);
     CHECK(made.comes_apart);
     CHECK(std::ranges::any_of(made.notes, [](const std::string& note) {
+        return note.find("it consists of 2 pieces that nothing joins; --garment-part") != note.npos;
+    }));
+    CHECK(std::ranges::any_of(made.notes, [](const std::string& note) {
         return note.find("14 vertices of a rim") != note.npos && note.find("; merge vertices by distance") != note.npos;
     }));
 }

@@ -84,6 +84,7 @@ TEST_CASE(
     CAPTURE(verdict.lines);
     CHECK(verdict.lines[0].find(" 0 intersecting pairs with the body, ") != std::string::npos);
     CHECK(verdict.wrong.find("not at rest when the time was up") != std::string::npos);
+    CHECK(verdict.wrong.find("--seconds gives it longer") != std::string::npos);
     std::ifstream in(folder.path("out.obj"));
     const TriangleMesh written = read_obj(in, "out.obj");
     const std::span<const Vec3> now = built.simulation.positions(built.cloths[0]);

@@ -241,6 +241,11 @@ TEST_CASE("a fabric without a name is told how to have one, a fabric with the na
     const std::string advice = "[fabric] lacks a name; write [fabric.NAME], not [fabric], above '";
     CHECK(fault("[fabric]\narea_density = 0.2\n") == "t:2:1: " + advice + "area_density'");
     CHECK(fault("[fabric]\nsprings = { structural = 500 }\n") == "t:2:1: " + advice + "springs'");
+    FaultList all(true);
+    check_document(parse_toml("[fabric]\narea_density = 0.2\nthickness = 0.005\nspring_damping = 0\n", "t"), all);
+    CHECK(std::ranges::count_if(all.found, [](const SceneFileError& one) {
+              return std::string(one.what()).find("lacks a name") != std::string::npos;
+          }) == 1);
     CHECK(fault_after("[fabric.springs]\narea_density = 0.2\nsprings = { structural = 500 }\n") == no_fault);
     CHECK(fault("[[fabric]]\nname = \"f\"\n") ==
           "t:1:1: fabric must be a table of named tables, not a list of 1; write [fabric.NAME], once for each");

@@ -256,6 +256,8 @@ TEST_CASE("a missing file, a folder and a file of rubbish are errors that name t
           mesh + ": is a mesh, not a scene file: a scene names it as mesh, percale drape needs no scene");
     const std::string pattern = folder.write("skirt.toml", "unit = \"cm\"\n[[panel]]\nname = \"a\"\n");
     CHECK(error_of([&] { load_scene(pattern); }).starts_with(pattern + ": is a sewing pattern, not a scene file: "));
+    const std::string json = folder.write("skirt.json", "{}");
+    CHECK(error_of([&] { load_scene(json); }).starts_with(json + ": is a sewing pattern, not a scene file: "));
     const std::string rubbish = folder.write("rubbish.toml", std::string("\x7f\x45LF\x02\x01\0\0\xff\xfe", 10));
     CHECK(error_of([&] { load_scene(rubbish); }).starts_with(rubbish + ":1:"));
 }

@@ -27,6 +27,7 @@ TEST_CASE("help is an option by itself and before a command") {
     CHECK(run_program({"help"}).out == run_program({"--help"}).out);
     CHECK(run_program({"help", "drape"}).out == run_program({"drape", "--help"}).out);
     CHECK(run_program({"help", "drape"}).exit_code == 0);
+    CHECK(run_program({"help", "help"}).out == run_program({"--help"}).out);
     CHECK(refused(run_program({"help", "drap"}), "no such command 'drap'; did you mean 'drape'?"));
 }
 
@@ -40,6 +41,7 @@ TEST_CASE("an option that takes three numbers says so where it gets others") {
                   "--move takes three numbers, as in --move 0 1.5 0, but '-o' is no number"));
     CHECK(refused(with({"-o", "x.obj", "--rotate", "90", "0"}), "--rotate takes three numbers, as in"));
     CHECK(refused(with({"-o", "x.obj", "--rotate", "90", "0"}), "but 2 are given"));
+    CHECK(refused(with({"-o", "x.obj", "--move", "0", "nan", "0"}), "'nan' is no number"));
     // What is right goes on, to the files.
     CHECK(refused(with({"-o", "x.obj", "--move", "-1", "-.5", "2e-3"}), "cannot be read"));
     CHECK(refused(with({"-o", "x.obj", "--move", "-1,-.5,2e-3"}), "cannot be read"));
