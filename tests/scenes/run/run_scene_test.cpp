@@ -203,7 +203,7 @@ TEST_CASE("a stop is heard after a step, and the run says how far it came") {
     CHECK(steps == 3);
     CHECK(result.totals.steps == 3);
     CHECK(result.totals.simulated_s == Approx(0.03));
-    CHECK(result.reason.find("3 of 10") != std::string::npos);
+    CHECK(result.reason.find("stopped at 0.03 of 0.1 s") != std::string::npos);
 }
 
 TEST_CASE("a pin that is dragged through an obstacle ends the run as failed, with the reason") {
