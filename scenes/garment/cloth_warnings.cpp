@@ -42,9 +42,23 @@ void warn_of_swapped(const Scene& scene, std::span<const TriangleMesh> starts, s
     if (open != nullptr) warnings.push_back("cloth '" + cloth->name + "': " + swapped_text("obstacle '" + open->name + "'"));
 }
 
+/// Of its triangles' areas, and so of its mass.
+Vec3 middle_of(const TriangleMesh& mesh) {
+    Vec3 sum = Vec3::Zero();
+    double area = 0.0;
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+        const double own = (b - a).cross(c - a).norm();
+        sum += own * (a + b + c) / 3.0;
+        area += own;
+    }
+    return sum / area;
+}
+
 struct Box {
     Vec3 lowest = Vec3::Constant(std::numeric_limits<double>::infinity()), highest = -lowest;
 
+    explicit Box(const Vec3& point) : lowest(point), highest(point) {}
     explicit Box(const TriangleMesh& mesh) {
         for (const Vec3& x : mesh.vertices) {
             lowest = lowest.cwiseMin(x);
@@ -61,20 +75,14 @@ struct Box {
     }
 };
 
-/// m, which no two of its vertices are farther apart, however it unfolds: twice the longest of the shortest paths along edges
-/// from one vertex (Dijkstra 1959). Infinite where it is of several pieces.
-double unfolded_size(const TriangleMesh& mesh) {
-    std::vector<std::vector<int>> next(mesh.vertices.size());
-    for (const Triangle& t : mesh.triangles) {
-        for (int k = 0; k < 3; ++k) {
-            next[t[k]].push_back(t[(k + 1) % 3]);
-            next[t[(k + 1) % 3]].push_back(t[k]);
-        }
-    }
+using Neighbours = std::vector<std::vector<int>>;
+
+/// m, of the shortest paths along edges from one vertex to each (Dijkstra 1959); infinite where there is none.
+std::vector<double> paths_from(int from, const TriangleMesh& mesh, const Neighbours& next) {
     std::vector<double> path(mesh.vertices.size(), std::numeric_limits<double>::infinity());
     std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
-    path[0] = 0.0;
-    open.push({0.0, 0});
+    path[from] = 0.0;
+    open.push({0.0, from});
     while (!open.empty()) {
         const auto [length, v] = open.top();
         open.pop();
@@ -86,7 +94,28 @@ double unfolded_size(const TriangleMesh& mesh) {
             open.push({by_v, w});
         }
     }
-    return 2.0 * *std::ranges::max_element(path);
+    return path;
+}
+
+/// m, which no two of its vertices are farther apart, however it unfolds: twice the longest of the shortest paths along edges
+/// from a vertex in its middle. Infinite where it is of several pieces.
+double unfolded_size(const TriangleMesh& mesh) {
+    Neighbours next(mesh.vertices.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            next[t[k]].push_back(t[(k + 1) % 3]);
+            next[t[(k + 1) % 3]].push_back(t[k]);
+        }
+    }
+    const auto farthest = [](const std::vector<double>& path) {
+        return static_cast<int>(std::ranges::max_element(path) - path.begin());
+    };
+    const int one = farthest(paths_from(0, mesh, next));
+    const std::vector<double> from_one = paths_from(one, mesh, next), from_other = paths_from(farthest(from_one), mesh, next);
+    int middle = 0;
+    for (std::size_t v = 0; v < next.size(); ++v)
+        if (std::max(from_one[v], from_other[v]) < std::max(from_one[middle], from_other[middle])) middle = static_cast<int>(v);
+    return 2.0 * std::ranges::max(paths_from(middle, mesh, next));
 }
 
 /// Nothing but gravity moves anything, and no cloth another.
@@ -102,11 +131,19 @@ bool only_falls(const Scene& scene) {
            });
 }
 
-/// Where cloth of that size may come: as far around its start, and from there along gravity, where no pin holds it.
+/// Where cloth of that size may come: as far around its start, if a pin holds it; else around its middle, which falls along
+/// gravity.
 Box reach_of(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, double size) {
     Box box(start);
-    box.grow(size + scene.fabrics.at(cloth.fabric).thickness);
-    if (has_pins(cloth)) return box;
+    const double thickness = scene.fabrics.at(cloth.fabric).thickness;
+    if (has_pins(cloth)) {
+        box.grow(size + thickness);
+        return box;
+    }
+    Box around(middle_of(start));
+    around.grow(size + thickness);
+    box.lowest = box.lowest.cwiseMin(around.lowest);
+    box.highest = box.highest.cwiseMax(around.highest);
     for (int axis = 0; axis < 3; ++axis) {
         const double pull = scene.step.gravity[axis];
         if (pull < 0.0) box.lowest[axis] = -std::numeric_limits<double>::infinity();
