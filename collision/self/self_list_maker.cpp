@@ -15,6 +15,8 @@ Box box_of(std::span<const int> vertices, std::span<const Vec3> positions) {
     return box;
 }
 
+constexpr std::size_t few_elements = 8;
+
 /// m, thickness h of two features of one cloth that are `distance` apart at rest.
 double thickness_from_rest(double distance, double h) {
     return std::min(h, std::max(tolerances::contact_of_rest * distance, tolerances::least_of_rest * h));
@@ -32,6 +34,16 @@ void keep_contacts(const SelfList& from, SelfList& to) {
         to.pairs.push_back(pair);
         to.pairs.back().record = number;
     }
+}
+
+/// Into memory that is there, if it is not twice as much as they take, or into some more than they take: lists of cloth that
+/// hardly moves allocate nothing.
+template <class Element>
+void hand_over(const std::vector<Element>& from, std::vector<Element>& to) {
+    const std::size_t count = from.size();
+    if (to.capacity() > 2 * count + few_elements) to = std::vector<Element>();  // `to = {}` would keep it
+    if (to.capacity() < count) to.reserve(count + count / 8 + few_elements / 2);
+    to.assign(from.begin(), from.end());
 }
 
 }  // namespace
@@ -64,8 +76,14 @@ SelfPairRecord& SelfList::record_of(SelfPair& pair) {
 }
 
 void SelfList::clear(double with_room) {
-    pairs = std::vector<SelfPair>();  // `= {}` would keep the memory, and most lists never again hold as many
+    pairs = std::vector<SelfPair>();
     records = std::vector<SelfPairRecord>();
+    begin(with_room);
+}
+
+void SelfList::begin(double with_room) {
+    pairs.clear();
+    records.clear();
     travel = 0.0;
     room = with_room;
     smallest_reach = std::numeric_limits<double>::infinity();
@@ -88,7 +106,7 @@ long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const
     const SelfCluster &a = cloth.clusters[list.first], &b = cloth.clusters[list.second];
     pair_ = cloth.pairs.of(a.cloth, b.cloth);
     keep_contacts(list, old_);
-    list.clear(shrink_of(a, b) + a.skin + b.skin);
+    list.begin(shrink_of(a, b) + a.skin + b.skin);
     const bool is_fine = tolerances::contact_of_rest * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
     const double thickness = 0.5 * (a.thickness + b.thickness);
     const Reach reach{.room = list.room, .thickness = thickness, .rest_counts = is_fine && a.cloth == b.cloth};
@@ -103,8 +121,8 @@ long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const
         list.thickness = std::max(list.thickness, pair.thickness);
     }
     take_over_zones();
-    list.pairs.assign(pairs_.begin(), pairs_.end());  // no more memory than they take
-    list.records.assign(records_.begin(), records_.end());
+    hand_over(pairs_, list.pairs);
+    hand_over(records_, list.records);
     return considered_;
 }
 

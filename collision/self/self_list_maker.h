@@ -64,6 +64,8 @@ struct SelfList {
     /// Of a pair of the list, made where it has none.
     SelfPairRecord& record_of(SelfPair& pair);
 
+    /// Without a pair, to be filled.
+    void begin(double with_room);
     /// Without a pair, and without memory for one.
     void clear(double with_room);
     /// Keeps contacts alone: it has to be made anew.

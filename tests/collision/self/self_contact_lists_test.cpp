@@ -239,7 +239,7 @@ TEST_CASE("what has been a contact stays one where lists are made anew") {
     const auto before = zones_of(lists);
     x[0].y() += 10.0;  // the lists no longer hold
     lists.cover(x, x);
-    lists.for_each([](const SelfList& list) { CHECK(list.pairs.capacity() == list.pairs.size()); });
+    lists.for_each([](const SelfList& list) { CHECK(list.pairs.capacity() <= 2 * list.pairs.size() + 8); });
     int taken = 0;
     for (const auto& [key, zone] : zones_of(lists)) {
         const auto old = before.find(key);
