@@ -174,6 +174,10 @@ constexpr double self_skin = 0.5, self_skin_of_edge = 0.125;
 /// Small: they are made anew often. Large: they stay full of what is far. Cost alone.
 constexpr double most_room = 4.0;
 
+/// Elements for which a list may keep memory beside twice what it holds; half of them, and an eighth of what it holds, it takes
+/// beforehand. Fewer: lists of cloth that hardly moves allocate. Cost alone.
+constexpr std::size_t spare_elements = 8;
+
 /// Of cloth against cloth: how many clusters and lists a thread takes at once, and how many lists are made before it is looked
 /// how many pairs they have taken.
 constexpr std::size_t self_clusters_a_part = 64, self_lists_a_part = 16, self_lists_a_round = 1024;

@@ -15,8 +15,6 @@ Box box_of(std::span<const int> vertices, std::span<const Vec3> positions) {
     return box;
 }
 
-constexpr std::size_t few_elements = 8;
-
 /// m, thickness h of two features of one cloth that are `distance` apart at rest.
 double thickness_from_rest(double distance, double h) {
     return std::min(h, std::max(tolerances::contact_of_rest * distance, tolerances::least_of_rest * h));
@@ -41,8 +39,8 @@ void keep_contacts(const SelfList& from, SelfList& to) {
 template <class Element>
 void hand_over(const std::vector<Element>& from, std::vector<Element>& to) {
     const std::size_t count = from.size();
-    if (to.capacity() > 2 * count + few_elements) to = std::vector<Element>();  // `to = {}` would keep it
-    if (to.capacity() < count) to.reserve(count + count / 8 + few_elements / 2);
+    if (to.capacity() > 2 * count + tolerances::spare_elements) to = std::vector<Element>();  // `to = {}` would keep it
+    if (to.capacity() < count) to.reserve(count + count / 8 + tolerances::spare_elements / 2);
     to.assign(from.begin(), from.end());
 }
 

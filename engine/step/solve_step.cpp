@@ -69,6 +69,7 @@ public:
                 accepted.past.earlier_length = 0.0;  // BDF2 goes on with shorter lengths as from a start
                 report_.status = status;
                 report_.energy = energy;
+                if (status != StepStatus::not_converged) report_.stretched_cloth = -1, report_.stretch = 0.0;
                 report_.dropped.add(SpanEnd::inexact);
                 ++report_.rejected;
                 continue;

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "common/text.h"
-#include "garment/cloth_warnings.h"
+#include "garment/meeting_warnings.h"
 #include "percale/certify.h"
 #include "percale/cleaning.h"
 #include "percale/error.h"

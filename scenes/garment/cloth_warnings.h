@@ -13,12 +13,4 @@ namespace percale::scenes {
 /// in one place and pass through each other. `starts`: the cloths of the scene, m.
 std::vector<std::string> cloth_warnings(const Scene& scene, std::span<const TriangleMesh> starts);
 
-/// The same of cloths beside obstacles: meshes that look swapped, cloth that can meet none. `obstacles`: in the world at the
-/// start, m.
-std::vector<std::string> meeting_warnings(const Scene& scene, std::span<const TriangleMesh> starts,
-                                          std::span<const TriangleMesh> obstacles);
-
-/// What is said of a closed cloth beside an open obstacle.
-std::string swapped_text(const std::string& obstacle);
-
 }  // namespace percale::scenes

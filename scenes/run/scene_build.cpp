@@ -9,6 +9,7 @@
 #include "format/rest_check.h"
 #include "garment/cloth_shape.h"
 #include "garment/cloth_warnings.h"
+#include "garment/meeting_warnings.h"
 #include "garment/vertex_selection.h"
 #include "meshes/mesh_import.h"
 #include "percale/detectors.h"

@@ -8,6 +8,7 @@
 #include "percale/error.h"
 #include "tests/scenes/faulty_meshes.h"
 #include "tests/support/catch.h"
+#include "tests/support/random.h"
 
 using namespace percale;
 using namespace percale::scenes;
@@ -187,6 +188,20 @@ TEST_CASE("rims that are near each other are those that every pair of vertices s
         return near_rim_vertices(mesh, mesh_facts(mesh), distance);
     };
     CHECK(near(two, 0.001).empty());
+    percale::test::Random random(3);
+    TriangleMesh rough = two;  // every pair of vertices of the rims, in its cells and beyond
+    for (Vec3& x : rough.vertices) x += random.point(0.002);
+    const MeshFacts facts = mesh_facts(rough);
+    std::set<int> rim, wanted;
+    for (const VertexPair& edge : facts.open_edges) rim.insert(edge.begin(), edge.end());
+    for (const int a : rim) {
+        for (const int b : rim) {  // edges are 0.09 m and more
+            const double apart = (rough.vertices[a] - rough.vertices[b]).norm();
+            if (a != b && apart < 0.004) wanted.insert(a);
+        }
+    }
+    CHECK(wanted.size() > 3);
+    CHECK(near_rim_vertices(rough, facts, 0.004) == std::vector<int>(wanted.begin(), wanted.end()));
     const std::vector<int> found = near(two, 0.003);
     CHECK(found.size() == 14);
     for (const int v : found) CHECK(std::abs(std::abs(two.vertices[v].x() - 0.301) - 0.001) < 1e-9);
