@@ -40,7 +40,11 @@ bool meet_now(const World& world, int first, int second) {
     const std::vector<int>& waiting = world.waiting;
     const auto group = [&](int cloth) { return cloth < static_cast<int>(waiting.size()) ? waiting[cloth] : -1; };
     if (group(first) >= 0 && group(first) == group(second)) return false;
-    return world.scene.script.pairs.of(first, second).contact;
+    // A seam that closes around another layer would close upon what of it stands out between its edges.
+    const ClothPairs& pairs = world.scene.script.pairs;
+    const bool closes = group(first) >= 0 || group(second) >= 0;
+    if (closes && pairs.layer(first) != pairs.layer(second)) return false;
+    return pairs.of(first, second).contact;
 }
 
 bool cloth_meets_now(const World& world) {

@@ -229,7 +229,8 @@ const FieldTable<SeamSpec>& seam_table() {
                 value_field<SeamSpec>(
                     {.path = "contact_while_closing",
                      .sentence = "false: until this seam has closed the cloths that it joins meet neither each other nor "
-                                 "themselves; what then crosses is untangled. For panels that start over each other."},
+                                 "themselves nor cloth of another layer; what then crosses is untangled. For panels that start "
+                                 "over each other, or are sewn around another garment."},
                     &SeamSpec::contact_while_closing),
                 weld_field(),
             },

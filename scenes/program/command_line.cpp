@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -44,15 +45,34 @@ bool is_number(const std::string& word) {
     return !word.empty() && end == word.c_str() + word.size() && std::isfinite(number);
 }
 
-/// The parser takes whatever follows, and says little of it. Numbers with commas between them, "0,1.5,0", are its own.
+std::vector<std::string> split_at_commas(const std::string& word) {
+    std::vector<std::string> parts;
+    std::istringstream rest(word);
+    for (std::string part; std::getline(rest, part, ',');) parts.push_back(part);
+    return parts;
+}
+
+/// The parser takes whatever follows, and says little of it. Numbers may have commas between them, "0,1.5,0".
 void check_three_numbers(const std::vector<std::string>& words, const std::string& option) {
-    const auto found = std::find(words.begin(), words.end(), option);
-    if (words.end() - found < 2 || found[1].find(',') != std::string::npos) return;
-    const std::vector<std::string> three(found + 1, found + std::min<std::ptrdiff_t>(4, words.end() - found));
+    const auto found = std::find_if(words.begin(), words.end(),
+                                    [&](const std::string& word) { return word == option || word.starts_with(option + "="); });
+    std::vector<std::string> three(found, words.end());
+    if (three.empty() || three == std::vector{option}) return;
+    if (three[0] == option) {
+        three.erase(three.begin());
+    } else {
+        three[0].erase(0, option.size() + 1);
+    }
+    if (three[0].find(',') != std::string::npos) {
+        three = split_at_commas(three[0]);
+    } else {
+        three.resize(std::min<std::size_t>(three.size(), 3));
+    }
     const auto wrong = std::find_if_not(three.begin(), three.end(), is_number);
     if (wrong == three.end() && three.size() == 3) return;
-    const std::string what = wrong == three.end() ? std::to_string(three.size()) + " are given"
-                                                  : "'" + *wrong + "' is no number" + scenes::number_advice(*wrong);
+    const std::string what = wrong == three.end()
+                                 ? std::to_string(three.size()) + (three.size() == 1 ? " is given" : " are given")
+                                 : "'" + *wrong + "' is no number" + scenes::number_advice(*wrong);
     throw SceneError(option + " takes three numbers, as in " + option + " 0 1.5 0, but " + what);
 }
 

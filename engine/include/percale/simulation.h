@@ -114,6 +114,7 @@ public:
     void set_pair(ClothId first, ClothId second, const ClothPair& pair);
     /// Where self_contact cloth is worn, -1000 ... 1000, from the inside out, 0 before the first call: of cloths that start
     /// through each other, or do when seams have closed, that of the higher layer is moved outside of the other (`prepare`).
+    /// They do not meet while a seam of one of them closes without contact.
     void set_layer(ClothId cloth, int layer);
     void set_time_step(double time_step);  // s, 1e-7 ... 1
     /// StepSettings::work_limit, 0 (none) ... 50000. Steps of a scene at 1/60 s take some 1 to 10 Newton iterations.

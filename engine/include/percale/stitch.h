@@ -22,7 +22,8 @@ struct SeamSettings {
     double over = 1.0;          // s, how long closing takes, 0 ... 1e6
     double stiffness = 1000.0;  // N/m of each stitch, 1e-3 ... 1e9
     /// Whether the cloths that it joins meet each other, and themselves, before it has closed. If not, nor do cloths that such
-    /// seams join with them; what crosses then is untangled (Simulation::prepare). For panels that start over each other.
+    /// seams join with them, nor those of other layers (Simulation::set_layer), which would be caught in it; what crosses then is
+    /// untangled (Simulation::prepare). For panels that start over each other or are sewn around another garment.
     bool contact_while_closing = true;
     /// Whether no gap is left at rest: each step adds to what a closed stitch holds with, up to `stiffness` times 1 cm, until its
     /// sides meet. Needs backward Euler or TR-BDF2: without numerical damping stitches would swing.

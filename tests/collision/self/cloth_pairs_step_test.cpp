@@ -264,6 +264,66 @@ TEST_CASE("Cloths that seams without contact join wait together, until the last 
     CHECK(meeting().size() == 7);
 }
 
+namespace {
+
+/// A sheet between two panels of its size that are sewn along two sides around it, nothing else: its rims stand out between the
+/// panels'.
+struct SewnAroundSheet {
+    Simulation simulation{{.gravity = Vec3::Zero()}, make_brute_force_detector()};
+    ClothId sheet, cover;
+    std::vector<SeamId> seams;
+
+    explicit SewnAroundSheet(int layer) {
+        const TriangleMesh panel = make_grid(0.12, 0.12, 7, 7);
+        TriangleMesh panels = joined(placed(panel, {.translation = {0, 0.02, 0}}), placed(panel, {.translation = {0, -0.02, 0}}));
+        panels.grid_columns = panels.grid_rows = 0;
+        Fabric fabric = sheet_cloth;
+        fabric.spring_damping = 0.5;
+        fabric.springs.shear = 0.0;
+        sheet = simulation.add_cloth(panel, fabric, {.translation = {0, 0.001, 0}}, "sheet");
+        cover = simulation.add_cloth(panels, fabric, {}, "cover");
+        simulation.set_layer(cover, layer);
+        for (const int column : {0, 6}) {
+            std::vector<Stitch> stitches;
+            for (int k = 0; k < 7; ++k) stitches.push_back({7 * k + column, 49 + 7 * k + column, 49 + 7 * k + column, 0.0});
+            seams.push_back(simulation.add_seam(cover, cover, stitches,
+                                                {.over = 0.3, .stiffness = 500.0, .contact_while_closing = false, .weld = true}));
+        }
+    }
+    double largest_gap() const {
+        double largest = 0.0;
+        for (const SeamId seam : seams) largest = std::max(largest, std::ranges::max(simulation.seam_gaps(seam)));
+        return largest;
+    }
+    std::size_t crossings() const {
+        TriangleMesh all = joined(make_grid(0.12, 0.12, 7, 7), joined(make_grid(0.12, 0.12, 7, 7), make_grid(0.12, 0.12, 7, 7)));
+        const auto x = simulation.positions(sheet), y = simulation.positions(cover);
+        std::copy(x.begin(), x.end(), all.vertices.begin());
+        std::copy(y.begin(), y.end(), all.vertices.begin() + 49);
+        std::vector<int> cloth(all.triangles.size(), 1);
+        std::fill_n(cloth.begin(), 72, 0);
+        ClothPairs pairs;
+        pairs.set(1, 1, {.contact = false});  // triangles at one stitch
+        return certify_cloth(all, {}, {cloth, &pairs}).crossing.size();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("A seam that is sewn without contact closes around a lower layer, and not upon what stands out of it") {
+    SewnAroundSheet same(0), outside(1);
+    CHECK(same.simulation.meets(same.sheet, same.cover));
+    CHECK_FALSE(outside.simulation.meets(outside.sheet, outside.cover));
+    for (SewnAroundSheet* scene : {&same, &outside}) {
+        const double end = scene == &same ? 0.4 : 0.7;
+        while (scene->simulation.time() < end) REQUIRE(scene->simulation.step().ok());
+        CHECK(scene->simulation.meets(scene->sheet, scene->cover));
+        CHECK(scene->crossings() == 0);
+    }
+    CHECK(same.largest_gap() > sheet_cloth.thickness);
+    CHECK(outside.largest_gap() < 0.02 * sheet_cloth.thickness);
+}
+
 TEST_CASE("The certificate leaves out triangles of cloths that do not meet, and wants to know of all whose they are") {
     TriangleMesh crossed = make_grid(0.2, 0.2, 5, 5);
     TriangleMesh other = crossed;
