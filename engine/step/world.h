@@ -63,7 +63,7 @@ struct World {
     std::vector<ContactLoad> saved_loads;  // of a state that was restored
     Holds holds_before;                    // before the step that is being made
     /// Of each cloth that waits for seams to close: cloths with the same number are joined by such seams and do not meet each
-    /// other, nor themselves, before; -1: it waits for none. Empty where none waits.
+    /// other, nor themselves, nor cloth of other layers, before; -1: it waits for none. Empty where none waits.
     std::vector<int> waiting;
     GivenNumbers cloth_numbers, obstacle_numbers, seam_numbers;
 };
@@ -74,7 +74,8 @@ bool meets_cloth(const StepScene& scene);
 /// World::waiting as it is after a time, s.
 std::vector<int> waiting_cloth(const StepScene& scene, double time);
 
-/// Whether two cloths, or a cloth with itself, meet now: both have self_contact, nothing else is said, and they do not wait.
+/// Whether two cloths, or a cloth with itself, meet now: both have self_contact, nothing else is said, and World::waiting does
+/// not keep them apart.
 bool meet_now(const World& world, int first, int second);
 
 /// Whether any two do.
