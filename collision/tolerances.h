@@ -158,8 +158,7 @@ constexpr double least_stiffness = 1e-12;
 
 // ---- detector
 
-/// Fraction of h. A vertex that has moved farther since its contacts were last forgotten forgets them at the next refresh; so do
-/// two features of cloth that have moved so far against each other since their contact began. 0:
+/// Fraction of h. A vertex that has moved farther since its contacts were last forgotten forgets them at the next refresh. 0:
 /// cloth at rest trembles between two sets of contacts. Large: contacts of places that cloth has left stay until it is h away.
 constexpr double forgetting_displacement = 0.1;
 
@@ -195,12 +194,10 @@ constexpr double contact_of_seam = 0.1;
 /// lists. As most_packs.
 constexpr long most_self_pairs = 4000000, most_self_pairs_per_vertex = 300, pairs_a_list = 16;
 
-/// Sine. A face that falls or rises by less is flat against an edge that crosses it.
-constexpr double flat_sine = 0.05;
-
-/// Fraction of h below which edges that cross in flat cloth are in contact. Vertices and faces around them meet
-/// first: at 1 one contact would count several times.
-constexpr double flat_crossing = 0.5;
+/// Sine (17 degrees). Edges that cross are in contact below h where all faces beside them fall away by as much, below h/2 where
+/// they are flat, as vertices meet faces there, and not where one rises by as much; in between evenly. Smaller: cloth that bends
+/// a little gains and loses such contacts, and never comes to rest. Larger: ridges are no contacts, or one contact counts twice.
+constexpr double sharp_sine = 0.3;
 
 /// Fraction of h below which every pair of the lists is in contact, a local minimum or not: near a seam the features that lie
 /// closer may be no pairs, as they share a stitched point. 0: nothing holds such a pair apart until the cut stops it, and Newton
@@ -208,7 +205,7 @@ constexpr double flat_crossing = 0.5;
 constexpr double least_zone = 0.1;
 
 /// A contact that began in a smaller zone passes on to one this many times as large: from least_zone to that of a local minimum.
-/// 1: edges that are now flat, now a ridge tremble.
+/// 1: a zone follows every move within a step.
 constexpr double widened_zone = 3.0;
 
 /// Sine (2 degrees). Edges at smaller angles have no contact of their own, their ends have. 0: closest points jump from end to

@@ -383,8 +383,9 @@ constexpr double step_count_rounding = 1e-9;
 constexpr double fastest_contact_shortening = 0.05;
 
 /// s for which cloth has to be still to sleep, and share of h that it may move meanwhile. Shorter, larger: slow cloth freezes.
-/// Longer, smaller: cloth at rest is solved for ever.
-constexpr double rest_time = 0.5, rest_displacement_share = 0.002;
+/// Longer, smaller: cloth at rest is solved for ever. The last is for kinetic damping, where only the rest counts: friction
+/// between cloths is a damper, so that layers creep on by fractions of a millimetre.
+constexpr double rest_time = 0.5, rest_displacement_share = 0.002, settled_displacement_share = 0.01;
 
 /// Share of a vertex's weight that forces on it may leave in cloth at rest. Larger: a swing sleeps where it turns.
 constexpr double rest_force_share = 0.02;

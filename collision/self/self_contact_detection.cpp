@@ -18,27 +18,11 @@ bool stays_clear(double distance, double thickness, double shrink) {
     return distance - floor_below(distance, thickness) > shrink;
 }
 
-/// m, from the middle of a pair's second feature to that of its first.
-Vec3 apart(const SelfPair& pair, std::span<const Vec3> x) {
-    const auto& [a, b, c, d] = pair.vertex;
-    if (pair.shape == PairShape::edge_edge) return 0.5 * (x[a] + x[b] - x[c] - x[d]);
-    return x[a] - (x[b] + x[c] + x[d]) / 3.0;
-}
-
-/// Whether a contact that one step has left is none of the next. As with obstacles, a contact stays one while a step is solved.
-/// Of edges it does in the next ones, too, until their cloth is elsewhere than where it began: edges that are now flat, now a
-/// ridge would keep cloth moving that lies still.
-bool begins_anew(const SelfPair& pair, const Vec3& began_apart, std::span<const Vec3> start) {
-    if (pair.shape == PairShape::point_triangle) return true;
-    return (apart(pair, start) - began_apart).norm() > tolerances::forgetting_displacement * pair.thickness;
-}
-
 }  // namespace
 
 SelfContactDetection::SelfContactDetection(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
                                            const SelfContact& cloth)
     : lists_(triangles, vertex_thickness, cloth),
-      start_(vertex_thickness.size(), Vec3::Zero()),
       friction_(cloth.friction.begin(), cloth.friction.end()),
       stitches_(cloth.stitches.begin(), cloth.stitches.end()) {
     for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
@@ -69,13 +53,10 @@ StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) co
 
 void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const Vec3> predicted, Workers* workers) {
     lists_.set_workers(workers);
-    lists_.for_each([&](SelfList& list) {
-        for (SelfPairRecord& record : list.records) {
-            if (record.zone > 0.0 && begins_anew(list.pairs[record.pair], record.began_apart, start)) record.zone = 0.0;
-        }
+    lists_.for_each([](SelfList& list) {
+        for (SelfPairRecord& record : list.records) record.zone = 0.0;
     });
     lists_.begin_step(start, predicted);
-    start_.assign(start.begin(), start.end());
 }
 
 double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRows& rows, Workers* workers) {
@@ -117,11 +98,7 @@ double SelfContactDetection::measure(SelfList& list, SelfPair& pair, std::span<c
     pair.reach = contact.distance + list.travel;
     const double least = contact.jumps ? 0.0 : tolerances::least_zone;
     const double zone = std::max(contact.relative_zone, least) * thickness_at(pair, list.of_seam(pair), contact.weight);
-    if (contact.distance < zone && zone > tolerances::widened_zone * list.zone(pair)) {
-        SelfPairRecord& record = list.record_of(pair);
-        record.zone = zone;
-        record.began_apart = apart(pair, start_);
-    }
+    if (contact.distance < zone && zone > tolerances::widened_zone * list.zone(pair)) list.record_of(pair).zone = zone;
     const double begun = list.zone(pair);
     if (contact.distance >= begun) return infinity;
     add_row(pair, begun, contact, rows);

@@ -48,7 +48,6 @@ private:
     void add_row(const SelfPair& pair, double zone, const SelfPairContact& contact, ContactRows& rows) const;
 
     SelfContactLists lists_;
-    std::vector<Vec3> start_;      // m, of the last refresh
     std::vector<SelfList*> near_;  // lists that may have a row, or cut a move
     std::vector<Found> found_;
     std::vector<double> friction_;

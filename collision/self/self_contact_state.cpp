@@ -18,7 +18,7 @@ void exchange(Archive& archive, Value& pair) {
 
 template <class Archive, OfType<SelfPairRecord> Value>
 void exchange(Archive& archive, Value& record) {
-    archive(record.pair, record.of_seam, record.zone, record.began_apart);
+    archive(record.pair, record.of_seam);
 }
 
 template <class Archive, OfType<SelfList> Value>

@@ -238,9 +238,7 @@ void SelfListMaker::take_over_zones() {
             pair.record = static_cast<int>(records_.size());
             records_.push_back({.pair = static_cast<int>(i)});
         }
-        const SelfPairRecord& old = old_.records[found->record];
-        records_[pair.record].zone = old.zone;
-        records_[pair.record].began_apart = old.began_apart;
+        records_[pair.record].zone = old_.zone(*found);
     }
 }
 

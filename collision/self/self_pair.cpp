@@ -60,16 +60,16 @@ SelfPairContact vertex_face(const SelfPair& pair, std::span<const Vec3> x, const
     return contact;
 }
 
-/// How an edge crosses another that lies in the direction `towards`: 1 as a ridge or boundary, 1/2 in flat cloth, 0 in a valley.
+/// How an edge crosses another that lies in the direction `towards`: 1 as a ridge or boundary, 1/2 in flat cloth, 0 in a valley,
+/// and evenly in between, by the face beside it that rises most.
 double edge_zone(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& towards, std::span<const Vec3> x) {
-    double zone = 1.0;
+    if (edge.opposite[1] < 0) return 1.0;
+    double highest = -tolerances::sharp_sine;
     for (const int vertex : edge.opposite) {
-        if (vertex < 0 || edge.opposite[1] < 0) continue;
         const Vec3 along = x[vertex] - foot;
-        const double rise = along.dot(towards), level = tolerances::flat_sine * along.norm();
-        if (rise > -level) zone = std::min(zone, rise > level ? 0.0 : tolerances::flat_crossing);
+        highest = std::max(highest, along.dot(towards) / along.norm());
     }
-    return zone;
+    return 0.5 * std::max(0.0, 1.0 - highest / tolerances::sharp_sine);
 }
 
 /// |e x f|^2 = (|e| |f| sin)^2 of two edges up to which they count as parallel, from |e|^2, |f|^2 and their thickness.
@@ -86,12 +86,13 @@ SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const C
     const Vec3 first = a + s * (b - a), second = c + t * (d - c);
     set_direction(first - second, contact);
     if (contact.distance >= pair.thickness) return contact;
-    const bool cross =
-        (b - a).cross(d - c).squaredNorm() > square_of_parallel((b - a).squaredNorm(), (d - c).squaredNorm(), pair.thickness);
-    contact.jumps = !cross;
-    if (!cross || s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0) return contact;
-    contact.relative_zone = std::min(edge_zone(surface.edges[pair.feature[0]], first, -contact.direction, x),
-                                     edge_zone(surface.edges[pair.feature[1]], second, contact.direction, x));
+    const double parallel = square_of_parallel((b - a).squaredNorm(), (d - c).squaredNorm(), pair.thickness),
+                 crossing = (b - a).cross(d - c).squaredNorm();
+    contact.jumps = crossing <= parallel;
+    if (contact.jumps || s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0) return contact;
+    const double turned = std::min(1.0, std::sqrt(crossing / parallel) - 1.0);  // 1 from twice that angle on
+    contact.relative_zone = turned * std::min(edge_zone(surface.edges[pair.feature[0]], first, -contact.direction, x),
+                                              edge_zone(surface.edges[pair.feature[1]], second, contact.direction, x));
     return contact;
 }
 

@@ -29,8 +29,7 @@ struct SelfPairRecord {
     /// m, near a seam: below what they are in contact where the vertex and corner k are closest, or the ends (0, 2), (0, 3),
     /// (1, 2) and (1, 3) of the edges.
     std::array<double, 4> of_seam = away_from_seams;
-    double zone = 0.0;                // m, below what its contact began; 0: it is none
-    Vec3 began_apart = Vec3::Zero();  // m, between the middles of its features then
+    double zone = 0.0;  // m, below what its contact began in this step; 0: it is none
 };
 
 /// The exact closest points of a pair.
@@ -40,8 +39,9 @@ struct SelfPairContact {
     Vec3 direction = Vec3::Zero();   // unit, second side towards first
     /// Fraction of the thickness below which the pair stands for the contact: 1 where it is a local minimum of the distance
     /// (closest points inside the face, or on its edges and corners where the faces around fall away; inside two edges that cross
-    /// as ridges), 1/2 for edges that cross in flat cloth, where vertices and faces meet first, else 0. Of closest points that
-    /// several pairs share one pair has them. Not filled in for edges farther apart than the pair's thickness.
+    /// as ridges), 1/2 for edges that cross in flat cloth, where vertices and faces meet first, as much in between as the cloth
+    /// bends, else 0. Of closest points that several pairs share one pair has them. Not filled in for edges farther apart than
+    /// the pair's thickness.
     double relative_zone = 0.0;
     bool jumps = false;  // closest points of nearly parallel edges go from end to end
 };

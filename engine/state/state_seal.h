@@ -6,6 +6,6 @@ namespace percale {
 
 /// Of the bytes of Simulation::save. The version is another as soon as they say more or other things, those of detectors
 /// included.
-constexpr SealKind state_seal{.name = "PERCALES", .version = 16, .words = "saved state"};
+constexpr SealKind state_seal{.name = "PERCALES", .version = 17, .words = "saved state"};
 
 }  // namespace percale

@@ -10,7 +10,7 @@
 
 namespace percale::scenes {
 
-constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 9, .words = "checkpoint"};
+constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 10, .words = "checkpoint"};
 
 template <class Archive, OfType<Pinch> Value>
 void exchange(Archive& archive, Value& pinch) {

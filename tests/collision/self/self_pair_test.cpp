@@ -113,15 +113,36 @@ TEST_CASE("two ridges that cross are in contact through their edges") {
     const TwoSheets crossing(roof, gutter);
     CHECK(crossing.total_zone(crossing.edge_pairs(), 0.2) == 1.0);
     CHECK(crossing.total_zone(crossing.vertex_face_pairs(), 0.2) == 0.0);
-    // A valley has faces that are nearer than its edge.
-    for (int v = 2; v < 4; ++v) gutter.vertices[v].y() = 0.02;
-    const TwoSheets valley(roof, gutter);
-    const auto pairs = valley.edge_pairs();
-    const auto middle = std::find_if(pairs.begin(), pairs.end(), [](const SelfPair& p) {
-        return p.vertex == std::array<int, 4>{0, 1, 4, 5};
-    });
-    REQUIRE(middle != pairs.end());
-    CHECK(valley.contact(*middle).relative_zone == 0.0);
+}
+
+TEST_CASE("as cloth bends from a ridge to a valley the contact of its edge goes evenly from all of the thickness to none") {
+    const TriangleMesh roof{.vertices = {{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 1}, {0, -0.5, -1}},
+                            .triangles = {{0, 2, 1}, {0, 1, 3}}};
+    // Its edge crosses that of the roof 0.1 above; its faces fall or rise, the one by less.
+    const auto zone_at = [&](double fall, double other_fall) {
+        const TriangleMesh fold{.vertices = {{0, 0.1, -1}, {0, 0.1, 1}, {0.1, 0.1 + fall, 0}, {-0.1, 0.1 + other_fall, 0}},
+                                .triangles = {{0, 1, 2}, {0, 3, 1}}};
+        const TwoSheets crossing(roof, fold);
+        const auto pairs = crossing.edge_pairs();
+        const auto middle = std::find_if(pairs.begin(), pairs.end(), [](const SelfPair& p) {
+            return p.vertex == std::array<int, 4>{0, 1, 4, 5};
+        });
+        REQUIRE(middle != pairs.end());
+        return crossing.contact(*middle).relative_zone;
+    };
+    CHECK(zone_at(0.05, 0.05) == 1.0);
+    CHECK(zone_at(0.0, 0.0) == Approx(0.5));
+    CHECK(zone_at(-0.05, -0.05) == 0.0);
+    CHECK(zone_at(0.05, 0.0) == Approx(0.5));
+    const double step = 1e-4, most_change = 0.5 / 0.3 * (step / 0.1) * 1.001;  // 1/2 over a sine of 0.3
+    double before = zone_at(-0.05, -0.05);
+    for (double fall = -0.05 + step; fall < 0.05; fall += step) {
+        const double now = zone_at(fall, fall + 0.001);
+        CHECK(now >= before);
+        if (fall > -0.05 + 1.5 * step) CHECK(now - before <= most_change);
+        CHECK(zone_at(fall + 0.001, fall) == Approx(now));
+        before = now;
+    }
 }
 
 TEST_CASE("edges that cross in flat sheets wait for half of the thickness, parallel ones are left to their ends") {
@@ -132,8 +153,8 @@ TEST_CASE("edges that cross in flat sheets wait for half of the thickness, paral
         const SelfPairContact contact = crossed.contact(pair);
         const bool boundary =
             crossed.surface.edges[pair.feature[0]].triangle[1] < 0 && crossed.surface.edges[pair.feature[1]].triangle[1] < 0;
-        if (!boundary) CHECK(contact.relative_zone <= 0.5);
-        inner += contact.relative_zone == 0.5;
+        if (!boundary) CHECK(contact.relative_zone <= 0.5 + 1e-9);
+        inner += std::abs(contact.relative_zone - 0.5) < 1e-9;
     }
     CHECK(inner > 20);
     const TwoSheets parallel(make_grid(1, 1, 4, 4), moved(make_grid(1, 1, 4, 4), {0, 0.01, 0}));
@@ -161,8 +182,10 @@ TEST_CASE("edges at a small angle are in contact where their ends are too far ap
     // Over its length the edge rises by 10 mm: more than a fifth of this thickness.
     pair.thickness = 0.04;
     CHECK_FALSE(sheets.contact(pair).jumps);
-    CHECK(sheets.contact(pair).relative_zone == 1.0);
+    CHECK(sheets.contact(pair).relative_zone == Approx(0.01 / (0.2 * 0.04) - 1.0).epsilon(1e-3));
     CHECK(sheets.contact(pair).distance == Approx(gap));
+    pair.thickness = 0.02;  // twice that
+    CHECK(sheets.contact(pair).relative_zone == 1.0);
     pair.thickness = 0.06;
     CHECK(sheets.contact(pair).jumps);
 }
