@@ -158,8 +158,9 @@ constexpr double least_stiffness = 1e-12;
 
 // ---- detector
 
-/// Fraction of h. A vertex that has moved farther since its contacts were last forgotten forgets them at the next refresh. 0:
-/// cloth at rest trembles between two sets of contacts. Large: contacts of places that cloth has left stay until it is h away.
+/// Fraction of h. A vertex that has moved farther since its contacts with obstacles were last forgotten forgets them at the next
+/// refresh. 0: cloth at rest trembles between two sets of contacts. Large: contacts of places that cloth has left stay until it
+/// is h away.
 constexpr double forgetting_displacement = 0.1;
 
 // ---- self/
@@ -205,11 +206,11 @@ constexpr double sharp_sine = 0.3;
 constexpr double least_zone = 0.1;
 
 /// A contact that began in a smaller zone passes on to one this many times as large: from least_zone to that of a local minimum.
-/// 1: a zone follows every move within a step.
+/// 1: a zone widens with every move within a step.
 constexpr double widened_zone = 3.0;
 
-/// Sine (2 degrees). Edges at smaller angles have no contact of their own, their ends have. 0: closest points jump from end to
-/// end of parallel threads.
+/// Sine (2 degrees). Edges at smaller angles have no contact of their own, their ends have; it grows to all of h at twice that.
+/// 0: closest points jump from end to end of parallel threads.
 constexpr double least_crossing_sine = 0.03;
 
 /// Fraction of h, the thickness of the pair. Edges of which the shorter rises by more over its length have their contact at any

@@ -257,7 +257,7 @@ constexpr Option<StepSettings> step_list[] = {
      .unit = "m/s",
      .sentence =
          "Cloth is still that for half a second has kept within half a second times this of one place; auto: within 0.002 of its "
-         "thickness, with kinetic_damping 0.01.",
+         "thickness.",
      .lowest = 1e-9,
      .highest = 1.0,
      .number_or_auto = [](StepSettings& s) { return &s.rest_speed; }},

@@ -146,10 +146,6 @@ constexpr double moving_obstacle_share = 0.2;
 /// throw cloth.
 constexpr double stopping_share = 1.0 / 12.0;
 
-/// h per second. Below it friction between cloths is a damper. Larger: cloth on cloth creeps. Smaller: it flickers between
-/// sticking and sliding.
-constexpr double stick_rate = 0.2;
-
 /// Share of h. A row is not taken to have been nearer at a move's start: the ledger's potential there has no bound.
 constexpr double least_start_share = 1e-3;
 
@@ -383,9 +379,8 @@ constexpr double step_count_rounding = 1e-9;
 constexpr double fastest_contact_shortening = 0.05;
 
 /// s for which cloth has to be still to sleep, and share of h that it may move meanwhile. Shorter, larger: slow cloth freezes.
-/// Longer, smaller: cloth at rest is solved for ever. The last is for kinetic damping, where only the rest counts: friction
-/// between cloths is a damper, so that layers creep on by fractions of a millimetre.
-constexpr double rest_time = 0.5, rest_displacement_share = 0.002, settled_displacement_share = 0.01;
+/// Longer, smaller: cloth at rest is solved for ever.
+constexpr double rest_time = 0.5, rest_displacement_share = 0.002;
 
 /// Share of a vertex's weight that forces on it may leave in cloth at rest. Larger: a swing sleeps where it turns.
 constexpr double rest_force_share = 0.02;

@@ -96,8 +96,8 @@ void SelfContactDetection::add_rows_of(SelfList& list, std::span<const Vec3> pos
 double SelfContactDetection::measure(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows) {
     const SelfPairContact contact = self_contact(pair, positions, lists_.surface());
     pair.reach = contact.distance + list.travel;
-    const double least = contact.jumps ? 0.0 : tolerances::least_zone;
-    const double zone = std::max(contact.relative_zone, least) * thickness_at(pair, list.of_seam(pair), contact.weight);
+    const double zone = std::max(contact.relative_zone, contact.crossing * tolerances::least_zone) *
+                        thickness_at(pair, list.of_seam(pair), contact.weight);
     if (contact.distance < zone && zone > tolerances::widened_zone * list.zone(pair)) list.record_of(pair).zone = zone;
     const double begun = list.zone(pair);
     if (contact.distance >= begun) return infinity;

@@ -67,7 +67,7 @@ double edge_zone(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& t
     double highest = -tolerances::sharp_sine;
     for (const int vertex : edge.opposite) {
         const Vec3 along = x[vertex] - foot;
-        highest = std::max(highest, along.dot(towards) / along.norm());
+        highest = std::max(highest, along.dot(towards) / along.norm());  // not where 0/0
     }
     return 0.5 * std::max(0.0, 1.0 - highest / tolerances::sharp_sine);
 }
@@ -87,12 +87,11 @@ SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const C
     set_direction(first - second, contact);
     if (contact.distance >= pair.thickness) return contact;
     const double parallel = square_of_parallel((b - a).squaredNorm(), (d - c).squaredNorm(), pair.thickness),
-                 crossing = (b - a).cross(d - c).squaredNorm();
-    contact.jumps = crossing <= parallel;
-    if (contact.jumps || s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0) return contact;
-    const double turned = std::min(1.0, std::sqrt(crossing / parallel) - 1.0);  // 1 from twice that angle on
-    contact.relative_zone = turned * std::min(edge_zone(surface.edges[pair.feature[0]], first, -contact.direction, x),
-                                              edge_zone(surface.edges[pair.feature[1]], second, contact.direction, x));
+                 square = (b - a).cross(d - c).squaredNorm();
+    contact.crossing = square > parallel ? std::min(1.0, std::sqrt(square / parallel) - 1.0) : 0.0;
+    if (contact.crossing == 0.0 || s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0) return contact;
+    contact.relative_zone = contact.crossing * std::min(edge_zone(surface.edges[pair.feature[0]], first, -contact.direction, x),
+                                                        edge_zone(surface.edges[pair.feature[1]], second, contact.direction, x));
     return contact;
 }
 

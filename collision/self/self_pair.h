@@ -29,7 +29,7 @@ struct SelfPairRecord {
     /// m, near a seam: below what they are in contact where the vertex and corner k are closest, or the ends (0, 2), (0, 3),
     /// (1, 2) and (1, 3) of the edges.
     std::array<double, 4> of_seam = away_from_seams;
-    double zone = 0.0;  // m, below what its contact began in this step; 0: it is none
+    double zone = 0.0;  // m, below what its contact began since the last refresh; 0: it is none
 };
 
 /// The exact closest points of a pair.
@@ -43,7 +43,9 @@ struct SelfPairContact {
     /// bends, else 0. Of closest points that several pairs share one pair has them. Not filled in for edges farther apart than
     /// the pair's thickness.
     double relative_zone = 0.0;
-    bool jumps = false;  // closest points of nearly parallel edges go from end to end
+    /// Of edges: 0 where they are nearly parallel and their closest points jump from end to end, 1 from twice that angle on. It
+    /// is a factor in relative_zone.
+    double crossing = 1.0;
 };
 
 /// m, below which a pair is in contact where these weights say (of_seam: SelfPairRecord): between corners it passes from the

@@ -58,6 +58,7 @@ void renumber_contacts(World& world, VertexNumber vertex, ObstacleNumber obstacl
     renumber(world.state.cloth.impacts, vertex, obstacle);
     renumber(world.state.contact.last, vertex, obstacle);
     renumber(world.state.contact.lasting, vertex, obstacle);
+    renumber(world.state.contact.held, vertex, obstacle);
     if (world.refused.obstacle >= 0) world.refused.obstacle = obstacle(world.refused.obstacle);
     for (int& each : world.refused.vertices) each = vertex(each);
     std::erase(world.refused.vertices, -1);

@@ -29,14 +29,15 @@ struct ContactTerms {
     std::vector<CoupledBlock> blocks;  // first `others`, then of the rows, then one of friction for each touch
     std::size_t others = 0;            // blocks of single vertices that other forces put there; contact keeps them
     Touches touches;
+    std::vector<Rub> rubs;           // of rows between cloths
     double energy = 0.0;             // J, without friction
     double largest_stiffness = 0.0;  // N/m
     double obstacle_power = 0.0;     // W, of the obstacles on the cloth
-    double rubbing_power = 0.0;      // W, that friction between cloths takes
 
     void clear() {
         blocks.resize(others);
-        energy = largest_stiffness = obstacle_power = rubbing_power = 0.0;
+        rubs.clear();
+        energy = largest_stiffness = obstacle_power = 0.0;
     }
 };
 
@@ -60,6 +61,7 @@ struct ContactForces {
 /// What contact hands on from one span to the next.
 struct ContactMemory {
     ContactMultipliers last, lasting;  // forces at the end of the last span; those that lasted for two
+    ContactMultipliers held;           // then, between cloths by penalty: what friction holds (set_held)
     double least_distance = 0.0;       // of the thickness: the nearest row at that end; 0 if unknown
 
     void forget() { *this = {}; }
@@ -101,7 +103,8 @@ public:
     /// `enough`, m, and evaluates it anew; false if nothing is left to be solved.
     virtual bool correct(const ContactPoint& point, ContactForces forces, double enough) = 0;
     /// The span ends at a point with these rows and forces: what it hands on.
-    virtual void end(const ContactRows& rows, const std::vector<RowForce>& row_forces, ContactMemory& memory) = 0;
+    virtual void end(const ContactRows& rows, const ContactTerms& terms, const std::vector<RowForce>& row_forces,
+                     ContactMemory& memory) = 0;
 
     /// Of a move that ended with these contacts; `stored`: energy of contact at its start, J.
     virtual ContactLoss loss(const ContactMove& move, double stored) const = 0;

@@ -27,6 +27,11 @@ Eigen::Matrix3d matrix_of(const Pose& pose) {
     return m;
 }
 
+double spring_energy(double press, double reach, double slip) {
+    const double stretch = std::min(slip, reach);
+    return 0.5 * press / reach * stretch * stretch;
+}
+
 }  // namespace
 
 ObstacleFlow obstacle_flow(const Pose& start, const Pose& end, double fraction) {
@@ -72,14 +77,35 @@ void set_slip(const FrictionStart& start, const Vec3& position, double fraction,
     touch.slip = tangential(position - held - (fraction - start.fraction) * touch.flow, touch.press.normalized());
 }
 
+Rub rub_of(const FrictionStart& start, const ContactRows& rows, int row, double normal_force, const Vectors& positions) {
+    Rub rub{.row = row, .press = rows.friction[row] * normal_force, .reach = stick_reach_share * rows.thickness[row]};
+    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
+        const int vertex = rows.vertex[row][k];
+        rub.moved += rows.weight[row][k] * (positions.at(vertex) - start.positions->at(vertex));
+    }
+    rub.moved = tangential(rub.moved, rows.direction[row]);
+    rub.slip = rub.moved;
+    if (!start.held) return rub;
+    const RowForce before = start.held->of(row_key(rows, row));
+    if (before.normal > 0.0) {
+        rub.slip -= rub.reach / (rows.friction[row] * before.normal) * tangential(before.friction, rows.direction[row]);
+    }
+    return rub;
+}
+
 Vec3 friction_force(const Touch& touch) { return -touch.press.norm() / std::max(touch.slip.norm(), touch.reach) * touch.slip; }
+
+Vec3 friction_force(const Rub& rub) { return -rub.press / std::max(rub.slip.norm(), rub.reach) * rub.slip; }
 
 double grip_energy(const Touches& touches) {
     double energy = 0.0;
-    for (const Touch& touch : touches.all) {
-        const double stretch = std::min(touch.slip.norm(), touch.reach);
-        energy += 0.5 * touch.press.norm() / touch.reach * stretch * stretch;
-    }
+    for (const Touch& touch : touches.all) energy += spring_energy(touch.press.norm(), touch.reach, touch.slip.norm());
+    return energy;
+}
+
+double grip_energy(std::span<const Rub> rubs) {
+    double energy = 0.0;
+    for (const Rub& rub : rubs) energy += spring_energy(rub.press, rub.reach, rub.slip.norm());
     return energy;
 }
 
@@ -91,6 +117,14 @@ void set_grips(const Touches& touches, std::vector<Grip>& grips) {
         grips.push_back({touch.vertex, touch.obstacle, kept * touch.slip});
     }
     std::sort(grips.begin(), grips.end(), [](const Grip& a, const Grip& b) { return key(a) < key(b); });
+}
+
+void set_held(const ContactRows& rows, std::span<const Rub> rubs, const std::vector<RowForce>& row_forces,
+              ContactMultipliers& held) {
+    held.clear(rubs.size());
+    for (const Rub& rub : rubs) {
+        held.add(row_key(rows, rub.row), {.normal = row_forces[rub.row].normal, .friction = friction_force(rub)});
+    }
 }
 
 }  // namespace percale

@@ -96,33 +96,22 @@ void add_friction(const ContactStep& step, const Vectors& positions, Touch& touc
     terms.obstacle_power += force.dot(touch.flow) * step.obstacle_rate;
 }
 
-struct Rubbing {
-    Vec3 force;    // N
-    double power;  // W, that it takes
-};
+/// Whether a rub slides in the matrix: at the first sight if it held before or if friction at its limit cannot stop it within the
+/// step.
+bool slides(const ContactRows& rows, const Rub& rub, const ContactStep& step) {
+    const double length = rub.slip.norm();
+    if (length <= rub.reach) return false;
+    if (step.previous || rub.slip != rub.moved) return true;
+    const double mass = at_contact(rows, rub.row, [&](int vertex) { return (*step.mass)[vertex]; });
+    return length * mass > step.dt * step.dt * rub.press;
+}
 
-/// Friction force between two cloths pressed by `normal_force`, and its matrix added to `block`: against the velocity of one
-/// relative to the other, growing linearly below the stick speed.
-Rubbing friction_between_cloths(const ContactRows& rows, std::size_t row, double normal_force, const ContactStep& step,
-                                const Vectors& positions, CoupledBlock& block) {
-    const Vec3& n = rows.direction[row];
-    const double limit = rows.friction[row] * normal_force, stick_speed = stick_rate * rows.thickness[row];  // m/s
-    Vec3 slip = Vec3::Zero();
-    for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
-        const int vertex = block.vertex[k];
-        slip += block.weight[k] / step.dt * (positions.at(vertex) - step.friction->positions->at(vertex));
-    }
-    slip = tangential(slip, n);
-    const double speed = slip.norm(), mass = at_contact(rows, row, [&](int vertex) { return (*step.mass)[vertex]; });
-    // Sliding: friction at its limit cannot stop the point within the step.
-    if (speed > stick_speed && speed * mass > step.dt * limit) {
-        add_tangent_block(block.k, step.dt * limit / speed, n, slip / speed);
-        return {-limit / speed * slip, limit * speed};
-    }
-    const double y = speed / stick_speed;
-    const double damping = !step.previous || y < 1.0 ? limit * (2.0 - std::min(y, 1.0)) / stick_speed : limit / speed;
-    add_tangent_block(block.k, step.dt * damping, n, Vec3::Zero());
-    return {-damping * slip, damping * speed * speed};
+/// Friction force of two cloths that a row presses together, its matrix added to the row's block.
+Vec3 friction_between_cloths(const ContactRows& rows, const Rub& rub, const ContactStep& step, CoupledBlock& block) {
+    const double length = rub.slip.norm(), stiffness = rub.press / std::max(length, rub.reach);
+    const Vec3 heading = slides(rows, rub, step) ? Vec3(rub.slip / length) : Vec3(Vec3::Zero());
+    add_tangent_block(block.k, step.dt * step.dt * stiffness, rows.direction[rub.row], heading);
+    return friction_force(rub);
 }
 
 /// What a move took, and what the rows of its end, with their stiffness, would have stored at its start: their distances and the
@@ -153,16 +142,21 @@ double huber(double press, double reach, double stretch) {
     return stretch <= reach ? 0.5 * press / reach * stretch * stretch : press * (stretch - 0.5 * reach);
 }
 
+/// Of a touch or a rub, of which `moved` of the slip is the move's.
+template <class Holding>
+void add_friction_loss(const Holding& holding, double press, const Vec3& moved, PenaltyLoss& loss) {
+    const double end = huber(press, holding.reach, holding.slip.norm());
+    const double start = huber(press, holding.reach, (holding.slip - moved).norm());
+    loss.friction += press * std::max(holding.slip.norm() - holding.reach, 0.0);
+    loss.stored_at_start += start;
+    loss.integrator += start - end - friction_force(holding).dot(moved);
+}
+
 void add_touch_loss(const ContactMove& move, const Touch& touch, PenaltyLoss& loss) {
     const double press = touch.press.norm();
     if (press == 0.0) return;
     const Vec3 along = move.end.at(touch.vertex) - move.start.at(touch.vertex) - move.dt * move.obstacle_rate * touch.flow;
-    const Vec3 moved = tangential(along, touch.press / press);
-    const double end = huber(press, touch.reach, touch.slip.norm());
-    const double start = huber(press, touch.reach, (touch.slip - moved).norm());
-    loss.friction += press * std::max(touch.slip.norm() - touch.reach, 0.0);
-    loss.stored_at_start += start;
-    loss.integrator += start - end - friction_force(touch).dot(moved);
+    add_friction_loss(touch, press, tangential(along, touch.press / press), loss);
 }
 
 }  // namespace
@@ -181,9 +175,8 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
         Vec3 force = potential.slope * rows.direction[row];
         const bool rubs = step.friction && rows.friction[row] * potential.slope > 0.0, on_obstacle = rows.obstacle[row] >= 0;
         if (rubs && !on_obstacle) {
-            const Rubbing rubbing = friction_between_cloths(rows, row, potential.slope, step, positions, block);
-            force += rubbing.force;
-            terms.rubbing_power += rubbing.power;
+            terms.rubs.push_back(rub_of(*step.friction, rows, static_cast<int>(row), potential.slope, positions));
+            force += friction_between_cloths(rows, terms.rubs.back(), step, block);
         }
         spread(rows, row, force, forces);
         terms.blocks.push_back(block);
@@ -200,12 +193,18 @@ void PenaltyContact::evaluate(const ContactPoint& point, ContactForces forces) c
     forces.potential += forces.terms.energy;
 }
 
+void PenaltyContact::end(const ContactRows& rows, const ContactTerms& terms, const std::vector<RowForce>& row_forces,
+                         ContactMemory& memory) {
+    set_held(rows, terms.rubs, row_forces, memory.held);
+}
+
 ContactLoss PenaltyContact::loss(const ContactMove& move, double stored) const {
-    PenaltyLoss loss{.friction = move.dt * move.terms.rubbing_power};
+    PenaltyLoss loss;
     for (const CoupledBlock& block : move.terms.blocks) {
         if (block.row >= 0) add_row_loss(move, block, loss);
     }
     for (const Touch& touch : move.terms.touches.all) add_touch_loss(move, touch, loss);
+    for (const Rub& rub : move.terms.rubs) add_friction_loss(rub, rub.press, rub.moved, loss);
     return {.friction = loss.friction, .contact = stored - loss.stored_at_start, .integrator = loss.integrator};
 }
 

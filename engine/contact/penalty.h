@@ -17,7 +17,7 @@ void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors
                  std::vector<RowForce>& row_forces);
 
 /// Contact as penalty springs with Coulomb friction (add_contact). Every evaluation stands by itself: nothing is held fixed while
-/// Newton solves, and nothing handed on but the grips of friction, which belong to the state.
+/// Newton solves, and nothing handed on but what friction holds.
 class PenaltyContact final : public ContactLaw {
 public:
     double zone() const override { return 1.0; }
@@ -25,7 +25,8 @@ public:
     void meet(const ContactRows&) override {}
     void evaluate(const ContactPoint& point, ContactForces forces) const override;
     bool correct(const ContactPoint&, ContactForces, double) override { return false; }
-    void end(const ContactRows&, const std::vector<RowForce>&, ContactMemory&) override {}
+    void end(const ContactRows& rows, const ContactTerms& terms, const std::vector<RowForce>& row_forces,
+             ContactMemory& memory) override;
     /// A touch moves by u along the surface. Its potential is Huber's, quadratic up to the reach and linear beyond: what lies
     /// beyond is the friction force times the slip.
     ContactLoss loss(const ContactMove& move, double stored) const override;

@@ -182,7 +182,8 @@ bool ProjectedContact::correct(const ContactPoint& point, ContactForces forces, 
     return true;
 }
 
-void ProjectedContact::end(const ContactRows& rows, const std::vector<RowForce>& row_forces, ContactMemory& memory) {
+void ProjectedContact::end(const ContactRows& rows, const ContactTerms&, const std::vector<RowForce>& row_forces,
+                           ContactMemory& memory) {
     memory.last.hand_over(rows, leaving);  // what lasted may have gone on during the span
     std::vector<RowForce>& lasting = lasting_forces_;
     lasting = row_forces;

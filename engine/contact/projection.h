@@ -33,7 +33,8 @@ public:
     /// Makes the forces of a solved point the multipliers and exchanges them for those that follow.
     bool correct(const ContactPoint& point, ContactForces forces, double enough) override;
 
-    void end(const ContactRows& rows, const std::vector<RowForce>& row_forces, ContactMemory& memory) override;
+    void end(const ContactRows& rows, const ContactTerms& terms, const std::vector<RowForce>& row_forces,
+             ContactMemory& memory) override;
 
     /// A row's push is a constraint's: what it takes from motion towards the obstacle is gone.
     ContactLoss loss(const ContactMove& move, double stored) const override;

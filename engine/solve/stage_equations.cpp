@@ -44,8 +44,11 @@ StageEquations::StageEquations(const ImplicitStage& stage, const ContactMemory& 
     space.solver.start_stage();
     if (scene.plan.contacts) law_.begin(memory);
     for (auto* vectors : {&space.direction, &space.right_side}) set_zero(scene.compute, *vectors, scene.model.vertex_count());
-    space.friction = {
-        .positions = &stage.start.positions, .fraction = stage.span.from, .grips = stage.start.grips, .flows = stage.flows};
+    space.friction = {.positions = &stage.start.positions,
+                      .fraction = stage.span.from,
+                      .grips = stage.start.grips,
+                      .flows = stage.flows,
+                      .held = &memory.held};
     set_step_springs(
         scene.compute,
         {scene.model.adjacency, stage.start.positions, scene.plan.damping, stage.base.h, stage.rest_length, &scene.model.springs},
@@ -172,7 +175,7 @@ bool StageEquations::correct_contact(double enough) {
 }
 
 void StageEquations::end_contact(ContactMemory& memory) const {
-    if (stage_.scene.plan.contacts) law_.end(space_.current.rows, space_.current.row_forces, memory);
+    if (stage_.scene.plan.contacts) law_.end(space_.current.rows, space_.current.contact, space_.current.row_forces, memory);
 }
 
 void StageEquations::set_residual(StagePoint& point) const {

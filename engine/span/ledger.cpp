@@ -147,7 +147,8 @@ void account_implicit(const Span& span, const SpanStates& states, Workspace& wor
     const StepScene& scene = span.scene;
     const StepPlan& plan = scene.plan;
     const StagePoint& last = work.newton.current;
-    states.end.contact_energy = plan.contacts ? last.contact.energy + grip_energy(last.contact.touches) : 0.0;
+    states.end.contact_energy =
+        plan.contacts ? last.contact.energy + grip_energy(last.contact.touches) + grip_energy(last.contact.rubs) : 0.0;
     flows.work += seam_work(span, states.start, states.end.cloth) + states.obstacle_work;
 
     SpanAccount account(span, states, work, flows);

@@ -21,7 +21,7 @@ struct SavedObstacle {
 
 /// Forces by row, in the order of their keys.
 struct SavedContact {
-    std::vector<KeyedForce> last, lasting;
+    std::vector<KeyedForce> last, lasting, held;
     double least_distance = 0.0;
 };
 
@@ -122,7 +122,7 @@ void exchange(Archive& archive, Value& row) {
 
 template <class Archive, OfType<SavedContact> Value>
 void exchange(Archive& archive, Value& contact) {
-    archive(contact.last, contact.lasting, contact.least_distance);
+    archive(contact.last, contact.lasting, contact.held, contact.least_distance);
 }
 
 template <class Archive, OfType<StartMove> Value>

@@ -30,7 +30,7 @@ SavedWorld state_of(const World& world, SavedSize& size) {
     saved.settings = scene.settings;
     saved.state = world.state;
     const ContactMemory& contact = world.state.contact;
-    saved.contact = {contact.last.all(), contact.lasting.all(), contact.least_distance};
+    saved.contact = {contact.last.all(), contact.lasting.all(), contact.held.all(), contact.least_distance};
     saved.free = scene.script.free;
     saved.pin_targets = scene.script.pin_targets;
     for (const ObstacleState& o : scene.script.obstacles) {
@@ -172,7 +172,7 @@ private:
         const auto& [first, in_use] = saved_.solver;
         reader_.demand(first != LinearSolver::automatic && in_use != LinearSolver::automatic, "a linear solver that is none");
         reader_.demand(saved_.contact.least_distance >= 0.0 && saved_.contact.least_distance <= 1.0, "a distance out of range");
-        for (const auto* forces : {&saved_.contact.last, &saved_.contact.lasting}) {
+        for (const auto* forces : {&saved_.contact.last, &saved_.contact.lasting, &saved_.contact.held}) {
             const auto twice = std::ranges::adjacent_find(*forces, std::ranges::greater_equal{}, &KeyedForce::key);
             reader_.demand(twice == forces->end(), "a contact force twice");
         }
@@ -263,6 +263,7 @@ void put_state(SavedWorld& saved, World& world) {
     update_points(world.state.cloth);
     world.state.contact.last.set(saved.contact.last);
     world.state.contact.lasting.set(saved.contact.lasting);
+    world.state.contact.held.set(saved.contact.held);
     world.state.contact.least_distance = saved.contact.least_distance;
     world.rest = std::move(saved.rest);
     world.load_source = saved.loads.known ? LoadSource::saved_state : LoadSource::nowhere;

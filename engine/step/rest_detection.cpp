@@ -83,8 +83,7 @@ void update_rest(const StepScene& scene, const Vectors& velocities, ClothState& 
     for (std::size_t c = 0; c < rest.cloths.size(); ++c) {
         const ClothRange& range = scene.model.cloths[c];
         const std::optional<double>& speed = scene.settings.rest_speed;
-        const double share = scene.settings.kinetic_damping ? settled_displacement_share : rest_displacement_share;
-        const double bound = speed ? *speed * rest_time : share * scene.model.thickness[range.first];
+        const double bound = speed ? *speed * rest_time : rest_displacement_share * scene.model.thickness[range.first];
         const RestCheck check{scene, range, bound};
         update_cloth(check, velocities, cloth, rest.anchor, rest.cloths[c]);
         report.sleeping_cloths += rest.cloths[c].asleep;

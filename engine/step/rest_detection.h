@@ -27,8 +27,8 @@ struct RestState {
 
 /// After a good step: follows how long each cloth has been still, and lets all fall asleep (velocities become zero) once every
 /// one is at rest. A cloth is at rest if for 0.5 s
-/// - no vertex was farther than 0.002 of the thickness (0.01 with kinetic damping), or 0.5 s times StepSettings::rest_speed, from
-///   where it was when that time began, and now
+/// - no vertex was farther than 0.002 of the thickness, or 0.5 s times StepSettings::rest_speed, from where it was when that time
+///   began, and now
 /// - the net force on each free vertex (springs, gravity, contact, friction), mass times what the step changed its velocity by
 ///   over its length, is below 0.02 of its weight (without gravity: below what moves it by that distance in that time),
 /// while no pin and no obstacle moved and every step converged. Two conditions, as a swing is slow where it turns and

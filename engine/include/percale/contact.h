@@ -180,8 +180,8 @@ public:
 
     /// Every contact closer than the thickness, with obstacles at `fraction` of the step. A pair of features that was a contact
     /// since the last refresh stays one while it is that near, unless a nearer one of the same vertex in nearly the same
-    /// direction has taken its place: within one solve forces change continuously. One between cloths stays one over
-    /// refreshes, too, until they have moved against each other.
+    /// direction has taken its place: within one solve forces change continuously. Those between cloths begin anew with
+    /// each refresh.
     virtual void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) = 0;
 
     /// The largest f in [0, 1] such that moving all vertices along from + f (to - from), while the obstacles move over
@@ -195,8 +195,8 @@ public:
     /// depend on them.
     virtual void set_workers(Workers* workers) { static_cast<void>(workers); }
 
-    /// What later calls depend on besides cloth and obstacles: poses, lists, contacts that are kept. A detector with the same
-    /// cloth and obstacles that reads it (saved_state.h) answers them with the same bits. Throws SceneError if it is not able to.
+    /// What later calls depend on besides cloth and obstacles: poses, lists, contacts kept. A detector with the same cloth and
+    /// obstacles that reads it (saved_state.h) gives the same bits from its next refresh on. Throws SceneError if it cannot.
     virtual void save(StateWriter& state) const;
     /// Reads to the end. Throws SceneError, and leaves all as it was, if the state is not one of this cloth and these obstacles.
     virtual void restore(StateReader& state);

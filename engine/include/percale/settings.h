@@ -60,8 +60,7 @@ struct StepSettings {
     /// blows. Kinetic damping of dynamic relaxation (Barnes 1999, Form finding and analysis of tension structures by dynamic
     /// relaxation), by the potential instead of the kinetic energy.
     bool kinetic_damping = false;
-    /// m/s. Cloth is still that has kept within half a second times this of one place; empty: within 0.002 of its thickness,
-    /// with kinetic_damping 0.01: what remains of slow friction between cloths does not matter there.
+    /// m/s. Cloth is still that has kept within half a second times this of one place; empty: within 0.002 of its thickness.
     std::optional<double> rest_speed = {};
     bool check_derivatives = false;        // after each step, of every force at its end state; slow, for those who change forces
     Vec3 gravity = Vec3(0.0, -9.81, 0.0);  // m/s^2

@@ -72,6 +72,25 @@ TEST_CASE("A sheet that slides on a sheet is slowed down by mu g") {
     }
 }
 
+TEST_CASE("On a slope a sheet sticks to a sheet and does not creep, or slides down as Coulomb has it") {
+    const double slope = 0.3, g = 9.81;  // its tangent
+    const Vec3 down = Vec3(slope, -1.0, 0.0).normalized();
+    for (const double mu : {0.2, 0.35}) {
+        SheetOnSheet scene(mu, 0.9 * h, {.gravity = g * down});
+        scene.run(mu > slope ? 60 : 10);
+        const Vec3 place = mean(scene.simulation.positions(scene.upper)), speed = mean(scene.simulation.velocities(scene.upper));
+        scene.run(mu > slope ? 120 : 6);
+        const Vec3 moved = mean(scene.simulation.positions(scene.upper)) - place;
+        CAPTURE(mu);
+        if (mu > slope) {
+            CHECK(moved.norm() < 1e-4 * h);  // in 2 s
+        } else {
+            const double gained = mean(scene.simulation.velocities(scene.upper)).x() - speed.x();
+            CHECK(gained / 0.1 == Approx(g * (down.x() + mu * down.y())).epsilon(0.05));
+        }
+    }
+}
+
 TEST_CASE("A sheet split along a line, its halves side by side at rest, falls on a ball: nothing crosses, and steps are solved") {
     const double gap = GENERATE(1e-6, 1e-5, 1e-4, 3e-4, 1e-3);
     CAPTURE(gap);

@@ -109,7 +109,8 @@ TEST_CASE("a vertex above a face, an edge or a corner of a sheet is in contact w
 TEST_CASE("two ridges that cross are in contact through their edges") {
     const TriangleMesh roof{.vertices = {{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 1}, {0, -0.5, -1}},
                             .triangles = {{0, 2, 1}, {0, 1, 3}}};
-    TriangleMesh gutter{.vertices = {{0, 0.1, -1}, {0, 0.1, 1}, {1, 0.6, 0}, {-1, 0.6, 0}}, .triangles = {{0, 1, 2}, {0, 3, 1}}};
+    const TriangleMesh gutter{.vertices = {{0, 0.1, -1}, {0, 0.1, 1}, {1, 0.6, 0}, {-1, 0.6, 0}},
+                              .triangles = {{0, 1, 2}, {0, 3, 1}}};
     const TwoSheets crossing(roof, gutter);
     CHECK(crossing.total_zone(crossing.edge_pairs(), 0.2) == 1.0);
     CHECK(crossing.total_zone(crossing.vertex_face_pairs(), 0.2) == 0.0);
@@ -139,7 +140,7 @@ TEST_CASE("as cloth bends from a ridge to a valley the contact of its edge goes 
     for (double fall = -0.05 + step; fall < 0.05; fall += step) {
         const double now = zone_at(fall, fall + 0.001);
         CHECK(now >= before);
-        if (fall > -0.05 + 1.5 * step) CHECK(now - before <= most_change);
+        CHECK(now - before <= most_change);
         CHECK(zone_at(fall + 0.001, fall) == Approx(now));
         before = now;
     }
@@ -177,17 +178,17 @@ TEST_CASE("edges at a small angle are in contact where their ends are too far ap
     });
     REQUIRE(crossing != pairs.end());
     SelfPair pair = *crossing;
-    CHECK(sheets.contact(pair).jumps);
+    CHECK(sheets.contact(pair).crossing == 0.0);
     CHECK(sheets.contact(pair).relative_zone == 0.0);
     // Over its length the edge rises by 10 mm: more than a fifth of this thickness.
     pair.thickness = 0.04;
-    CHECK_FALSE(sheets.contact(pair).jumps);
+    CHECK(sheets.contact(pair).crossing > 0.2);
     CHECK(sheets.contact(pair).relative_zone == Approx(0.01 / (0.2 * 0.04) - 1.0).epsilon(1e-3));
     CHECK(sheets.contact(pair).distance == Approx(gap));
     pair.thickness = 0.02;  // twice that
     CHECK(sheets.contact(pair).relative_zone == 1.0);
     pair.thickness = 0.06;
-    CHECK(sheets.contact(pair).jumps);
+    CHECK(sheets.contact(pair).crossing == 0.0);
 }
 
 TEST_CASE("near a seam the thickness is each corner's there, between them in between, and the same from pair to pair") {

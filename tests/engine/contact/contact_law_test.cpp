@@ -20,6 +20,7 @@ struct Touching {
     Vectors start, end, forces;
     std::vector<ObstacleFlow> flows;
     std::vector<Grip> grips;
+    ContactMultipliers held;
     ContactTerms terms;
     std::vector<RowForce> row_forces;
 
@@ -33,7 +34,11 @@ struct Touching {
         flows = {{.shift = random.point(2e-4)}};
         for (int i = 0; i < count; i += 2) grips.push_back({i, 0, random.point(3e-5)});
         for (int i = 0; i < count; ++i) add_row(random, {i, (i + 3) % count, -1, -1}, {0.3, 0.7, 0.0, 0.0}, 0);
-        for (int i = 0; i < 4; ++i) add_row(random, {i, i + 4, -1, -1}, {1.0, -1.0, 0.0, 0.0}, -1);
+        held.clear(4);
+        for (int i = 0; i < 4; ++i) {
+            add_row(random, {i, i + 4, -1, -1}, {1.0, -1.0, 0.0, 0.0}, -1);
+            if (i % 2 == 0) held.add(row_key(rows, rows.size() - 1), {.normal = 2.0, .friction = random.point(0.7)});
+        }
     }
 
     void add_row(Random& random, const std::array<int, 4>& vertex, const std::array<double, 4>& weight, int obstacle) {
@@ -56,7 +61,7 @@ struct Touching {
     }
 
     ContactLoss loss() {
-        const FrictionStart friction{.positions = &start, .fraction = 0.5, .grips = grips, .flows = flows};
+        const FrictionStart friction{.positions = &start, .fraction = 0.5, .grips = grips, .flows = flows, .held = &held};
         add_contact(rows,
                     {.dt = dt,
                      .obstacle_rate = rate,
@@ -80,7 +85,8 @@ TEST_CASE("What contact takes from a move is its energy, its losses and the work
         for (int i = 0; i < Touching::count; ++i) {
             given += touching.forces.at(i).dot(touching.end.at(i) - touching.start.at(i));
         }
-        const double energy = touching.terms.energy + grip_energy(touching.terms.touches);
+        const double springs = grip_energy(touching.terms.touches) + grip_energy(touching.terms.rubs);
+        const double energy = touching.terms.energy + springs;
         const double work = dt * touching.terms.obstacle_power;
         CAPTURE(seed, given, energy, work);
         CHECK(work - given == Approx(energy + loss.contact + loss.friction + loss.integrator).epsilon(1e-10));

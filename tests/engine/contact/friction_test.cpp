@@ -121,4 +121,48 @@ TEST_CASE("Grips keep what sticks, drag along what slides, and are sorted") {
     CHECK(grips[2].stretch == Vec3(0.5e-4, 0, 0));
 }
 
+TEST_CASE("What friction between cloths holds is found again by row, and goes no farther than the reach") {
+    Random random(7);
+    const double mu = 0.4, h = 0.005, normal = 3.0;
+    ContactRows rows;
+    for (int row = 0; row < 40; ++row) {
+        rows.vertex.push_back({row, row + 50, row + 51, -1});
+        rows.weight.push_back({1.0, -0.3, -0.7, 0.0});
+        rows.direction.push_back(random.unit());
+        rows.thickness.push_back(h);
+        rows.friction.push_back(mu);
+        rows.obstacle.push_back(-1);
+        rows.feature.push_back(1);
+    }
+    const Vectors start = to_vectors(random_points(random, 100, 1.0));
+    Vectors end = start;
+    for (int i = 0; i < 100; ++i) end.set(i, end.at(i) + random.point(5e-5));
+    const FrictionStart first{.positions = &start};
+    std::vector<Rub> rubs;
+    const std::vector<RowForce> forces(40, {.normal = normal});
+    for (int row = 0; row < 40; ++row) rubs.push_back(rub_of(first, rows, row, normal, end));
+    ContactMultipliers held;
+    set_held(rows, rubs, forces, held);
+    CHECK(held.size() == 40);
+    // The next stage begins where this one ended. It presses otherwise.
+    const FrictionStart next{.positions = &end, .held = &held};
+    int slid = 0;
+    for (int row = 0; row < 40; ++row) {
+        const Rub before = rubs[row], after = rub_of(next, rows, row, 2.0 * normal, end);
+        const double reach = 0.01 * h, length = before.slip.norm();
+        CHECK(before.reach == Approx(reach));
+        CHECK(std::abs(before.slip.dot(rows.direction[row])) < 1e-15);
+        CHECK((before.slip - before.moved).norm() == 0.0);
+        CHECK(friction_force(before).norm() == Approx(mu * normal * std::min(1.0, length / reach)));
+        CHECK((after.slip - std::min(1.0, reach / length) * before.slip).norm() < 1e-12 * reach);
+        CHECK(after.moved.norm() == 0.0);
+        CHECK(after.press == Approx(2.0 * mu * normal));
+        slid += length > reach;
+    }
+    CHECK((slid > 5 && slid < 35));
+    // Of another row nothing is held.
+    rows.vertex[0][0] = 49;
+    CHECK(rub_of(next, rows, 0, normal, end).slip.norm() == 0.0);
+}
+
 }  // namespace percale::test

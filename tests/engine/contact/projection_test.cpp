@@ -51,7 +51,7 @@ struct OneRow {
         rows.friction = {mu};
         rows.share = {1.0};
         rows.obstacle = rows.feature = {0};
-        projection.end({}, {}, memory);  // nothing was nearer than the thickness before
+        projection.end({}, {}, {}, memory);  // nothing was nearer than the thickness before
         projection.begin(memory);
     }
 
@@ -67,7 +67,7 @@ struct OneRow {
         projection.evaluate(point(), result());
     }
     void advance() { projection.correct(point(), result(), 0.0); }
-    void keep() { projection.end(rows, forces, memory); }
+    void keep() { projection.end(rows, {}, forces, memory); }
 };
 
 }  // namespace
