@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "forces/blocks.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
