@@ -102,7 +102,7 @@ public:
     /// The motion at a point is solved for. Changes what the law holds fixed meanwhile, where that is off by more than
     /// `enough`, m, and evaluates it anew; false if nothing is left to be solved.
     virtual bool correct(const ContactPoint& point, ContactForces forces, double enough) = 0;
-    /// The span ends at a point with these rows and forces: what it hands on.
+    /// The span ends at a point with these rows, terms and forces: what it hands on.
     virtual void end(const ContactRows& rows, const ContactTerms& terms, const std::vector<RowForce>& row_forces,
                      ContactMemory& memory) = 0;
 

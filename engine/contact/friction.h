@@ -65,7 +65,7 @@ struct Touches {
 /// mean. For the vertex being at `position` at `fraction` of the step.
 void set_slip(const FrictionStart& start, const Vec3& position, double fraction, Touch& touch);
 
-/// Of a row that presses with `normal_force`, the vertices being at `positions`.
+/// Of a row between cloths that presses with `normal_force`, N, the vertices being at `positions`, m.
 Rub rub_of(const FrictionStart& start, const ContactRows& rows, int row, double normal_force, const Vectors& positions);
 
 /// Coulomb's law with a spring that sticks: -press/reach slip up to the reach, press against the slip beyond.

@@ -96,8 +96,8 @@ void add_friction(const ContactStep& step, const Vectors& positions, Touch& touc
     terms.obstacle_power += force.dot(touch.flow) * step.obstacle_rate;
 }
 
-/// Whether a rub slides in the matrix: at the first sight if it held before or if friction at its limit cannot stop it within the
-/// step.
+/// Whether the matrix lets a rub beyond its reach slide: at the first sight if it held before or if friction at its limit cannot
+/// stop it within the step, later always.
 bool slides(const ContactRows& rows, const Rub& rub, const ContactStep& step) {
     const double length = rub.slip.norm();
     if (length <= rub.reach) return false;

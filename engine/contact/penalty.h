@@ -5,9 +5,9 @@
 
 namespace percale {
 
-/// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms` and the normal
-/// parts of `row_forces`. Between cloths the velocity is the relative
-/// one, and n.A n and masses are those of both sides in series, 1/sum w^2/a.
+/// Penalty springs with Coulomb friction. forces += contact forces, N; fills `terms` and the normal parts of `row_forces`.
+/// Between cloths the slip is that of one side along the other (Rub), and n.A n and masses are those of both sides in series,
+/// 1/sum w^2/a.
 /// Stiffness of a row: half of n.A n/dt^2 summed over its vertices by weight, A the frozen diagonal blocks (the share of the
 /// masses for `stiffness_dt`, unless the obstacle moves: a step that is suddenly shorter must not throw up what lies there), but
 /// at least four times (weight on the row, or what its vertices press with)/thickness, so that cloth rests at no less than 3/4 of
