@@ -296,6 +296,25 @@ constexpr double estimate_safety = 0.4;
 /// Of StepSettings::newton_share in adaptive steps. Larger: the tolerance is missed by the solver's error.
 constexpr double most_adaptive_share = 0.25;
 
+/// Newton iterations of a solve after which patches are relaxed. Fewer: solves that soon end pay for it. More: layers that slide
+/// on each other take two to three times as many.
+constexpr int iterations_before_patches = 8;
+
+/// Vertices that patches begin with, at most: a share of all, but not less than a number. More: patches cost what all cloth does.
+constexpr double most_patched_vertices = 0.02;
+constexpr int few_patched_vertices = 20;
+
+/// Shares of the residual's square: what these vertices are taken to hold, and what they must hold for patches to pay.
+constexpr double patched_square = 0.95, least_patched_square = 0.8;
+
+/// When patches are relaxed: at this share of their residual, or after so many iterations.
+constexpr double patch_residual_share = 0.1;
+constexpr int most_patch_iterations = 8;
+
+/// The same of the linear systems of patches. Smaller, more: exactness that the next state of contact makes useless.
+constexpr double patch_linear_share = 0.1;
+constexpr int most_patch_linear_iterations = 200;
+
 /// Rounds of contact multipliers in one stage. Fewer: projected contact is left inexact.
 constexpr int most_contact_rounds = 6;
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "matrix_entries.h"
+
 namespace percale {
 namespace {
 
@@ -20,56 +22,15 @@ void add_block(int i, int j, const std::array<double, 6>& block, Triplets& entri
     }
 }
 
-void add_springs(const BlockMatrix& matrix, Triplets& entries) {
-    const Adjacency& pattern = *matrix.pattern;
-    for (int s = 0; s < pattern.slices(); ++s) {
-        for (int e = pattern.start[s]; e < pattern.start[s + 1]; ++e) {
-            const int i = s * slice_lanes + (e - pattern.start[s]) % slice_lanes, j = pattern.other[e];
-            if (j <= i || matrix.free[i] == 0.0 || matrix.free[j] == 0.0) continue;
-            const auto [a, w] = spring_block(pattern, *matrix.springs, pattern.spring[e]);
-            add_block(
-                i, j,
-                {-a - w.x() * w.x(), -w.x() * w.y(), -w.x() * w.z(), -a - w.y() * w.y(), -w.y() * w.z(), -a - w.z() * w.z()},
-                entries);
+/// What springs and membranes put below the diagonal of row i, blocks that need not be symmetric.
+void add_row(const BlockMatrix& matrix, int i, Triplets& entries) {
+    if (matrix.free[i] == 0.0) return;
+    for_each_entry(matrix, i, [&](int j, const Eigen::Matrix3d& block) {
+        if (j >= i || matrix.free[j] == 0.0) return;
+        for (int a = 0; a < 3; ++a) {
+            for (int b = 0; b < 3; ++b) entries.emplace_back(3 * i + a, 3 * j + b, block(a, b));
         }
-    }
-}
-
-/// What a corner of a membrane's triangle adds between its vertex i and the two others: with y_i = -(u_p p + u_q q),
-/// u_p = pq q.dq + pr r.dr, u_q = pq p.dp + qr r.dr (MembraneCorners).
-struct CornerBlocks {
-    Eigen::Matrix3d first, second;
-
-    explicit CornerBlocks(const float* value) {
-        const auto edge = [&](int k) {
-            return Vec3(value[k * slice_lanes], value[(k + 1) * slice_lanes], value[(k + 2) * slice_lanes]);
-        };
-        const Vec3 p = edge(0), q = edge(3), r = edge(6);
-        const double pq = value[9 * slice_lanes], pr = value[10 * slice_lanes], qr = value[11 * slice_lanes];
-        first = pr * p * r.transpose() + q * (qr * r - pq * p).transpose();
-        second = -p * (pq * q + pr * r).transpose() - qr * q * r.transpose();
-    }
-};
-
-/// A block in the lower part, not on the diagonal, and not symmetric.
-void add_full_block(const BlockMatrix& matrix, int i, int j, const Eigen::Matrix3d& block, Triplets& entries) {
-    if (j >= i || matrix.free[i] == 0.0 || matrix.free[j] == 0.0) return;
-    for (int a = 0; a < 3; ++a) {
-        for (int b = 0; b < 3; ++b) entries.emplace_back(3 * i + a, 3 * j + b, block(a, b));
-    }
-}
-
-void add_membrane(const BlockMatrix& matrix, Triplets& entries) {
-    if (matrix.springs->corners.empty()) return;
-    const MembraneCorners corners = matrix.pattern->membrane.corners();
-    for (int s = 0; s < matrix.pattern->slices(); ++s) {
-        for (int e = corners.start[s]; e < corners.start[s + 1]; ++e) {
-            const int lane = (e - corners.start[s]) % slice_lanes, i = s * slice_lanes + lane;
-            const CornerBlocks blocks(&matrix.springs->corners[corner_values * static_cast<std::size_t>(e - lane) + lane]);
-            add_full_block(matrix, i, corners.other[0][e], blocks.first, entries);
-            add_full_block(matrix, i, corners.other[1][e], blocks.second, entries);
-        }
-    }
+    });
 }
 
 void add_contact(const BlockMatrix& matrix, const CoupledBlock& contact, Triplets& entries) {
@@ -92,8 +53,7 @@ void assemble(const BlockMatrix& matrix, Triplets& entries) {
         for (int k = 0; k < 6 && matrix.free[i] > 0.0; ++k) block[k] = matrix.diagonal[k][i];
         add_block(i, i, block, entries);
     }
-    add_springs(matrix, entries);
-    add_membrane(matrix, entries);
+    for (int i = 0; i < matrix.pattern->vertex_count; ++i) add_row(matrix, i, entries);
     for (const CoupledBlock& contact : matrix.contacts) add_contact(matrix, contact, entries);
 }
 

@@ -11,6 +11,7 @@
 #include "contact/projection.h"
 #include "forces/total_force.h"
 #include "linear/linear_solver.h"
+#include "patch_space.h"
 #include "plan/scene.h"
 #include "schemes/stage_base.h"
 #include "support/deadline.h"
@@ -72,6 +73,7 @@ struct NewtonSpace {
     Vectors first_direction;                                // m/s, before rows were foreseen
     std::vector<NetLimit> net_limits;                       // of the last direction
     BodyStates bodies;                                      // in the rounds of find_motion
+    PatchSpace patches;                                     // of the last iteration that relaxed some
     ForeseenRows foreseen;                                  // of the last move that a line search refused
     int iterations_left = std::numeric_limits<int>::max();  // of StepSettings::work_limit, for one stage
     TimeBudget time;                                        // that is left of the step's

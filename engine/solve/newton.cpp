@@ -7,6 +7,7 @@
 #include "direction.h"
 #include "line_search.h"
 #include "newton_stop.h"
+#include "patches.h"
 #include "stage_equations.h"
 #include "support/deadline.h"
 #include "tolerances.h"
@@ -97,6 +98,8 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
             return false;
         }
 
+        const bool slow = report.newton_iterations >= iterations_before_patches && !is_past(space.time.deadline);
+        if (slow && relax_patches(equations, error)) measure_residual(equations, search, report);
         const double ratio = report.newton_iterations > 0 ? search.norm / search.last_norm : 1.0;
         const NewtonProgress progress{report.newton_iterations, ratio, report.residual};
         const Vectors& velocities = space.current.velocities;

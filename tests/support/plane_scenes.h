@@ -11,10 +11,10 @@
 namespace percale::test {
 
 /// A small sheet `height` above a plane that is tilted by `angle` about z, so that its downhill direction is (cos, -sin, 0).
-inline SolverScene sheet_on_plane(double angle, double friction, double height, const StepSettings& settings = {}) {
+inline SolverScene sheet_on_plane(double angle, double friction, double height, const StepSettings& settings = {}, int side = 4) {
     const Rotation tilt{std::cos(-0.5 * angle), 0.0, 0.0, std::sin(-0.5 * angle)};
     const Pose pose{.translation = Vec3::Zero(), .rotation = tilt};
-    TriangleMesh grid = make_grid(0.2, 0.2, 4, 4);
+    TriangleMesh grid = make_grid(0.2, 0.2, side, side);
     const Vec3 up = transform(pose, Vec3(0, height, 0));
     for (Vec3& x : grid.vertices) x = transform(pose, x) + up;
     SolverScene scene = solver_scene(grid, sheet_fabric(), settings);

@@ -1,22 +1,11 @@
 #include "engine/solve/stage_equations.h"
 
 #include "tests/support/catch.h"
+#include "tests/support/one_stage.h"
 #include "tests/support/plane_scenes.h"
 
 namespace percale::test {
 namespace {
-
-/// One stage of backward Euler of a scene.
-struct OneStage {
-    SolverScene scene;
-    ContactMemory memory;
-
-    explicit OneStage(SolverScene of) : scene(std::move(of)) {
-        scene.before = scene.state;
-        set_euler_base(scene.before, scene.settings.time_step, scene.base);
-    }
-    ImplicitStage stage() const { return {.scene = scene, .base = scene.base, .start = scene.before, .targets = scene.targets}; }
-};
 
 SolverScene moving_sheet() {
     SolverScene scene = solver_scene(make_grid(1.0, 1.0, 5, 5), sheet_fabric(), {});

@@ -1,0 +1,97 @@
+#include "engine/linear/patch_system.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "tests/support/catch.h"
+#include "tests/support/dense_system.h"
+#include "tests/support/forces/membrane_cases.h"
+
+namespace percale::test {
+namespace {
+
+std::vector<int> free_ones_of(const BlockMatrix& matrix, std::vector<int> vertices) {
+    std::erase_if(vertices, [&](int v) { return matrix.free[v] == 0.0; });
+    return vertices;
+}
+
+/// A x = b of the rows and columns of these vertices, by a dense factorisation of the whole matrix's products.
+Eigen::VectorXd solve_dense(const BlockMatrix& matrix, const std::vector<int>& vertices, const Eigen::VectorXd& b) {
+    const Eigen::Index size = 3 * static_cast<Eigen::Index>(vertices.size());
+    Eigen::MatrixXd dense(size, size);
+    Eigen::VectorXd right(size);
+    AlignedVector<double> points;
+    Vectors unit, product;
+    for (auto* vectors : {&unit, &product}) vectors->resize(matrix.pattern->vertex_count);
+    for (Eigen::Index column = 0; column < size; ++column) {
+        const int vertex = vertices[column / 3];
+        unit.set(vertex, Vec3::Unit(column % 3));
+        multiply(matrix, unit, points, product);
+        unit.set(vertex, Vec3::Zero());
+        for (Eigen::Index row = 0; row < size; ++row) dense(row, column) = product.at(vertices[row / 3])[row % 3];
+        right[column] = b[3 * vertex + column % 3];
+    }
+    return dense.ldlt().solve(right);
+}
+
+void check_against_dense(PatchSystem& patch, const BlockMatrix& matrix, const std::vector<int>& vertices,
+                         const Eigen::VectorXd& b) {
+    const Eigen::VectorXd expected = solve_dense(matrix, vertices, b);
+    Vectors x = from_dense(Eigen::VectorXd::Constant(b.size(), 7.0));
+    patch.fill(matrix, vertices);
+    CHECK(patch.solve(from_dense(b), 1e-12, x) > 0);
+    double worst = 0.0;
+    for (int v = 0; v < matrix.pattern->vertex_count; ++v) {
+        const auto at = std::find(vertices.begin(), vertices.end(), v);
+        if (at == vertices.end()) {
+            REQUIRE(x.at(v) == Vec3(7.0, 7.0, 7.0));
+        } else {
+            worst = std::max(worst, (x.at(v) - Vec3(expected.segment<3>(3 * (at - vertices.begin())))).norm());
+        }
+    }
+    CHECK(worst < 1e-9 * expected.norm());
+}
+
+}  // namespace
+
+TEST_CASE("A patch is solved as its rows and columns are by a dense factorisation, contact included") {
+    PatchSystem patch;
+    for (const int count : {9, 25, 60}) {
+        RandomSystem system(static_cast<unsigned>(count) + 300u, count);
+        CAPTURE(count);
+        for (const std::vector<int>& some : {std::vector<int>{4}, {0, 1, 2, 5, 8}, {8, 3, 6}}) {
+            check_against_dense(patch, system.matrix, free_ones_of(system.matrix, some), system.random_vector());
+        }
+    }
+}
+
+TEST_CASE("A patch has what couples the edges of membranes") {
+    const TriangleMesh mesh = make_grid(0.6, 0.6, 9, 9);
+    const Strained sheet(cloth_model(mesh, woven_fabric()), disturbed(mesh.vertices, 1.05, 0.01, 9));
+    REQUIRE_FALSE(sheet.terms.corners.empty());
+    BlockMatrix matrix;
+    set_pattern(compute, sheet.model.adjacency, sheet.model.mass, matrix);
+    fill_matrix(sheet.terms, {}, matrix);
+    std::vector<int> vertices(20);
+    std::iota(vertices.begin(), vertices.end(), 23);
+    Random random(11);
+    Eigen::VectorXd b(3 * 81);
+    for (double& value : b) value = random.number(-1.0, 1.0);
+    PatchSystem patch;
+    check_against_dense(patch, matrix, vertices, b);
+}
+
+TEST_CASE("A solve ends at the share that is asked for, and at once where nothing is to be solved") {
+    RandomSystem system(305, 60);
+    std::vector<int> vertices(30);
+    std::iota(vertices.begin(), vertices.end(), 0);
+    PatchSystem patch;
+    patch.fill(system.matrix, free_ones_of(system.matrix, vertices));
+    const Vectors b = from_dense(system.random_vector());
+    Vectors x = from_dense(Eigen::VectorXd::Zero(180));
+    const int loose = patch.solve(b, 0.5, x), tight = patch.solve(b, 1e-6, x);
+    CHECK(loose < tight);
+    CHECK(patch.solve(from_dense(Eigen::VectorXd::Zero(180)), 0.1, x) == 0);
+}
+
+}  // namespace percale::test

@@ -1,0 +1,96 @@
+#include "engine/solve/patches.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "tests/support/catch.h"
+#include "tests/support/one_stage.h"
+#include "tests/support/plane_scenes.h"
+
+namespace percale::test {
+namespace {
+
+constexpr double h = 0.005;  // the sheet's thickness
+constexpr int side = 15, middle = side * (side / 2) + side / 2;
+
+/// A sheet that has come to rest on a plane.
+SolverScene resting_sheet() {
+    SolverScene scene = sheet_on_plane(0.0, 0.5, 0.8 * h, {}, side);
+    run(scene, 60);
+    return scene;
+}
+
+/// The stage's prediction, then the state that the search stands at: moved by `change(i)`, m/s.
+template <class Change>
+StageEquations start_of(OneStage& one, const ImplicitStage& stage, const Change& change) {
+    StageEquations equations(stage, one.memory, one.scene.newton, one.scene.stages);
+    equations.predict();
+    NewtonSpace& space = one.scene.newton;
+    equations.evaluate(space.current);
+    space.bodies.start(stage.scene.model);
+    for (int i = 0; i < side * side; ++i) space.direction.set(i, change(i));
+    equations.aim(1.0);
+    equations.evaluate(space.trial);
+    std::swap(space.current, space.trial);
+    return equations;
+}
+
+double residual_square(const SolverScene& scene, const std::vector<int>& vertices) {
+    double sum = 0.0;
+    for (const int v : vertices) sum += square_at(scene.newton.current.residual, v) / scene.model.mass[v];
+    return sum;
+}
+
+std::vector<int> all_vertices() {
+    std::vector<int> all(side * side);
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("What a few vertices leave unbalanced is solved for with all others held") {
+    OneStage one(resting_sheet());
+    const ImplicitStage stage = one.stage();
+    const auto shove = [](int i) { return i == middle ? Vec3(0.3, -0.05, 0.0) : Vec3(Vec3::Zero()); };
+    StageEquations equations = start_of(one, stage, shove);
+    const Vectors before = one.scene.newton.current.positions;
+    const double square = residual_square(one.scene, all_vertices());
+    REQUIRE(relax_patches(equations, time_error_of(stage)));
+    const std::vector<int>& patch = one.scene.newton.patches.vertices;
+    CHECK(patch.size() < 60);
+    CHECK(std::count(patch.begin(), patch.end(), middle) == 1);
+    CHECK(residual_square(one.scene, patch) < 0.01 * square);
+    for (int i = 0; i < side * side; ++i) {
+        const bool held = std::count(patch.begin(), patch.end(), i) == 0;
+        if (held) REQUIRE(one.scene.newton.current.positions.at(i) == before.at(i));
+    }
+}
+
+TEST_CASE("Prescribed vertices beside a patch stay, and settled bodies are not looked at") {
+    OneStage one(resting_sheet());
+    one.scene.pin(middle + 1);
+    const ImplicitStage stage = one.stage();
+    const auto shove = [](int i) { return i == middle ? Vec3(0.3, -0.05, 0.0) : Vec3(Vec3::Zero()); };
+    StageEquations equations = start_of(one, stage, shove);
+    const Vec3 pinned = one.scene.newton.current.positions.at(middle + 1);
+    REQUIRE(relax_patches(equations, time_error_of(stage)));
+    CHECK(one.scene.newton.current.positions.at(middle + 1) == pinned);
+    one.scene.newton.bodies.mark(stage.scene.model, [](const Body&) { return true; });
+    one.scene.newton.bodies.settle_small();
+    CHECK_FALSE(relax_patches(equations, time_error_of(stage)));
+}
+
+TEST_CASE("Nothing is done where the residual is spread, or without contact") {
+    OneStage one(resting_sheet());
+    const ImplicitStage stage = one.stage();
+    Random random(3);
+    StageEquations equations = start_of(one, stage, [&](int) { return Vec3(random.point(0.05) + Vec3(0.0, 0.2, 0.0)); });
+    const Vectors before = one.scene.newton.current.positions;
+    CHECK_FALSE(relax_patches(equations, time_error_of(stage)));
+    for (int i = 0; i < side * side; ++i) REQUIRE(one.scene.newton.current.positions.at(i) == before.at(i));
+    one.scene.newton.current.rows.clear();
+    CHECK_FALSE(relax_patches(equations, time_error_of(stage)));
+}
+
+}  // namespace percale::test
