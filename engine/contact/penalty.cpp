@@ -76,6 +76,7 @@ Vec3 heading(const Touch& touch, const ContactStep& step) {
     if (length <= touch.reach) return Vec3::Zero();
     const Vec3 along = touch.slip / length;
     if (const Touch* before = step.previous ? step.previous->find(touch.vertex, touch.obstacle) : nullptr) {
+        if (touch.slip == before->slip) return before->heading;  // others were moved alone
         return along.dot(before->heading) < 0.0 ? Vec3(Vec3::Zero()) : along;
     }
     const double stopping = step.dt * step.dt * touch.press.norm();

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "block_product.h"
 #include "tolerances.h"
 
 namespace percale {
 namespace {
-
-Vec3 block_times(const std::array<double, 6>& m, const Vec3& u) {
-    return {m[0] * u.x() + m[1] * u.y() + m[2] * u.z(), m[1] * u.x() + m[3] * u.y() + m[4] * u.z(),
-            m[2] * u.x() + m[4] * u.y() + m[5] * u.z()};
-}
 
 /// Adds the contacts' product to y at free vertices; returns what that adds to x . y.
 double add_contact_product(const BlockMatrix& matrix, const Vectors& x, Vectors& y) {

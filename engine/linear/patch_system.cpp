@@ -1,18 +1,11 @@
 #include "patch_system.h"
 
-#include <algorithm>
-#include <cmath>
-
+#include "block_product.h"
 #include "matrix_entries.h"
 #include "tolerances.h"
 
 namespace percale {
 namespace {
-
-Vec3 times(const SymmetricBlock& m, const Vec3& u) {
-    return {m[0] * u.x() + m[1] * u.y() + m[2] * u.z(), m[1] * u.x() + m[3] * u.y() + m[4] * u.z(),
-            m[2] * u.x() + m[4] * u.y() + m[5] * u.z()};
-}
 
 double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double sum = 0.0;
@@ -61,7 +54,7 @@ void PatchSystem::add_contacts(const BlockMatrix& matrix) {
 
 void PatchSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
     for (std::size_t i = 0; i < x.size(); ++i) {
-        y[i] = times(diagonal_[i], x[i]);
+        y[i] = block_times(diagonal_[i], x[i]);
         for (int e = start_[i]; e < start_[i + 1]; ++e) y[i] += block_[e] * x[column_[e]];
     }
     for (const Contact& contact : contacts_) {
@@ -69,7 +62,7 @@ void PatchSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) con
         for (int k = 0; k < 4; ++k) {
             if (contact.vertex[k] >= 0) u += contact.weight[k] * x[contact.vertex[k]];
         }
-        const Vec3 f = times(contact.k, u);
+        const Vec3 f = block_times(contact.k, u);
         for (int k = 0; k < 4; ++k) {
             if (contact.vertex[k] >= 0) y[contact.vertex[k]] += contact.weight[k] * f;
         }
@@ -78,7 +71,7 @@ void PatchSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) con
 
 /// z = D^-1 r; returns r . z
 double PatchSystem::precondition() {
-    for (std::size_t i = 0; i < r_.size(); ++i) z_[i] = times(inverse_[i], r_[i]);
+    for (std::size_t i = 0; i < r_.size(); ++i) z_[i] = block_times(inverse_[i], r_[i]);
     return dot(r_, z_);
 }
 

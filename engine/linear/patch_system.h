@@ -8,8 +8,8 @@
 
 namespace percale {
 
-/// The part of a step matrix that belongs to a few vertices while all others are held: small enough to stay in the cache.
-/// Enclosed blocks are not in it.
+/// The part of a step matrix that belongs to a few vertices while all others are held, gathered so that products with it cost
+/// as little as they are few. Enclosed blocks are not in it.
 class PatchSystem {
 public:
     /// Takes the rows and columns of these vertices, each of them free and named once, from a matrix that is filled in.

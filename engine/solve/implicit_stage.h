@@ -73,7 +73,7 @@ struct NewtonSpace {
     Vectors first_direction;                                // m/s, before rows were foreseen
     std::vector<NetLimit> net_limits;                       // of the last direction
     BodyStates bodies;                                      // in the rounds of find_motion
-    PatchSpace patches;                                     // of the last iteration that relaxed some
+    PatchSpace patches;                                     // of the last iteration that looked for some
     ForeseenRows foreseen;                                  // of the last move that a line search refused
     int iterations_left = std::numeric_limits<int>::max();  // of StepSettings::work_limit, for one stage
     TimeBudget time;                                        // that is left of the step's

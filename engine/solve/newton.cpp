@@ -84,6 +84,7 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
     const StepSettings& settings = equations.stage().scene.settings;
     NewtonSpace& space = equations.space();
     search.line_solved = false;
+    bool relaxed = false;
     space.bodies.start(equations.stage().scene.model);
     for (;;) {
         space.bodies.release_joined(equations.stage().scene.model, space.current.rows);
@@ -98,8 +99,10 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
             return false;
         }
 
-        const bool slow = report.newton_iterations >= iterations_before_patches && !is_past(space.time.deadline);
-        if (slow && relax_patches(equations, error)) measure_residual(equations, search, report);
+        // Once an iteration: what was reached is looked at anew, but not by a matrix that was filled in for patches.
+        relaxed = !relaxed && report.newton_iterations >= iterations_before_patches && relax_patches(equations, error);
+        search.matrix_is_old = search.matrix_is_old || relaxed;
+        if (relaxed) continue;
         const double ratio = report.newton_iterations > 0 ? search.norm / search.last_norm : 1.0;
         const NewtonProgress progress{report.newton_iterations, ratio, report.residual};
         const Vectors& velocities = space.current.velocities;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "line_search.h"
+#include "support/deadline.h"
 #include "support/stage_timer.h"
 #include "tolerances.h"
 
@@ -99,9 +100,10 @@ bool relax_patches(StageEquations& equations, const TimeError& error) {
     if (!choose_vertices(sum, space.patches)) return false;
     add_neighbours(equations.stage().scene, space.patches);
     const double enough = patch_residual_share * residual_of_patches(equations);
-    for (int n = 0; n < most_patch_iterations && residual_of_patches(equations) > enough; ++n) {
+    for (int n = 0; n < most_patch_iterations && residual_of_patches(equations) > enough && !is_past(space.time.deadline); ++n) {
         set_patch_direction(equations);
-        if (search_line(equations, error).stuck) break;
+        const LineResult line = search_line(equations, error);
+        if (line.stuck || line.cuts == most_line_trials) break;
     }
     return true;
 }

@@ -1,6 +1,7 @@
 #include "engine/linear/patch_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "tests/support/catch.h"
@@ -59,6 +60,11 @@ TEST_CASE("A patch is solved as its rows and columns are by a dense factorisatio
     for (const int count : {9, 25, 60}) {
         RandomSystem system(static_cast<unsigned>(count) + 300u, count);
         CAPTURE(count);
+        CoupledBlock between = system.random_contact(count);
+        between.vertex = {0, 2, 4, 6};
+        between.weight = {1.0, -0.2, -0.3, -0.5};
+        system.contacts.push_back(between);
+        fill_matrix(system.terms, system.contacts, system.matrix);
         for (const std::vector<int>& some : {std::vector<int>{4}, {0, 1, 2, 5, 8}, {8, 3, 6}}) {
             check_against_dense(patch, system.matrix, free_ones_of(system.matrix, some), system.random_vector());
         }
@@ -88,9 +94,21 @@ TEST_CASE("A solve ends at the share that is asked for, and at once where nothin
     PatchSystem patch;
     patch.fill(system.matrix, free_ones_of(system.matrix, vertices));
     const Vectors b = from_dense(system.random_vector());
-    Vectors x = from_dense(Eigen::VectorXd::Zero(180));
-    const int loose = patch.solve(b, 0.5, x), tight = patch.solve(b, 1e-6, x);
-    CHECK(loose < tight);
+    const std::vector<int> free_ones = free_ones_of(system.matrix, vertices);
+    Vectors x = from_dense(Eigen::VectorXd::Zero(180)), product = x;
+    AlignedVector<double> points;
+    for (const double share : {0.5, 1e-3, 1e-6}) {
+        patch.solve(b, share, x);
+        multiply(system.matrix, x, points, product);
+        double left = 0.0, given = 0.0;
+        for (const int v : free_ones) {
+            left += (b.at(v) - product.at(v)).squaredNorm();
+            given += b.at(v).squaredNorm();
+        }
+        CAPTURE(share);
+        CHECK(std::sqrt(left / given) <= 1.0001 * share);
+        CHECK(std::sqrt(left / given) > 1e-3 * share);
+    }
     CHECK(patch.solve(from_dense(Eigen::VectorXd::Zero(180)), 0.1, x) == 0);
 }
 
