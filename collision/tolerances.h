@@ -346,6 +346,10 @@ constexpr double quantised_box = 1e-6;
 /// pushed twice, which sets a sheet that slides on a plane of two triangles trembling.
 constexpr double replaced_direction = 0.9;
 
+/// Of the thickness: obstacle points so near each other are one place. Smaller: rounding keeps two rows of one place apart.
+/// Larger: nothing to gain, rounding is far below.
+constexpr double same_place = 1e-6;
+
 /// Vertices and clusters in a thread's part of a pass over all of them, and clusters in one of lists that are made anew. Cost
 /// alone. More: threads wait for the last part. Fewer: parts cost more to hand out than to do.
 constexpr unsigned vertices_a_part = 1024, clusters_a_pass = 128, clusters_a_build = 4;

@@ -10,10 +10,14 @@ void FeatureMinima::begin(const ContactRows& rows) {
 }
 
 bool FeatureMinima::is_taken(const ContactRows& rows, std::size_t i) const {
-    if (minimum_[i] != 0) return false;
+    const auto same_place = [&](std::size_t k) {
+        const Vec3 apart = rows.obstacle_point[first_ + i] - rows.obstacle_point[first_ + k];
+        return apart.norm() <= tolerances::same_place * rows.thickness[first_ + i];
+    };
     for (std::size_t k = 0; k < minimum_.size(); ++k) {
         const double cosine = rows.direction[first_ + i].dot(rows.direction[first_ + k]);
-        if (minimum_[k] != 0 && cosine > tolerances::replaced_direction) return true;
+        if (k == i || !(cosine > tolerances::replaced_direction)) continue;
+        if (minimum_[k] > minimum_[i] || (minimum_[k] == minimum_[i] && k < i && same_place(k))) return true;
     }
     return false;
 }

@@ -9,8 +9,9 @@ namespace percale {
 
 /// Of the rows of one cloth feature with one obstacle: which are minima of the distance now. Of a vertex, one that only stands,
 /// because it was a minimum since the last refresh, is left out where a minimum in nearly the same direction has taken its place:
-/// where a vertex passes from face to face their distances agree, and both together would push it twice. Of edges and faces all
-/// stay: what takes their place where they end are contacts of other features.
+/// where a vertex passes from face to face their distances agree, and both together would push it twice. So would both faces
+/// at the edge between them, which rounding takes for inside of either: of two at one place the first one stays. Of edges and
+/// faces all stay: what takes their place where they end are contacts of other features.
 class FeatureMinima {
 public:
     /// What comes behind these rows is looked at.

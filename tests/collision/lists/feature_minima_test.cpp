@@ -9,18 +9,22 @@ using namespace percale;
 
 namespace {
 
-/// Rows told apart by `feature`, with directions by their angle from y.
+/// Rows told apart by `feature`, which is their thickness and distance, too, with directions by their angle from y.
 struct Written {
     ContactRows rows;
     FeatureMinima minima;
 
     Written() { minima.begin(rows); }
     void add(int feature, double degrees, bool minimum, int second_vertex = -1) {
+        add_at(Vec3(feature, 0.0, 0.0), feature, degrees, minimum, second_vertex);
+    }
+    void add_at(const Vec3& place, int feature, double degrees, bool minimum, int second_vertex = -1) {
         const double angle = degrees * std::numbers::pi / 180.0;
         rows.vertex.push_back({7, second_vertex, -1, -1});
         rows.weight.push_back({1.0, 0.0, 0.0, 0.0});
         rows.direction.emplace_back(std::sin(angle), std::cos(angle), 0.0);
-        for (auto* vectors : {&rows.obstacle_point, &rows.obstacle_displacement}) vectors->push_back(Vec3::Zero());
+        rows.obstacle_point.push_back(place);
+        rows.obstacle_displacement.push_back(Vec3::Zero());
         for (auto* numbers : {&rows.distance, &rows.thickness, &rows.friction, &rows.share}) numbers->push_back(feature);
         rows.obstacle.push_back(0);
         rows.feature.push_back(feature);
@@ -51,6 +55,19 @@ TEST_CASE("rows that are no minima any more stay where none has taken their plac
     written.add(2, 1.0, false);
     written.end_feature();
     CHECK(written.rows.feature == std::vector<int>{1, 2});
+}
+
+TEST_CASE("of two rows alike at one place, as both faces at an edge have by rounding, the first one stays") {
+    const Vec3 place(0.3, 0.2, 0.1), rounded = place + Vec3(1e-13, 0.0, 0.0);
+    for (const bool minimum : {true, false}) {
+        Written written;
+        written.add_at(place, 1, 0.0, minimum);
+        written.add_at(rounded, 2, 0.0, minimum);
+        written.add_at(place + Vec3(1e-4, 0.0, 0.0), 3, 0.0, minimum);
+        written.add_at(place, 4, 60.0, minimum);  // from another side
+        written.end_feature();
+        CHECK(written.rows.feature == std::vector<int>{1, 3, 4});
+    }
 }
 
 TEST_CASE("minima of another cloth feature, and rows that were there before, do not count") {
