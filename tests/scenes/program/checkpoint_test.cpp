@@ -95,7 +95,7 @@ TEST_CASE("a run until rest that expects something of its steps is resumed, from
         return run_box(folder, more);
     };
     REQUIRE(run_until_rest({"-o", "plain"}).exit_code == 0);
-    for (const std::string interval : {"1.5", "0.0166"}) {
+    for (const std::string interval : {"0.5", "0.0166"}) {
         CAPTURE(interval);
         REQUIRE(run_until_rest({"-o", "out", "--checkpoint", interval}).exit_code == 0);
         const ProgramRun resumed = run_until_rest({"--resume", "out/checkpoint.percale", "-o", "other"});
