@@ -110,4 +110,19 @@ TEST_CASE("Nothing is done without contact") {
     CHECK_FALSE(relax_patches(equations, time_error_of(stage)));
 }
 
+TEST_CASE("Solves look for patches from their ninth iteration on, shorter ones never") {
+    SolverScene scene = sheet_on_plane(0.0, 0.5, 0.05, {}, side);
+    Random random(5);
+    for (int i = 0; i < side * side; ++i) scene.state.velocities.set(i, Vec3(3.0, -10.0, 0.0) + random.point(5.0));
+    bool looked = false;
+    for (int n = 0; n < 60 && !looked; ++n) {
+        const NewtonReport report = scene.step_implicit();
+        CAPTURE(n, report.newton_iterations);
+        looked = !scene.newton.patches.order.empty();
+        REQUIRE((!looked || report.newton_iterations >= 8));
+        REQUIRE((looked || report.newton_iterations <= 9));  // one that foresees rows counts twice
+    }
+    CHECK(looked);
+}
+
 }  // namespace percale::test
