@@ -55,8 +55,9 @@ constexpr double least_arc = 1e-5;
 
 // ---- model/
 
-/// Radians. A rest shape with smaller angles is flat. 0: rounding makes every flat cloth a curved one, which costs more.
-constexpr double least_rest_angle = 1e-6;
+/// Radians. A rest shape with smaller angles is flat: it curves by a radius of a thousand edges at most. Smaller: what a file
+/// rounds off makes flat panels curved (to 8 digits by 4e-5), which costs more, and solves long where cloth folds together.
+constexpr double least_rest_angle = 1e-3;
 
 /// Share of a given warp that must lie in the plane of each triangle. Smaller: warp is rounding there. Larger: bodies of cloth
 /// that curve away from it are refused.

@@ -68,6 +68,20 @@ std::vector<TriangleMesh> some_meshes() {
 
 }  // namespace
 
+TEST_CASE("A flat sheet of a file that rounds off is flat, a rolled one is not") {
+    Random random(12);
+    TriangleMesh sheet = irregular_sheet(1.0, 300);
+    for (Vec3& x : sheet.vertices) x = (x * 1e6).array().round() / 1e6;
+    CHECK(bending_model(sheet).hinges.curved.empty());
+    sheet.vertices = transform(random.pose(2.0), std::span<const Vec3>(sheet.vertices));
+    for (Vec3& x : sheet.vertices) x = (x * 1e6).array().round() / 1e6;
+    CHECK(bending_model(sheet).hinges.curved.empty());
+    TriangleMesh roll = irregular_sheet(1.0, 300);
+    roll.vertices = rolled(roll.vertices, 0.5, 0.3);
+    const Hinges hinges = bending_model(roll).hinges;
+    CHECK(hinges.curved.size() > hinges.all.size() / 2);
+}
+
 TEST_CASE("A flat sheet and one moved, turned or sheared in its plane have no bending energy") {
     Random random(11);
     for (const TriangleMesh& mesh : some_meshes()) {
