@@ -118,6 +118,7 @@ void set_bending(ClothModel& model) {
 }
 
 void finish_model(ClothModel& model) {
+    leave_out_sewn_edges(model.vertex_count(), model.springs, model.hinges, model.membrane);
     set_bending(model);
     const bool limited = std::ranges::any_of(model.cloths, [](const ClothRange& c) { return c.fabric.strain_limit.has_value(); });
     const SpringLayout layout = model.membrane.empty() && !limited ? SpringLayout::best : SpringLayout::slices;
