@@ -186,11 +186,12 @@ double SelfListMaker::thickness_by_rest(std::span<const int> first, std::span<co
     return thickness_from_rest(std::sqrt(square), most);
 }
 
-/// m, through a seam near the pair; 0 where it is sewn together, infinity without such a seam.
+/// m, through a seam near the pair; 0 where it is sewn together or overlaps there, infinity without such a seam.
 double SelfListMaker::sewn_distance(const SelfPair& pair) const {
     const std::span<const int> vertices = pair.vertex;
     const std::size_t of_first = pair.shape == PairShape::edge_edge ? 2 : 1;
-    return cloth_->sewn.distance(vertices.first(of_first), vertices.subspan(of_first));
+    const auto first = vertices.first(of_first), second = vertices.subspan(of_first);
+    return cloth_->sewn.overlap(first, second) ? 0.0 : cloth_->sewn.distance(first, second);
 }
 
 /// Sets the thickness of a pair near a seam, by the paths through it between vertices.

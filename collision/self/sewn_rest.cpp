@@ -51,7 +51,7 @@ bool holds(std::span<const int> feature, int vertex) {
 }  // namespace
 
 SewnRest::SewnRest(const ClothSurface& surface, std::span<const Stitch> stitches, std::span<const Vec3> rest, double reach)
-    : knot_of_(rest.size(), -1), paths_(rest.size()) {
+    : knot_of_(rest.size(), -1), ends_(rest.size()), paths_(rest.size()) {
     make_knots(stitches);
     for (int knot = 0; knot < static_cast<int>(knots_.size()); ++knot) find_paths(knot, surface, rest, reach);
 }
@@ -70,7 +70,9 @@ void SewnRest::make_knots(std::span<const Stitch> stitches) {
     };
     for (const Stitch& stitch : stitches) {
         const int knot = knot_at(stitch.vertex);
-        if (!stitch.joins_vertices()) knots_[knot].points.push_back(stitch);
+        if (stitch.joins_vertices()) continue;
+        knots_[knot].points.push_back(stitch);
+        for (const int end : {stitch.from, stitch.to}) ends_[end].push_back(knot);
     }
     for (int vertex = 0; vertex < static_cast<int>(knot_of_.size()); ++vertex) {
         knot_of_[vertex] = knot_of_[sewn.of(vertex)];
@@ -103,6 +105,22 @@ bool SewnRest::lies_at(std::span<const int> feature, int knot) const {
     const std::vector<Stitch>& points = knots_[knot].points;
     return std::any_of(points.begin(), points.end(),
                        [&](const Stitch& point) { return holds(feature, point.from) && holds(feature, point.to); });
+}
+
+bool SewnRest::is_at(std::span<const int> feature, int knot) const {
+    return lies_at(feature, knot) || std::any_of(feature.begin(), feature.end(), [&](int v) { return knot_of_[v] == knot; });
+}
+
+/// Whether the feature holds such an end of a knot at which the other is.
+bool SewnRest::ends_at(std::span<const int> feature, std::span<const int> other) const {
+    return std::any_of(feature.begin(), feature.end(), [&](int vertex) {
+        const std::vector<int>& knots = ends_[vertex];
+        return std::any_of(knots.begin(), knots.end(), [&](int knot) { return is_at(other, knot); });
+    });
+}
+
+bool SewnRest::overlap(std::span<const int> first, std::span<const int> second) const {
+    return !knots_.empty() && (ends_at(first, second) || ends_at(second, first));
 }
 
 double SewnRest::distance(std::span<const int> first, std::span<const int> second) const {

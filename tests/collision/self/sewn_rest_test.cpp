@@ -59,6 +59,29 @@ TEST_CASE("a point of an edge is at every feature that holds the edge, and as fa
     CHECK(between(sewn, {3}, {25, 26}) == Approx(0.3));
 }
 
+TEST_CASE("an end of an edge overlaps what is at a point of the edge, and nothing else") {
+    const Sheets sheets;
+    // Vertex 30 lies on the edge between 4 and 9 of the other sheet.
+    const SewnRest sewn = sheets.sewn({{4, 25, 30, 0.2}, {9, 30, 35, 0.2}});
+    const auto overlap = [&](const std::vector<int>& first, const std::vector<int>& second) {
+        CHECK(sewn.overlap(first, second) == sewn.overlap(second, first));
+        return sewn.overlap(first, second);
+    };
+    CHECK(overlap({30}, {3, 4, 9}));
+    CHECK(overlap({30}, {3, 4}));
+    CHECK(overlap({31, 30}, {9, 14}));
+    CHECK(overlap({26, 30}, {3, 8, 9}));
+    // Ends of one edge do not overlap for it, nor what is not at the stitch.
+    CHECK_FALSE(overlap({30}, {25, 26}));
+    CHECK_FALSE(overlap({30}, {35, 36}));
+    CHECK_FALSE(overlap({30}, {3, 8}));
+    CHECK_FALSE(overlap({31}, {4, 9}));
+    CHECK_FALSE(overlap({40}, {4, 9}));
+    // Vertices sewn to vertices have no such ends.
+    CHECK_FALSE(sheets.sewn(Sheets::side()).overlap(std::vector{30}, std::vector{4, 9}));
+    CHECK_FALSE(sheets.sewn({}).overlap(std::vector{30}, std::vector{4, 9}));
+}
+
 TEST_CASE("vertices sewn to each other by several stitches are one") {
     const Sheets sheets;
     const SewnRest sewn = sheets.sewn({{0, 24, 24}, {24, 30, 30}, {45, 30, 30}});
