@@ -55,9 +55,13 @@ constexpr double least_arc = 1e-5;
 
 // ---- model/
 
-/// Radians. A rest shape with smaller angles is flat: it curves by a radius of a thousand edges at most. Smaller: what a file
-/// rounds off makes flat panels curved (to 8 digits by 4e-5), which costs more, and solves long where cloth folds together.
+/// Radians. Smaller rest angles are none: over triangles that curve with a radius of a thousand edges or more. Smaller: what a
+/// file rounds off makes hinges of flat panels curved (8 digits: by 4e-5), which costs more, and solves long where cloth folds
+/// together.
 constexpr double least_rest_angle = 1e-3;
+
+/// Radians by which a triangle of a rest shape lies on its neighbour when they are taken as unfolded. 0: rounding decides.
+constexpr double rest_fold = 1e-6;
 
 /// Share of a given warp that must lie in the plane of each triangle. Smaller: warp is rounding there. Larger: bodies of cloth
 /// that curve away from it are refused.
@@ -439,6 +443,9 @@ constexpr int most_halvings = 6;
 /// s, m. Time in which a weld takes up its gap, and the gap of which its spring's force is the most that it holds with. Shorter:
 /// stitches swing. Wider: a seam that something keeps open pulls harder and harder.
 constexpr double weld_time = 0.05, widest_weld = 0.01;
+
+/// N/m: an edge that holds nothing, as its ends are sewn together, limits as if it held that. 0: divides by 0.
+constexpr double least_limited = 1e-12;
 
 /// Strain limits: k and the most hold over an edge's own stiffness; s, in which a hold takes up what is too much. Larger k: more
 /// iterations. Smaller: more steps until the limit is kept. Larger hold: what cannot be kept pulls ever harder.

@@ -70,13 +70,33 @@ void SewnRest::make_knots(std::span<const Stitch> stitches) {
     };
     for (const Stitch& stitch : stitches) {
         const int knot = knot_at(stitch.vertex);
-        if (stitch.joins_vertices()) continue;
-        knots_[knot].points.push_back(stitch);
-        for (const int end : {stitch.from, stitch.to}) ends_[end].push_back(knot);
+        if (!stitch.joins_vertices()) knots_[knot].points.push_back(stitch);
     }
+    find_ends(sewn);
     for (int vertex = 0; vertex < static_cast<int>(knot_of_.size()); ++vertex) {
+        ends_[vertex] = ends_[sewn.of(vertex)];
         knot_of_[vertex] = knot_of_[sewn.of(vertex)];
         if (knot_of_[vertex] >= 0) knots_[knot_of_[vertex]].vertices.push_back(vertex);
+    }
+}
+
+/// Of an edge with several points each end is that of the nearest.
+void SewnRest::find_ends(DisjointSets& sewn) {
+    struct Point {
+        double share;
+        int knot;
+    };
+    std::map<std::pair<int, int>, std::vector<Point>> of_edge;
+    for (int knot = 0; knot < static_cast<int>(knots_.size()); ++knot) {
+        for (const Stitch& point : knots_[knot].points) {
+            const auto [low, high] = std::minmax(point.from, point.to);
+            of_edge[{low, high}].push_back({point.from == low ? point.share : 1.0 - point.share, knot});
+        }
+    }
+    for (const auto& [edge, points] : of_edge) {
+        const auto [nearest, farthest] = std::ranges::minmax_element(points, {}, &Point::share);
+        ends_[sewn.of(edge.first)].push_back(nearest->knot);
+        ends_[sewn.of(edge.second)].push_back(farthest->knot);
     }
 }
 

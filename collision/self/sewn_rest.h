@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/cloth_surface.h"
+#include "geometry/disjoint_sets.h"
 #include "percale/mesh.h"
 #include "percale/stitch.h"
 
@@ -21,8 +22,9 @@ public:
     /// m, between two features given by their vertices; 0 where both are at one knot, infinity where no knot is near both.
     double distance(std::span<const int> first, std::span<const int> second) const;
 
-    /// Whether one of them is at a knot, and the other holds an end of an edge with a point of it. Where the sides of a seam have
-    /// other vertices, that end lies on the other side's edge, whatever `distance` says of the way along the seam.
+    /// Whether one of them is at a knot, and the other holds an end of an edge with a point of it, of several points the nearest
+    /// to that end. Where the sides of a seam have other vertices, that end lies on the other side's edge, whatever `distance`
+    /// says of the way along the seam.
     bool overlap(std::span<const int> first, std::span<const int> second) const;
 
 private:
@@ -36,6 +38,7 @@ private:
     };
 
     void make_knots(std::span<const Stitch> stitches);
+    void find_ends(DisjointSets& sewn);
     void find_paths(int knot, const ClothSurface& surface, std::span<const Vec3> rest, double reach);
     bool lies_at(std::span<const int> feature, int knot) const;
     bool is_at(std::span<const int> feature, int knot) const;
@@ -43,7 +46,7 @@ private:
 
     std::vector<Knot> knots_;
     std::vector<int> knot_of_;              // of each vertex, or -1
-    std::vector<std::vector<int>> ends_;    // of each vertex: the knots with a point on an edge that ends there
+    std::vector<std::vector<int>> ends_;    // of each vertex: knots with the nearest point on an edge that ends there
     std::vector<std::vector<Path>> paths_;  // of each vertex, ascending knots
 };
 

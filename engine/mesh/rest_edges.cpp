@@ -26,7 +26,7 @@ bool lies_flat_on(const EdgeSide& one, const EdgeSide& other) {
     const Vec3 along = one.high - one.low, first = along.cross(one.opposite - one.low),
                second = along.cross(other.opposite - one.low);
     // Normals that point the same way: both opposite vertices are on one side.
-    return first.dot(second) > 0.0 && first.cross(second).norm() <= least_rest_angle * first.norm() * second.norm();
+    return first.dot(second) > 0.0 && first.cross(second).norm() <= rest_fold * first.norm() * second.norm();
 }
 
 /// The opposite vertex of `other`, unfolded into the plane of `one` on the side across the edge: as high over the edge, its foot

@@ -7,15 +7,16 @@
 namespace percale {
 namespace {
 
-/// Vertices that stitches join have the number of the lowest of them; empty without stitches from vertex to vertex.
-std::vector<int> sewn_numbers(const SpringNetwork& springs, int vertices) {
+/// Vertices that stitches within one cloth join have the number of the lowest of them; empty without such stitches.
+std::vector<int> sewn_numbers(std::span<const int> cloth_of_vertex, const SpringNetwork& springs) {
     std::vector<std::array<int, 2>> joined;
     for (int k = 0; k < springs.size(); ++k) {
+        const int a = springs.first[k], b = springs.second[k];
         const bool stitch = springs.kind[k] == SpringKind::seam && springs.stiffness[k] > 0.0;
-        if (stitch) joined.push_back({springs.first[k], springs.second[k]});
+        if (stitch && cloth_of_vertex[a] == cloth_of_vertex[b]) joined.push_back({a, b});
     }
     if (joined.empty()) return {};
-    std::vector<int> number(static_cast<std::size_t>(vertices));
+    std::vector<int> number(cloth_of_vertex.size());
     std::iota(number.begin(), number.end(), 0);
     for (bool changed = true; changed;) {
         changed = false;
@@ -55,24 +56,13 @@ void add_sewn_pairs(std::span<const SewnPoint> points, SpringNetwork& network) {
     }
 }
 
-void leave_out_sewn_edges(int vertices, SpringNetwork& springs, Hinges& hinges, std::vector<MembraneTriangle>& membrane) {
-    const std::vector<int> number = sewn_numbers(springs, vertices);
+void leave_out_sewn_edges(std::span<const int> cloth_of_vertex, SpringNetwork& springs) {
+    const std::vector<int> number = sewn_numbers(cloth_of_vertex, springs);
     if (number.empty()) return;
-    const auto sewn = [&](int a, int b) { return a >= 0 && b >= 0 && number[a] == number[b]; };
     for (int k = 0; k < springs.size(); ++k) {
         const bool of_seam = springs.kind[k] == SpringKind::seam || springs.kind[k] == SpringKind::point;
-        if (!of_seam && sewn(springs.first[k], springs.second[k])) springs.stiffness[k] = springs.damping[k] = 0.0;
-    }
-    for (Hinge& hinge : hinges.all) {
-        // All pairs but the last, of two vertices that no edge joins: cloth folded together there holds as it is.
-        const bool flattened = std::any_of(std::begin(hinge_pairs), std::end(hinge_pairs) - 1,
-                                           [&](const int* p) { return sewn(hinge.vertex[p[0]], hinge.vertex[p[1]]); });
-        if (flattened) hinge.stiffness = hinge.rest_angle = 0.0;  // an angle without area is not finite
-    }
-    std::erase_if(hinges.curved, [&](int hinge) { return hinges.all[hinge].rest_angle == 0.0; });
-    for (MembraneTriangle& triangle : membrane) {
-        const auto [a, b, c] = triangle.vertex;
-        if (sewn(a, b) || sewn(b, c) || sewn(c, a)) triangle.stiffness.setZero();
+        const bool sewn = number[springs.first[k]] == number[springs.second[k]];
+        if (!of_seam && sewn) springs.stiffness[k] = springs.damping[k] = 0.0;
     }
 }
 

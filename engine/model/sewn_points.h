@@ -3,8 +3,6 @@
 #include <span>
 #include <vector>
 
-#include "hinges.h"
-#include "membrane.h"
 #include "percale/stitch.h"
 #include "spring_network.h"
 #include "vectors.h"
@@ -34,9 +32,8 @@ double sewn_energy(const SewnPoint& point, double length, const Vectors& positio
 /// network.bending += b of all pairs, N/m.
 void add_sewn_pairs(std::span<const SewnPoint> points, SpringNetwork& network);
 
-/// What is sewn to nothing holds nothing: springs between vertices that stitches join to one, and hinges and membranes of the
-/// triangles beside them, which have no area once the seam has closed. A spring that is held at length 0 pushes where rounding
-/// says. Part of finish_model.
-void leave_out_sewn_edges(int vertices, SpringNetwork& springs, Hinges& hinges, std::vector<MembraneTriangle>& membrane);
+/// Springs between vertices that the stitches of their cloth join to one hold nothing from when these are there: at length 0 a
+/// spring has no direction, and pushes where rounding says. Part of finish_model.
+void leave_out_sewn_edges(std::span<const int> cloth_of_vertex, SpringNetwork& springs);
 
 }  // namespace percale

@@ -60,7 +60,7 @@ void set_strain_limits(const SpringNetwork& network, std::span<const double> str
     limits.slack_square.assign(entries, std::numeric_limits<double>::max());
     for (int k = 0; k < network.size(); ++k) {
         if (strain[k] == 0.0 || network.kind[k] != SpringKind::structural) continue;
-        const double own = adjacency.strength(k), rest = network.rest_length[k];
+        const double own = std::max(adjacency.strength(k), least_limited), rest = network.rest_length[k];
         const auto [first, second] = adjacency.entries_of(network, k);
         LimitedEdge edge{.spring = k,
                          .entry = {first, second},
@@ -72,7 +72,7 @@ void set_strain_limits(const SpringNetwork& network, std::span<const double> str
             limits.stiffness[entry] = edge.stiffness;
         }
         const std::size_t number = limits.edges.size();
-        limits.set_hold(edge, number < before.size() ? before[number].hold : 0.0);
+        limits.set_hold(edge, number < before.size() ? std::min(before[number].hold, edge.most_hold) : 0.0);
         limits.edges.push_back(edge);
     }
 }

@@ -8,12 +8,14 @@ are: an address, or the folder of a copy, with {owner} and {name} in it. What is
 
 Columns: vertices; how it ended; simulated and CPU seconds; Newton iterations a step; frames that cross (the body or itself);
 gap of 95 % of the stitches and of all, mm, of the widest seam; largest strain of an edge. Exit code 1 if one is not at rest
-or crosses, but for what is known to fail.
+or crosses.
 """
 
 import argparse
 import json
+import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -26,19 +28,20 @@ FILES = {
     "ipc-sim/Codim-IPC": ["Projects/FEMShell/input/dress_knife/stage.obj", "Projects/FEMShell/input/Rumba_Dancing/shell0.obj"],
 }
 
-SEWN = "contact_while_closing = false\nweld = true\n"
-# name: (garment, body, further keys of the cloth, of the body, of its seams)
+SEWN = "over = 2.0\nstiffness = 3000.0\ncontact_while_closing = false\nweld = true\n"
+SEWN_IN_CONTACT = "over = 1.0\nstiffness = 200.0\nweld = true\n"  # what crosses in pleats would not be untangled
+# name: (garment, body, further keys of the cloth, of the body, of its seams, of steps)
 GARMENTS = {
-    "t-shirt (SNUG)": ("tshirt.obj", "body.obj", "", "", None),
-    "pants (SNUG)": ("pants.obj", "body.obj", "", "", None),
+    "t-shirt (SNUG)": ("tshirt.obj", "body.obj", "", "", None, ""),
+    "pants (SNUG)": ("pants.obj", "body.obj", "", "", None, ""),
     "skirt (DiffCloth), 1.4 times as large": (
-        "skirt7271.obj", "mean_all.obj", "pose = { translation = [0, -0.42, 0], scale = 1.4 }\n", "", None),
-    "dress_pencil (GarmentCode)": ("dress_pencil_specification.json", "mean_all.obj", "", "", SEWN),
-    "shirt_mean (GarmentCode)": ("shirt_mean_specification.json", "mean_all.obj", "", "", SEWN),
-    "hoody_mean (GarmentCode)": ("hoody_mean_specification.json", "mean_all.obj", "", "", SEWN),
-    "dress (Codim-IPC): known to fail": (
-        "stage.obj", "shell0.obj", "pose = { rotation = [0.7071067811865476, -0.7071067811865476, 0, 0] }\n",
-        "pose = { translation = [0, -0.75, 0] }\n", SEWN),
+        "skirt7271.obj", "mean_all.obj", "pose = { translation = [0, -0.42, 0], scale = 1.4 }\n", "", None, ""),
+    "dress_pencil (GarmentCode)": ("dress_pencil_specification.json", "mean_all.obj", "", "", SEWN, ""),
+    "shirt_mean (GarmentCode)": ("shirt_mean_specification.json", "mean_all.obj", "", "", SEWN, ""),
+    "hoody_mean (GarmentCode)": ("hoody_mean_specification.json", "mean_all.obj", "", "", SEWN, ""),
+    "dress (Codim-IPC)": (
+        "dress_start.obj", "shell0.obj", 'rest = "stage.obj"\n', "pose = { translation = [0, -0.75, 0] }\n", SEWN_IN_CONTACT,
+        "newton_share = 2.0\n"),
 }
 
 
@@ -62,7 +65,102 @@ def fetch(source, folder, wanted=FILES):
             (folder / pathlib.Path(file).name).write_bytes(show.stdout)
 
 
-def scene(garment, body, cloth_keys, body_keys, seam_keys, options):
+def read_obj(file):
+    vertices, faces, stitches = [], [], []
+    for line in file.open():
+        words = line.split()
+        if not words:
+            continue
+        if words[0] == "v":
+            vertices.append([float(x) for x in words[1:4]])
+        elif words[0] == "f":
+            faces.append([int(word.split("/")[0]) - 1 for word in words[1:]])
+        elif words[0] == "stitch":
+            stitches.append(line)
+    return vertices, faces, stitches
+
+
+def panels_of(count, faces):
+    """The vertices of each connected piece."""
+    root = list(range(count))
+
+    def find(i):
+        while root[i] != i:
+            root[i] = root[root[i]]
+            i = root[i]
+        return i
+
+    for face in faces:
+        for corner in face[1:]:
+            root[find(corner)] = find(face[0])
+    pieces = {}
+    for i in range(count):
+        pieces.setdefault(find(i), []).append(i)
+    return list(pieces.values())
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def unit(a):
+    length = math.sqrt(dot(a, a))
+    return [x / length for x in a]
+
+
+def minus(a, b, factor=1.0):
+    return [x - factor * y for x, y in zip(a, b)]
+
+
+def bend_around(points, normal, axis, centre, turn):
+    """Flat points around a cylinder: without strain, all of their breadth over an angle of `turn`."""
+    if normal[1] < 0.0:
+        normal = minus([0.0, 0.0, 0.0], normal)
+    axis = unit(minus(axis, normal, dot(axis, normal)))
+    side = cross(normal, axis)
+    across = [dot(x, side) for x in points]
+    middle, radius = 0.5 * (min(across) + max(across)), (max(across) - min(across)) / turn
+    bent = []
+    for x, w in zip(points, across):
+        along, angle = dot(minus(x, centre), axis), (w - middle) / radius
+        bent.append([c + along * a + radius * (math.cos(angle) * n + math.sin(angle) * s)
+                     for c, a, n, s in zip(centre, axis, normal, side)])
+    return bent
+
+
+def middle_of(points):
+    """Of their box."""
+    return [0.5 * (min(x) + max(x)) for x in zip(*points)]
+
+
+def make_dress_start(folder):
+    """The panels as stage.obj has them, z up, but the sleeves bent around the arms: flat above them they would close there."""
+    vertices, faces, stitches = read_obj(folder / "stage.obj")
+    body = [[x, y - 0.75, z] for x, y, z in read_obj(folder / "shell0.obj")[0]]
+    vertices = [[x, z, -y] for x, y, z in vertices]
+    for panel in panels_of(len(vertices), faces):
+        points = [vertices[i] for i in panel]
+        if min(abs(x[0]) for x in points) < 0.1:
+            continue
+        side = math.copysign(1.0, points[0][0])
+        slices = [middle_of([x for x in body if abs(x[0] - side * at) < 0.012 and x[1] > 0.3]) for at in (0.16, 0.3)]
+        first = set(panel)
+        corner = [vertices[i] for i in next(face for face in faces if face[0] in first)]
+        normal = unit(cross(minus(corner[1], corner[0]), minus(corner[2], corner[0])))
+        bent = bend_around(points, normal, unit(minus(slices[1], slices[0])), middle_of(slices), math.radians(300.0))
+        for i, x in zip(panel, bent):
+            vertices[i] = x
+    with (folder / "dress_start.obj").open("w") as out:
+        out.writelines(f"v {x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in vertices)
+        out.writelines("f " + " ".join(str(corner + 1) for corner in face) + "\n" for face in faces)
+        out.writelines(stitches)
+
+
+def scene(garment, body, cloth_keys, body_keys, seam_keys, step_keys, options):
     is_pattern = garment.endswith(".json")
     text = f'''title = "{garment} on {body}"
 duration = "rest"
@@ -72,7 +170,7 @@ gravity = [0.0, {0.0 if seam_keys is not None else -9.81}, 0.0]
 time_step = 0.016666666666666666
 kinetic_damping = true
 rest_speed = 0.0002
-
+{step_keys}
 [fabric.cloth]
 preset = "{options.fabric}"
 thickness = {options.thickness}
@@ -93,11 +191,9 @@ friction = 0.4
         text += f'''
 [[seam]]
 file = "mesh"
-over = 2.0
-stiffness = 3000.0
 {seam_keys}
 [[event]]
-time = 2.0
+time = {re.search("over = ([0-9.]+)", seam_keys)[1]}
 gravity = [0.0, -9.81, 0.0]
 '''
     return text + "\n[expect]\nintersections = 0\nlargest_strain = { below = 10.0 }\n"  # so that strain is measured
@@ -151,10 +247,11 @@ def main():
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     fetch(options.source, options.folder)
+    make_dress_start(options.folder)
     names = [name for name in GARMENTS if not options.only or options.only in name]
     ends = [dress(str(pathlib.Path(options.program).resolve()), options.folder, name, options) for name in names]
     print(f"{sum(ends)} of {len(ends)} at rest without a crossing")
-    return 0 if all(end or "known to fail" in name for name, end in zip(names, ends)) else 1
+    return 0 if all(ends) else 1
 
 
 if __name__ == "__main__":

@@ -324,6 +324,31 @@ TEST_CASE("edges over a valley whose slopes are sewn to them are in contact once
     CHECK(rows_at(0.03, false) > 1);
 }
 
+TEST_CASE("sides of a closed seam with other vertices are not in contact along it, one that folds over the other is") {
+    // Of the lower panel 1 is the middle of a side, over the upper panel's edge from 5 to 6, which are sewn beside it.
+    const auto rows_at = [](bool sewn, double lift_of_fold) {
+        Cloths cloths;
+        const Vec3 up(0.0, 1e-3, 0.0), fold(0.0, lift_of_fold, lift_of_fold > 0.0 ? 1.3 : 0.0);
+        cloths.add({.vertices = {up, Vec3(1, 0, 0) + up, Vec3(2, 0, 0) + up, Vec3(0.5, 0, -1) + fold, Vec3(1.5, 0, -1) + fold},
+                    .triangles = {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}}},
+                   0.4);
+        cloths.add({.vertices = {{0.5, 0, 0}, {1.5, 0, 0}, {1, 0, 1}}, .triangles = {{0, 2, 1}}}, 0.4);
+        const std::vector<Stitch> stitches{{5, 0, 1, 0.5}, {6, 1, 2, 0.5}};
+        SelfContact self = cloths.self_contact();
+        if (sewn) self.stitches = stitches;
+        const auto detector = backends()[0].make_detector();
+        detector->set_cloth(cloths.mesh.triangles, cloths.thickness);
+        detector->set_self_contact(self);
+        detector->refresh(cloths.mesh.vertices, cloths.mesh.vertices);
+        ContactRows rows;
+        detector->evaluate(cloths.mesh.vertices, 0.0, rows);
+        return rows.size();
+    };
+    CHECK(rows_at(false, 0.0) > 0);
+    CHECK(rows_at(true, 0.0) == 0);
+    CHECK(rows_at(true, 0.05) > 0);
+}
+
 TEST_CASE("contacts that join while a step is solved are gone in the next") {
     // A vertex above a flat sheet, which then dips under it so that its closest point leaves the face.
     Random random(3);

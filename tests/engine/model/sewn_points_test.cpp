@@ -1,6 +1,5 @@
 #include "engine/model/sewn_points.h"
 
-#include "engine/forces/hinge_bending.h"
 #include "engine/model/seams.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
@@ -34,88 +33,53 @@ TEST_CASE("Cloth without sewn points has no bending of theirs") {
     CHECK(network.bending.empty());
 }
 
-TEST_CASE("Edges whose ends are sewn to one vertex hold nothing, nor do the triangles beside them") {
+TEST_CASE("Springs between vertices that their cloth's stitches join to one hold nothing, all others what they held") {
     ClothModel model;
-    TriangleMesh roll = make_cylinder(0.5, 1.0, 12);
     Fabric fabric = sheet_fabric();
-    fabric.springs.shear = fabric.springs.bend = 0.0;
-    fabric.bend_stiffness = 1e-3;
-    append_whole_cloth(model, roll, fabric, "roll");
-    append_cloth(model, make_grid(1.0, 1.0, 2, 2), sheet_fabric(), "patch");
+    fabric.damping_time = 0.1;
+    append_cloth(model, make_grid(1.0, 1.0, 4, 4), fabric, "sheet");
+    append_cloth(model, make_grid(1.0, 1.0, 4, 4), fabric, "other");
     finish_model(model);
     const ClothModel before = model;
-    REQUIRE(before.hinges.curved.size() > 4);
-    // Two neighbours, by way of a vertex of the other cloth.
-    const auto [a, b, c] = model.triangles[0];
-    const int between = model.cloths[1].first;
-    const Vectors positions = to_vectors(model.rest);
+    // 0, 1 and 2 are one by way of 15; 4 and 5 are one with a vertex of the other cloth only; a point is no vertex.
     Seam seam{.length = {}, .from = 0.0, .over = 1.0};
-    append_seam(std::vector<Stitch>{{b, between, between}, {a, between, between}}, 40.0, positions, seam, model);
+    append_seam(std::vector<Stitch>{{15, 1, 1}, {0, 15, 15}, {2, 15, 15}, {4, 20, 20}, {5, 20, 20}, {8, 9, 10, 0.5}}, 40.0,
+                to_vectors(model.rest), seam, model);
     finish_model(model);
-
-    const auto is_sewn = [&](int i) { return i == a || i == b; };
+    int left_out = 0;
     for (int k = 0; k < before.springs.size(); ++k) {
-        const bool sewn = is_sewn(before.springs.first[k]) && is_sewn(before.springs.second[k]);
+        const auto [low, high] = std::minmax({before.springs.first[k], before.springs.second[k]});
+        const bool sewn = high <= 2;
+        left_out += sewn;
         CHECK(model.springs.stiffness[k] == (sewn ? 0.0 : before.springs.stiffness[k]));
         CHECK(model.springs.damping[k] == (sewn ? 0.0 : before.springs.damping[k]));
     }
-    std::size_t left_out = 0;
-    for (std::size_t k = 0; k < before.hinges.all.size(); ++k) {
-        const Hinge &hinge = model.hinges.all[k], &old = before.hinges.all[k];
-        const bool sewn = std::ranges::count_if(old.vertex, is_sewn) == 2;
-        left_out += sewn && old.rest_angle != 0.0;
-        CHECK(hinge.stiffness == (sewn ? 0.0 : old.stiffness));
-        CHECK(hinge.rest_angle == (sewn ? 0.0 : old.rest_angle));
-    }
-    CHECK(left_out > 0);
-    CHECK(model.hinges.curved.size() == before.hinges.curved.size() - left_out);
-    for (int k = 0; k < 2; ++k) CHECK(model.springs.stiffness[seam.first_spring + k] == 40.0);
-
-    // Closed, all is finite.
-    Vectors closed = positions;
-    closed.set(b, closed.at(a));
-    Vectors forces = to_vectors(std::vector<Vec3>(model.rest.size(), Vec3::Zero()));
-    CHECK(std::isfinite(hinge_energy(model.hinges, closed)));
-    CHECK(std::isfinite(add_curved_hinges(model.hinges, closed, forces)));
-    for (int i = 0; i < model.vertex_count(); ++i) CHECK(forces.at(i).allFinite());
+    CHECK(left_out == 3);  // two structural ones and a bend spring
+    for (int k = 0; k < 5; ++k) CHECK(model.springs.stiffness[seam.first_spring + k] == 40.0);
 }
 
-TEST_CASE("A hinge whose far vertices are sewn together holds as before, and a spring between them does not") {
+TEST_CASE("A strain limit of an edge whose ends are sewn together holds nothing and stays finite, whatever it held before") {
     ClothModel model;
     Fabric fabric = sheet_fabric();
-    fabric.springs.bend = 0.0;
-    fabric.bend_stiffness = 1e-3;
-    append_whole_cloth(model, make_grid(1.0, 1.0, 3, 3), fabric, "sheet");
-    append_cloth(model, make_grid(1.0, 1.0, 3, 3), sheet_fabric(), "with bend springs");
+    fabric.strain_limit = 0.1;
+    append_cloth(model, make_grid(1.0, 1.0, 4, 4), fabric, "sheet");
+    finish_model(model);
+    for (LimitedEdge& edge : model.limits.edges) model.limits.set_hold(edge, 0.5);
+    const std::size_t edges = model.limits.edges.size();
     Seam seam{.length = {}, .from = 0.0, .over = 1.0};
-    append_seam(std::vector<Stitch>{{3, 5, 5}, {12, 14, 14}}, 40.0, to_vectors(model.rest), seam, model);
+    append_seam(std::vector<Stitch>{{0, 1, 1}}, 40.0, to_vectors(model.rest), seam, model);
     finish_model(model);
-    for (const Hinge& hinge : model.hinges.all) CHECK(hinge.stiffness > 0.0);
-    const SpringNetwork& springs = model.springs;
-    int bend = 0;
-    for (int k = 0; k < springs.size(); ++k) {
-        if (springs.kind[k] != SpringKind::bend) continue;
-        const bool sewn = springs.first[k] + springs.second[k] == 26 && std::abs(springs.first[k] - springs.second[k]) == 2;
-        bend += sewn;
-        CHECK((springs.stiffness[k] == 0.0) == sewn);
-    }
-    CHECK(bend == 1);
-}
-
-TEST_CASE("Of a membrane the triangles at an edge whose ends are sewn together hold nothing") {
-    ClothModel model;
-    Fabric fabric = sheet_fabric();
-    fabric.springs = {};
-    fabric.stretch_stiffness = {100.0, 100.0};
-    append_whole_cloth(model, make_grid(1.0, 1.0, 3, 3), fabric, "sheet");
-    finish_model(model);
-    REQUIRE(model.membrane.size() == 8);
-    Seam seam{.length = {}, .from = 0.0, .over = 1.0};
-    append_seam(std::vector<Stitch>{{3, 4, 4}}, 40.0, to_vectors(model.rest), seam, model);
-    finish_model(model);
-    for (const MembraneTriangle& triangle : model.membrane) {
-        const auto at = [&](int i) { return std::ranges::count(triangle.vertex, i) == 1; };
-        CHECK((triangle.stiffness.norm() == 0.0) == (at(3) && at(4)));
+    REQUIRE(model.limits.edges.size() == edges);
+    Vectors positions = to_vectors(model.rest);
+    for (const double share : {1.0, 3.0, 0.0}) {
+        positions.set(1, model.rest[0] + share * (model.rest[1] - model.rest[0]));
+        CHECK(std::isfinite(limit_energy(model.limits, model.springs, positions)));
+        CHECK(std::isfinite(tighten(model.limits, model.springs, positions, 0.5)));
+        for (const LimitedEdge& edge : model.limits.edges) {
+            if (model.springs.first[edge.spring] + model.springs.second[edge.spring] != 1) continue;
+            CHECK(edge.hold <= edge.most_hold);
+            CHECK(limit_tension(edge, model.springs, positions) < 1e-9);
+        }
     }
 }
 
