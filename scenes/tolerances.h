@@ -230,7 +230,7 @@ constexpr double much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
 /// Larger: a hat in centimetres is not.
 constexpr double least_huge_garment = 8.0, huge_garment_ratio = 5.0, garment_ratio = 0.6;
 
-/// m. `drape` calls a seam with a wider gap not sewn. Smaller: tight gathers fail. Larger: seams closed on the wrong side of a
+/// m. A closed seam with a wider gap is said not to be sewn, and `drape` then fails. Smaller: tight gathers fail. Larger: seams closed on the wrong side of a
 /// limb pass.
 constexpr double widest_sewn_gap = 0.01;
 

@@ -42,6 +42,14 @@ public:
         return "the cloth" + verb_ + "touching " + obstacle_name;
     }
 
+    /// What mends it.
+    std::string advice(const StartFault& fault) const {
+        if (!fault.between_cloths()) return "; move the cloth or the obstacle apart";
+        const bool same = cloth_triangle(fault.cloth_triangle).first == cloth_triangle(fault.other_cloth_triangle).first;
+        return same ? "; move them apart, or let self_contact be false"
+                    : "; move them apart, say by layers which is worn outside, or let self_contact be false";
+    }
+
 private:
     /// The cloth of a triangle of the whole system, and its index there.
     std::pair<const ClothRange*, long> cloth_triangle(int triangle) const {
@@ -114,8 +122,7 @@ std::vector<StartMove> clear_start(World& world, std::string_view verb) {
     if (!fault.any()) return {};
     world.refused = {fault.obstacle, fault.inside_vertices};  // unless it can be repaired
     const std::string what = names.start_text(fault);
-    const std::string advice =
-        fault.between_cloths() ? "; move them apart, or let self_contact be false" : "; move the cloth or the obstacle apart";
+    const std::string advice = names.advice(fault);
     if (const int pin = pin_inside(world, fault); pin >= 0 && !fault.between_cloths()) {
         refuse_start(names,
                      "pinned " + names.vertex_name(pin) + " starts inside " + world.scene.script.obstacles[fault.obstacle].name +

@@ -30,10 +30,6 @@ double lowest_of(const BuiltScene& built) {
     return lowest;
 }
 
-std::string place_of(const Vec3& x) {
-    return "(" + short_number(x.x()) + ", " + short_number(x.y()) + ", " + short_number(x.z()) + ")";
-}
-
 /// What failed in sewing, which another sewing time may mend; empty where nothing did.
 std::string sewing_fault(const BuiltScene& built) {
     const WidestGap gap = widest_gap(built);
@@ -47,27 +43,6 @@ double mean_height(const Simulation& simulation, ClothId cloth) {
     const std::span<const Vec3> positions = simulation.positions(cloth);
     for (const Vec3& x : positions) sum += x.y();
     return sum / static_cast<double>(positions.size());
-}
-
-WidestGap widest_gap(const BuiltScene& built) {
-    WidestGap widest;
-    for (const BuiltSeam& seam : built.seams) {
-        const std::vector<double> gaps = built.simulation.seam_gaps(seam.id);
-        widest.stitches += gaps.size();
-        const auto found = std::max_element(gaps.begin(), gaps.end());
-        if (*found < widest.width) continue;
-        widest.width = *found;
-        widest.seam = seam.name;
-        widest.garment = built.scene.cloths[seam.sewn.cloths[0]].name;
-        const int vertex = seam.sewn.stitches[static_cast<std::size_t>(found - gaps.begin())].vertex;
-        widest.place = built.simulation.positions(built.cloths[seam.sewn.cloths[0]])[vertex];
-    }
-    return widest;
-}
-
-std::string unsewn_text(const WidestGap& gap) {
-    return "not sewn: seam '" + gap.seam + "' of '" + gap.garment + "' is open by " + short_number(gap.width) + " m at " +
-           place_of(gap.place) + "; does its way lie around or through the body?";
 }
 
 Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function<bool(double)>& stop, bool again) {

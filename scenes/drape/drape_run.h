@@ -20,18 +20,6 @@ enum class DrapeEnd {
     stopped,
 };
 
-/// The stitch that is farthest open.
-struct WidestGap {
-    std::size_t stitches = 0;  // of all seams
-    double width = 0.0;        // m
-    std::string seam = {}, garment = {};
-    Vec3 place = Vec3::Zero();  // m, of its vertex
-};
-WidestGap widest_gap(const BuiltScene& built);
-
-/// For its user, of a gap that is too wide.
-std::string unsewn_text(const WidestGap& gap);
-
 /// How a drape went.
 struct Drape {
     DrapeEnd end = DrapeEnd::time_up;

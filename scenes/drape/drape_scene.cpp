@@ -122,7 +122,8 @@ private:
         if (unit != "m")
             note(file + " is " + short_number(extent) + " units large" +
                  (body > 0.0 ? " and the body " + short_number(body) + " m" : "") + ", so its unit is taken as " + unit +
-                 ", which makes it " + short_number(metres.at(unit) * extent) + " m (" + option + " m, if it is m)");
+                 ", which makes it " + short_number(metres.at(unit) * extent) + " m (" + option +
+                 " m, if it is m); what is written is in m");
         return metres.at(unit);
     }
 

@@ -227,6 +227,7 @@ std::vector<std::string> end_warnings(const BuiltScene& built, const RunResult& 
     const bool on_body = std::ranges::any_of(built.scene.obstacles, [](const ObstacleSpec& o) { return !o.mesh.empty(); });
     if (result.status == RunStatus::finished && on_body && result.totals.contacts_most > 0)
         for (const std::string& text : tight_warnings(built)) warnings.push_back(text + " (pose.scale makes it larger)");
+    for (const std::string& text : seam_warnings(built)) warnings.push_back(text);
     if (m.intersections > 0) warnings.push_back(counted(m.intersections, "pair") + " of triangles cross, summed over the frames");
     const int unsolved = result.totals.unsolved_steps;
     if (unsolved > 0)

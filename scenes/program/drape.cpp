@@ -142,7 +142,8 @@ void add_options(CLI::App& command, DrapeCommand& all) {
         ->type_name("GARMENT... BODY")
         ->expected(1, 100)
         ->required();
-    command.add_option("-o", options.outs, "Draped mesh (.obj), once for each garment")
+    command
+        .add_option("-o", options.outs, "Draped mesh (.obj), in m whatever the unit of garment and body, once for each garment")
         ->type_name("OUT")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -152,6 +152,7 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
 
 void sew(BuiltScene& built, const SeamSpec& seam, BuiltSeam made) {
     const auto [first, second] = made.sewn.cloths;
+    made.closed_at = seam.from + seam.over;
     made.id = built.simulation.add_seam(built.cloths[first], built.cloths[second], made.sewn.stitches,
                                         {.after = seam.from,
                                          .over = seam.over,
@@ -261,6 +262,18 @@ std::vector<double> ends_of_shapes(const BuiltScene& built) {
     return ends;
 }
 
+WidestGap gap_of(const BuiltScene& built, const BuiltSeam& seam) {
+    const std::vector<double> gaps = built.simulation.seam_gaps(seam.id);
+    const auto widest = std::max_element(gaps.begin(), gaps.end());
+    const ClothId cloth = built.cloths[seam.sewn.cloths[0]];
+    const int vertex = seam.sewn.stitches[static_cast<std::size_t>(widest - gaps.begin())].vertex;
+    return {.stitches = gaps.size(),
+            .width = *widest,
+            .seam = seam.name,
+            .garment = built.scene.cloths[seam.sewn.cloths[0]].name,
+            .place = built.simulation.positions(cloth)[vertex]};
+}
+
 }  // namespace
 
 std::unique_ptr<ContactDetector> make_detector(Detector detector) {
@@ -310,6 +323,34 @@ std::vector<std::string> tight_warnings(const BuiltScene& built) {
         if (held || cloth.grid || strain < tight_strain || strain > torn_strain) continue;
         warnings.push_back("'" + built.scene.cloths[k].name + "' is stretched by " + percent_text(strain) +
                            " at its tightest: it may be too small for the body");
+    }
+    return warnings;
+}
+
+WidestGap widest_gap(const BuiltScene& built) {
+    WidestGap widest;
+    for (const BuiltSeam& seam : built.seams) {
+        widest.stitches += seam.sewn.stitches.size();
+        const WidestGap gap = gap_of(built, seam);
+        if (gap.width < widest.width) continue;
+        widest = {widest.stitches, gap.width, gap.seam, gap.garment, gap.place};
+    }
+    return widest;
+}
+
+std::string unsewn_text(const WidestGap& gap) {
+    const Vec3& x = gap.place;
+    const std::string place = "(" + short_number(x.x()) + ", " + short_number(x.y()) + ", " + short_number(x.z()) + ")";
+    return "not sewn: seam '" + gap.seam + "' of '" + gap.garment + "' is open by " + short_number(gap.width) + " m at " + place +
+           "; does its way lie around or through the body?";
+}
+
+std::vector<std::string> seam_warnings(const BuiltScene& built) {
+    std::vector<std::string> warnings;
+    for (const BuiltSeam& seam : built.seams) {
+        if (built.simulation.time() < seam.closed_at) continue;
+        const WidestGap gap = gap_of(built, seam);
+        if (gap.width > widest_sewn_gap) warnings.push_back(unsewn_text(gap));
     }
     return warnings;
 }

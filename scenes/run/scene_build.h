@@ -15,6 +15,7 @@ namespace percale::scenes {
 struct BuiltSeam {
     std::string name;
     ClothStitches sewn;
+    double closed_at = 0.0;  // s
     SeamId id = {};
 };
 
@@ -46,6 +47,21 @@ std::vector<std::string> strain_warnings(const BuiltScene& built, double largest
 /// What to tell of garments that are tight now: one that is too small for a body fits it all the same, springs stretch as far as
 /// they have to. Cloth that is pinned or filled is stretched by that, and a grid is no garment.
 std::vector<std::string> tight_warnings(const BuiltScene& built);
+
+/// The stitch that is farthest open.
+struct WidestGap {
+    std::size_t stitches = 0;  // of all seams
+    double width = 0.0;        // m
+    std::string seam = {}, garment = {};
+    Vec3 place = Vec3::Zero();  // m, of its vertex
+};
+WidestGap widest_gap(const BuiltScene& built);
+
+/// For its user, of a gap that is too wide.
+std::string unsewn_text(const WidestGap& gap);
+
+/// What to tell of seams that should have closed and are open by more than `widest_sewn_gap`.
+std::vector<std::string> seam_warnings(const BuiltScene& built);
 
 /// What all seams have sewn.
 std::vector<ClothStitches> sewn_stitches(const BuiltScene& built);

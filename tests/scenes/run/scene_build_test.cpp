@@ -370,6 +370,20 @@ TEST_CASE("a seam of a scene closes from its time on") {
     CHECK(scene.simulation.seam_gaps(scene.seams[0].id)[0] < 0.05);
 }
 
+TEST_CASE("a seam that should have closed and is open is told of with its width, one that closed or has time left is not") {
+    const auto said = [](const std::string& stiffness, int steps) {
+        const std::string seam = "[[seam]]\nname = \"side\"\ncloths = [\"a\", \"b\"]\nvertices = [[0, 0]]\nover = 0.05\n";
+        BuiltScene scene = built(three_sheets() + seam + "stiffness = " + stiffness + "\n[step]\ntime_step = 0.01\n");
+        for (int n = 0; n < steps; ++n) REQUIRE(scene.simulation.step().ok());
+        return seam_warnings(scene);
+    };
+    CHECK(said("1e4", 20).empty());
+    CHECK(said("0.001", 3).empty());
+    const std::vector<std::string> open = said("0.001", 20);
+    REQUIRE(open.size() == 1);
+    CHECK(open[0].find("not sewn: seam 'side' of 'a' is open by 0.1 m at (") == 0);
+}
+
 TEST_CASE("panels that wait beside others being sewn add no iterations", "[slow]") {
     const auto iterations = [](const std::string& name) {
         BuiltScene scene = build_scene(load_scene(std::string(PERCALE_DATA_DIR) + "/scenes/" + name));
