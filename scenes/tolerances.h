@@ -230,8 +230,8 @@ constexpr double much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
 /// Larger: a hat in centimetres is not.
 constexpr double least_huge_garment = 8.0, huge_garment_ratio = 5.0, garment_ratio = 0.6;
 
-/// m. A closed seam with a wider gap is said not to be sewn, and `drape` then fails. Smaller: tight gathers fail. Larger: seams closed on the wrong side of a
-/// limb pass.
+/// m. A closed seam with a wider gap is said not to be sewn, and `drape` then fails. Smaller: tight gathers fail. Larger: seams
+/// closed on the wrong side of a limb pass.
 constexpr double widest_sewn_gap = 0.01;
 
 /// s, after sewing: a seam that is open by more than that then does not close. Longer: garments that cannot be sewn take longer.
