@@ -121,7 +121,7 @@ void finish_model(ClothModel& model) {
     std::vector<int> cloth_of_vertex;
     for (std::size_t c = 0; c < model.cloths.size(); ++c)
         cloth_of_vertex.insert(cloth_of_vertex.end(), model.cloths[c].count, static_cast<int>(c));
-    leave_out_sewn_edges(cloth_of_vertex, model.springs);
+    leave_out_sewn_edges(cloth_of_vertex, model.springs, model.hinges);
     set_bending(model);
     const bool limited = std::ranges::any_of(model.cloths, [](const ClothRange& c) { return c.fabric.strain_limit.has_value(); });
     const SpringLayout layout = model.membrane.empty() && !limited ? SpringLayout::best : SpringLayout::slices;

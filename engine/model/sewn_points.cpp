@@ -56,13 +56,20 @@ void add_sewn_pairs(std::span<const SewnPoint> points, SpringNetwork& network) {
     }
 }
 
-void leave_out_sewn_edges(std::span<const int> cloth_of_vertex, SpringNetwork& springs) {
+void leave_out_sewn_edges(std::span<const int> cloth_of_vertex, SpringNetwork& springs, Hinges& hinges) {
     const std::vector<int> number = sewn_numbers(cloth_of_vertex, springs);
     if (number.empty()) return;
+    const auto sewn = [&](int a, int b) { return a >= 0 && b >= 0 && number[a] == number[b]; };
     for (int k = 0; k < springs.size(); ++k) {
         const bool of_seam = springs.kind[k] == SpringKind::seam || springs.kind[k] == SpringKind::point;
-        const bool sewn = number[springs.first[k]] == number[springs.second[k]];
-        if (!of_seam && sewn) springs.stiffness[k] = springs.damping[k] = 0.0;
+        if (!of_seam && sewn(springs.first[k], springs.second[k])) springs.stiffness[k] = springs.damping[k] = 0.0;
+    }
+    for (Hinge& hinge : hinges.all) {
+        // Not between the far vertices of a fold, which may lie on each other, nor over the diagonals of a cell.
+        const int first = hinge.folds ? 0 : 1, last = 5;
+        const bool flattened = std::any_of(hinge_pairs + first, hinge_pairs + last,
+                                           [&](const int* pair) { return sewn(hinge.vertex[pair[0]], hinge.vertex[pair[1]]); });
+        if (flattened) hinge.stiffness = 0.0;
     }
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "hinges.h"
 #include "percale/stitch.h"
 #include "spring_network.h"
 #include "vectors.h"
@@ -32,8 +33,9 @@ double sewn_energy(const SewnPoint& point, double length, const Vectors& positio
 /// network.bending += b of all pairs, N/m.
 void add_sewn_pairs(std::span<const SewnPoint> points, SpringNetwork& network);
 
-/// Springs between vertices that the stitches of their cloth join to one hold nothing from when these are there: at length 0 a
-/// spring has no direction, and pushes where rounding says. Part of finish_model.
-void leave_out_sewn_edges(std::span<const int> cloth_of_vertex, SpringNetwork& springs);
+/// Springs between vertices that the stitches of their cloth join to one hold nothing from when these are there, nor do hinges of
+/// triangles with such an edge: at length 0 a spring has no direction and pushes where rounding says, and triangles without area
+/// do not bend. Part of finish_model.
+void leave_out_sewn_edges(std::span<const int> cloth_of_vertex, SpringNetwork& springs, Hinges& hinges);
 
 }  // namespace percale

@@ -58,6 +58,41 @@ TEST_CASE("Springs between vertices that their cloth's stitches join to one hold
     for (int k = 0; k < 5; ++k) CHECK(model.springs.stiffness[seam.first_spring + k] == 40.0);
 }
 
+TEST_CASE(
+    "Hinges of triangles with an edge whose ends are sewn together hold nothing, folds that close on themselves as before") {
+    const auto sewn = [](bool regular, Stitch stitch) {
+        ClothModel model;
+        Fabric fabric = sheet_fabric();
+        fabric.springs.bend = 0.0;
+        if (!regular) fabric.springs.shear = 0.0;
+        fabric.bend_stiffness = 1e-3;
+        TriangleMesh mesh = make_grid(1.0, 1.0, 3, 3);
+        if (!regular) mesh.grid_columns = mesh.grid_rows = 0;
+        append_whole_cloth(model, mesh, fabric, "sheet");
+        const ClothRange& cloth = model.cloths[0];
+        stitch = {cloth.index_of(stitch.vertex), cloth.index_of(stitch.from), cloth.index_of(stitch.to)};
+        Seam seam{.length = {}, .from = 0.0, .over = 1.0};
+        append_seam(std::vector{stitch}, 40.0, to_vectors(model.rest), seam, model);
+        finish_model(model);
+        const auto has = [&](const Hinge& h, int i) { return std::ranges::count(h.vertex, i) > 0; };
+        int slack = 0;
+        for (const Hinge& hinge : model.hinges.all) {
+            const bool far = !hinge.folds || (std::ranges::count(std::span(hinge.vertex).subspan(2), stitch.vertex) > 0 &&
+                                              std::ranges::count(std::span(hinge.vertex).subspan(2), stitch.other()) > 0);
+            if (hinge.folds) {
+                CHECK((hinge.stiffness == 0.0) == (has(hinge, stitch.vertex) && has(hinge, stitch.other()) && !far));
+            }
+            slack += hinge.stiffness == 0.0;
+        }
+        return slack;
+    };
+    // 3 and 4 share an edge of the middle row; 3 and 5 are two apart.
+    CHECK(sewn(false, {3, 4, 4}) > 0);
+    CHECK(sewn(false, {3, 5, 5}) == 0);
+    CHECK(sewn(true, {3, 4, 4}) > 0);
+    CHECK(sewn(true, {3, 5, 5}) == 0);
+}
+
 TEST_CASE("A strain limit of an edge whose ends are sewn together holds nothing and stays finite, whatever it held before") {
     ClothModel model;
     Fabric fabric = sheet_fabric();
