@@ -36,6 +36,18 @@ std::vector<Vec3> folded(const TriangleMesh& sheet, double gap) {
     return x;
 }
 
+ContactRows rows_where_sewn(const Cloths& cloths, std::span<const Stitch> stitches) {
+    SelfContact self = cloths.self_contact();
+    self.stitches = stitches;
+    const auto detector = backends()[0].make_detector();
+    detector->set_cloth(cloths.mesh.triangles, cloths.thickness);
+    detector->set_self_contact(self);
+    detector->refresh(cloths.mesh.vertices, cloths.mesh.vertices);
+    ContactRows rows;
+    detector->evaluate(cloths.mesh.vertices, 0.0, rows);
+    return rows;
+}
+
 }  // namespace
 
 TEST_CASE("after a cut no cloth crosses cloth, on thousands of random moves", "[slow]") {
@@ -305,14 +317,7 @@ TEST_CASE("edges over a valley whose slopes are sewn to them are in contact once
                    0.6);
         cloths.add({.vertices = {{-0.2, height, 0}, {0.2, height, 0}, {0, height + 1.0, 0}}, .triangles = {{0, 1, 2}}}, 0.6);
         const std::vector<Stitch> stitches{{.vertex = 4, .from = 2, .to = 2}, {.vertex = 5, .from = 3, .to = 3}};
-        SelfContact self = cloths.self_contact();
-        if (sewn) self.stitches = stitches;
-        const auto detector = backends()[0].make_detector();
-        detector->set_cloth(cloths.mesh.triangles, cloths.thickness);
-        detector->set_self_contact(self);
-        detector->refresh(cloths.mesh.vertices, cloths.mesh.vertices);
-        ContactRows rows;
-        detector->evaluate(cloths.mesh.vertices, 0.0, rows);
+        const ContactRows rows = rows_where_sewn(cloths, sewn ? stitches : std::vector<Stitch>{});
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (sewn) CHECK(rows.distance[i] == Approx(height));
             if (sewn) CHECK(std::abs(rows.direction[i].y()) == Approx(1.0));
@@ -334,14 +339,7 @@ TEST_CASE("sides of a closed seam with other vertices are not in contact along i
                    0.4);
         cloths.add({.vertices = {{0.5, 0, 0}, {1.5, 0, 0}, {1, 0, 1}}, .triangles = {{0, 2, 1}}}, 0.4);
         const std::vector<Stitch> stitches{{5, 0, 1, 0.5}, {6, 1, 2, 0.5}};
-        SelfContact self = cloths.self_contact();
-        if (sewn) self.stitches = stitches;
-        const auto detector = backends()[0].make_detector();
-        detector->set_cloth(cloths.mesh.triangles, cloths.thickness);
-        detector->set_self_contact(self);
-        detector->refresh(cloths.mesh.vertices, cloths.mesh.vertices);
-        ContactRows rows;
-        detector->evaluate(cloths.mesh.vertices, 0.0, rows);
+        const ContactRows rows = rows_where_sewn(cloths, sewn ? stitches : std::vector<Stitch>{});
         return rows.size();
     };
     CHECK(rows_at(false, 0.0) > 0);
