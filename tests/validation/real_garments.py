@@ -138,7 +138,7 @@ def middle_of(points):
 
 
 def make_dress_start(folder):
-    """The panels as stage.obj has them, turned to y up, but the sleeves bent around the arms: flat above them they would close there."""
+    """The panels of stage.obj, turned to y up, with sleeves bent around the arms: flat above them they would close there."""
     vertices, faces, stitches = read_obj(folder / "stage.obj")
     body = [[x, y - 0.75, z] for x, y, z in read_obj(folder / "shell0.obj")[0]]
     vertices = [[x, z, -y] for x, y, z in vertices]
