@@ -1,6 +1,7 @@
 #include "self/sewn_rest.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <queue>
@@ -19,7 +20,10 @@ public:
     explicit SewnFront(double reach) : reach_(reach) {}
 
     void reach_vertex(int vertex, double length) {
-        if (length > reach_) return;
+        if (length <= reach_) start_at(vertex, length);
+    }
+    /// However long the way is.
+    void start_at(int vertex, double length) {
         const auto [known, is_new] = length_.try_emplace(vertex, length);
         if (!is_new && known->second <= length) return;
         known->second = length;
@@ -108,8 +112,9 @@ void SewnRest::find_paths(int knot, const ClothSurface& surface, std::span<const
     reach_knot(knot, 0.0);
     for (const Stitch& point : knots_[knot].points) {
         const double edge = (rest[point.to] - rest[point.from]).norm();
-        front.reach_vertex(point.from, point.share * edge);
-        front.reach_vertex(point.to, (1.0 - point.share) * edge);
+        // Whatever holds the edge is at the knot, and has to know of it.
+        front.start_at(point.from, point.share * edge);
+        front.start_at(point.to, (1.0 - point.share) * edge);
     }
     for (auto [vertex, length] = front.next(); vertex >= 0; std::tie(vertex, length) = front.next()) {
         if (knot_of_[vertex] >= 0) reach_knot(knot_of_[vertex], length);
@@ -143,24 +148,49 @@ bool SewnRest::overlap(std::span<const int> first, std::span<const int> second) 
     return !knots_.empty() && (ends_at(first, second) || ends_at(second, first));
 }
 
+/// The knots near a feature, ascending, each with the shortest path to it.
+class SewnRest::NearKnots {
+public:
+    NearKnots(const SewnRest& sewn, std::span<const int> feature) : sewn_(sewn), feature_(feature) {
+        for (const int vertex : feature) {
+            const std::vector<Path>& paths = sewn.paths_[vertex];
+            if (!paths.empty()) left_[count_++] = paths;
+        }
+        find_next();
+    }
+    bool at_end() const { return here_.knot < 0; }
+    const Path& here() const { return here_; }
+    void find_next() {
+        here_ = {};
+        for (int k = 0; k < count_; ++k) {
+            if (!left_[k].empty() && (at_end() || left_[k].front().knot < here_.knot)) here_ = left_[k].front();
+        }
+        if (at_end()) return;
+        for (int k = 0; k < count_; ++k) {
+            if (left_[k].empty() || left_[k].front().knot != here_.knot) continue;
+            here_.length = std::min(here_.length, left_[k].front().length);
+            left_[k] = left_[k].subspan(1);
+        }
+        if (feature_.size() > 1 && sewn_.lies_at(feature_, here_.knot)) here_.length = 0.0;
+    }
+
+private:
+    const SewnRest& sewn_;
+    std::span<const int> feature_;
+    std::array<std::span<const Path>, 3> left_;  // what is left of each vertex that has any
+    int count_ = 0;
+    Path here_;
+};
+
 double SewnRest::distance(std::span<const int> first, std::span<const int> second) const {
     if (knots_.empty()) return unreachable;
-    const auto length_to = [&](std::span<const int> feature, int knot) {
-        if (lies_at(feature, knot)) return 0.0;
-        double shortest = unreachable;
-        for (const int vertex : feature) {
-            const std::vector<Path>& paths = paths_[vertex];
-            const auto found =
-                std::lower_bound(paths.begin(), paths.end(), knot, [](const Path& path, int k) { return path.knot < k; });
-            if (found != paths.end() && found->knot == knot) shortest = std::min(shortest, found->length);
-        }
-        return shortest;
-    };
     double shortest = unreachable;
-    for (const int vertex : first) {
-        for (const Path& path : paths_[vertex]) {
-            shortest = std::min(shortest, length_to(first, path.knot) + length_to(second, path.knot));
-        }
+    NearKnots a(*this, first), b(*this, second);
+    while (!a.at_end() && !b.at_end()) {
+        const int of_a = a.here().knot, of_b = b.here().knot;
+        if (of_a == of_b) shortest = std::min(shortest, a.here().length + b.here().length);
+        if (of_a <= of_b) a.find_next();
+        if (of_b <= of_a) b.find_next();
     }
     return shortest;
 }

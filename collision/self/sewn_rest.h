@@ -19,7 +19,8 @@ public:
     /// `rest`: m, of all vertices. Paths longer than `reach`, m, are left out.
     SewnRest(const ClothSurface& surface, std::span<const Stitch> stitches, std::span<const Vec3> rest, double reach);
 
-    /// m, between two features given by their vertices; 0 where both are at one knot, infinity where no knot is near both.
+    /// m, between two features given by their vertices, three at most; 0 where both are at one knot, infinity where no knot is
+    /// near both.
     double distance(std::span<const int> first, std::span<const int> second) const;
 
     /// Whether one of them is at a knot, and the other holds an end of an edge with a point of it, of several points the nearest
@@ -36,6 +37,8 @@ private:
         int knot = -1;
         double length = 0.0;  // m
     };
+
+    class NearKnots;
 
     void make_knots(std::span<const Stitch> stitches);
     void find_ends(DisjointSets& sewn);

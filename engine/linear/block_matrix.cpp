@@ -30,20 +30,13 @@ CornerProduct corner_product(const BlockMatrix& matrix, const SpringTerms& sprin
     return {matrix.pattern->membrane.corners(), springs.corners.data()};
 }
 
-/// sum |weight|: the factor that makes |w_k| K at each vertex an upper bound of the row.
-double bound_factor(const CoupledBlock& block) {
-    const bool between_cloths = std::any_of(block.weight.begin(), block.weight.end(), [](double w) { return w < 0.0; });
-    return between_cloths ? 2.0 : 1.0;
-}
-
 void gather_contacts(BlockMatrix& matrix) {
     for (const VertexContact& contact : matrix.contacts_by_vertex) matrix.contact_slot[contact.vertex] = -1;
     matrix.contacts_by_vertex.clear();
     for (const CoupledBlock& block : matrix.contacts) {
-        const double factor = bound_factor(block);
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
             const int i = block.vertex[k];
-            const double weight = factor * std::abs(block.weight[k]);
+            const double weight = diagonal_share(block, k);
             if (weight == 0.0 || matrix.free[i] == 0.0) continue;
             int& slot = matrix.contact_slot[i];
             if (slot < 0) {
@@ -74,6 +67,15 @@ void invert_with_contacts(BlockMatrix& matrix) {
 }
 
 }  // namespace
+
+bool between_cloths(const CoupledBlock& block) {
+    return std::any_of(block.weight.begin(), block.weight.end(), [](double w) { return w < 0.0; });
+}
+
+/// |w_k| sum |w|: with it at each vertex the diagonal is an upper bound of the row.
+double diagonal_share(const CoupledBlock& block, int k) {
+    return (between_cloths(block) ? 2.0 : 1.0) * std::abs(block.weight[k]);
+}
 
 std::array<double, 6> inverse_block(const std::array<double, 6>& m) {
     const auto& [xx, xy, xz, yy, yz, zz] = m;

@@ -21,6 +21,12 @@ struct VertexContact {
     std::array<double, 6> k;  // kg, xx xy xz yy yz zz
 };
 
+/// Whether a contact row is between cloths, or parts of one, rather than with an obstacle: some weights are negative.
+bool between_cloths(const CoupledBlock& block);
+
+/// What a contact row adds to VertexContact::k at its vertex number k, as a share of its own K.
+double diagonal_share(const CoupledBlock& block, int k);
+
 /// The step matrix A = M - dt Jv - dt^2 Jq, kg. Springs act on differences of vertices by blocks a I + w w^T, held in single
 /// precision: each is then a spring whose stiffness is right to 6e-8, and the matrix is exactly symmetric and, without enclosed
 /// blocks, positive definite. What couples the edges of a membrane's triangle comes in addition, corner by corner

@@ -24,6 +24,16 @@ double size_along(const Block& a, const Block& b) {
     return product / trace(b);
 }
 
+/// S = d (d I + K)^-1 with the size d of a vertex's own block along K.
+Block softening(const Block& own, const Block& k) {
+    const double d = size_along(own, k);
+    Block sum = k;
+    for (const int entry : {0, 3, 5}) sum[entry] += d;
+    Block result = inverse_block(sum);
+    for (double& entry : result) entry *= d;
+    return result;
+}
+
 std::array<float, 6> to_float(const Block& a) {
     std::array<float, 6> result;
     for (int k = 0; k < 6; ++k) result[k] = static_cast<float>(a[k]);
@@ -130,12 +140,44 @@ void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {
     });
     ease(fine);
     contacts_ = matrix.contacts;
+    find_between(matrix);
     set_filters(matrix);
     set_contact_rows(matrix);
     if (coarser == Coarser::kept) return;
     expand_blocks(*matrix.springs);
     for (int k = 1; k < levels(); ++k) fill_level(k);
     if (bottom_size_ > 0) fill_bottom();
+}
+
+/// Rows between cloths, if some of them are stiffer than the cloth.
+void Multigrid::find_between(const BlockMatrix& matrix) {
+    between_rows_.clear();
+    if (levels() == 1) return;
+    bool any_is_stiff = false;
+    for (std::size_t row = 0; row < contacts_.size(); ++row) {
+        const CoupledBlock& block = contacts_[row];
+        if (!between_cloths(block)) continue;
+        between_rows_.push_back(static_cast<int>(row));
+        const int i = block.vertex[0];
+        const double own = matrix.diagonal[0][i] + matrix.diagonal[3][i] + matrix.diagonal[5][i];
+        any_is_stiff = any_is_stiff || trace(block.k) > stiff_row_factor * own;
+    }
+    if (!any_is_stiff) between_rows_.clear();
+    if (any_is_stiff) change_.resize(3 * padded());
+}
+
+/// What holds each vertex of BlockMatrix::contacts_by_vertex besides rows between cloths that are taken as they are.
+std::vector<std::array<double, 6>> Multigrid::held_alone(const BlockMatrix& matrix) const {
+    std::vector<Block> held(matrix.contacts_by_vertex.size());
+    for (std::size_t slot = 0; slot < held.size(); ++slot) held[slot] = matrix.contacts_by_vertex[slot].k;
+    for (const int row : between_rows_) {
+        const CoupledBlock& block = contacts_[row];
+        for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
+            const int slot = matrix.contact_slot[block.vertex[k]];
+            for (int entry = 0; entry < 6 && slot >= 0; ++entry) held[slot][entry] -= diagonal_share(block, k) * block.k[entry];
+        }
+    }
+    return held;
 }
 
 void Multigrid::set_filters(const BlockMatrix& matrix) {
@@ -153,19 +195,23 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
         filtered_.push_back({.vertex = i, .filter = {}, .contact = {}, .ground = ground});
     }
     prescribed_ = static_cast<int>(filtered_.size());
+    const std::vector<Block> held = held_alone(matrix);
     for (std::size_t slot = 0; slot < filter_of_slot_.size(); ++slot) {
         const VertexContact& contact = matrix.contacts_by_vertex[slot];
         if (!(trace(contact.k) > 0.0)) continue;
-        const double d = size_along(diagonal(contact.vertex), contact.k);
-        Block sum = contact.k;
-        for (const int k : {0, 3, 5}) sum[k] += d;
-        Block filter = inverse_block(sum);
-        for (double& entry : filter) entry *= d;
         filter_of_slot_[slot] = static_cast<int>(filtered_.size());
-        filtered_.push_back({.vertex = contact.vertex,
-                             .filter = to_float(filter),
-                             .contact = to_float(contact.k),
-                             .ground = block_product(filter, contact.k)});
+        const Block soft = softening(diagonal(contact.vertex), contact.k);
+        Filtered vertex{.vertex = contact.vertex,
+                        .filter = to_float(soft),
+                        .contact = to_float(held[slot]),
+                        .ground = block_product(soft, contact.k)};
+        if (!(trace(held[slot]) > held_rounding * trace(contact.k))) {
+            vertex.filter = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
+            vertex.contact = {};
+        } else if (held[slot] != contact.k) {
+            vertex.filter = to_float(softening(diagonal(contact.vertex), held[slot]));
+        }
+        filtered_.push_back(vertex);
     }
     by_vertex_.clear();
     int next = 0;
@@ -177,11 +223,15 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
     before_.resize(filtered_.size());
 }
 
-/// Vertex by vertex in the order of the rows, so that sums over a vertex do not depend on who makes them.
+/// Vertex by vertex in the order of the rows, so that sums over a vertex do not depend on who makes them; those that are taken as
+/// they are come first.
 void Multigrid::set_contact_rows(const BlockMatrix& matrix) {
     row_force_.resize(contacts_.size());
-    const auto for_ends = [&](auto work) {
+    std::vector<char> between(contacts_.size(), 0);
+    for (const int row : between_rows_) between[row] = 1;
+    const auto for_ends = [&](bool of_between, auto work) {
         for (std::size_t row = 0; row < contacts_.size(); ++row) {
+            if ((between[row] == 1) != of_between) continue;
             const CoupledBlock& block = contacts_[row];
             for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
                 const int slot = matrix.contact_slot[block.vertex[k]];
@@ -190,15 +240,23 @@ void Multigrid::set_contact_rows(const BlockMatrix& matrix) {
             }
         }
     };
-    for_ends([](Filtered& vertex, int, float) { ++vertex.rows; });
+    for_ends(true, [](Filtered& vertex, int, float) { ++vertex.between; });
+    for_ends(false, [](Filtered& vertex, int, float) { ++vertex.rows; });
     int first = 0;
-    for (Filtered& vertex : filtered_) {
+    between_.clear();
+    for (std::size_t number = 0; number < filtered_.size(); ++number) {
+        Filtered& vertex = filtered_[number];
+        if (vertex.between > 0) between_.push_back(static_cast<int>(number));
         vertex.first_row = first;
-        first += vertex.rows;
+        first += vertex.between + vertex.rows;
         vertex.rows = 0;
     }
     row_ends_.resize(first);
-    for_ends([&](Filtered& vertex, int row, float weight) { row_ends_[vertex.first_row + vertex.rows++] = {row, weight}; });
+    for (const bool of_between : {true, false}) {
+        for_ends(of_between, [&](Filtered& vertex, int row, float weight) {
+            row_ends_[vertex.first_row + vertex.rows++] = {row, weight};
+        });
+    }
 }
 
 void Multigrid::expand_blocks(const SpringTerms& springs) {

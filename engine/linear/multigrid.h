@@ -14,6 +14,12 @@ namespace percale {
 /// Contacts and prescribed vertices leave the hierarchy as it is. The transfers are filtered at such vertices: by 0 where the
 /// motion is prescribed, by S = d (d I + K)^-1 where contact adds K to a vertex whose own block has the size d along K; coarser
 /// diagonals get the parallel sum S K instead of K, since a stiff contact at one vertex does not hold its neighbours.
+///
+/// Between cloths contact holds their relative motion alone: what they do together is as soft as without it. Where some rows of
+/// that kind are stiff, the finest level takes all of them, C = W K W^T, as they are, not by diagonal blocks, and another filter
+/// comes after the S of all others: a few sweeps of block Jacobi on them, x -= tau D^-1 C x, with the factors tau for which a
+/// share l that a sweep takes leaves the least energy l F(l)^2 (smoothed aggregation: Vanek, Mandel and Brezina 1996, Computing
+/// 56).
 class Multigrid {
 public:
     /// The springs of `pattern` in rest positions (m, one a vertex). Everything given is viewed.
@@ -49,6 +55,7 @@ public:
     int levels() const { return static_cast<int>(levels_.size()); }
 
 private:
+    using FloatVec = std::array<float, 3>;
     struct Level {
         EntryPattern pattern;
         int slices = 0;
@@ -71,6 +78,7 @@ private:
         std::array<float, 6> contact;  // K, kg; applied by the smoother
         std::array<double, 6> ground;  // kg, for the next level
         int first_row = 0, rows = 0;   // in row_ends_
+        int between = 0;               // of these, the first ones: taken as they are
     };
     /// What a contact row does at one vertex: weight * row_force_[row].
     struct RowEnd {
@@ -82,6 +90,8 @@ private:
     void find_eased();
     void ease(Level& level) const;
     Level sized_level(EntryPattern pattern, int slices) const;
+    void find_between(const BlockMatrix& matrix);
+    std::vector<std::array<double, 6>> held_alone(const BlockMatrix& matrix) const;
     void set_filters(const BlockMatrix& matrix);
     void set_contact_rows(const BlockMatrix& matrix);
     void expand_blocks(const SpringTerms& springs);
@@ -94,14 +104,22 @@ private:
     void begin(int k, Slices range);
     void finish(int k, Slices range);
     void hand_down(int k, Slices range);
+    void sweep_residual();
     void prolong(int k, Slices range);
+    void sweep_change();
+    void set_between_forces(const AlignedVector<float>& x);
+    FloatVec add_rows(const Filtered& vertex, int rows, float factor, FloatVec value) const;
+    FloatVec by_inverse(int vertex, const FloatVec& u) const;
     void smooth(int k, bool fresh, Slices range);
     void set_residual(int k, Slices range);
     void place(int k, const AlignedVector<float>& x, Slices range);
+    void place_vertex(int vertex);
     void multiply_level(int k, const AlignedVector<float>& x, const float* right, AlignedVector<float>& y, Slices range);
     void transfer(const TransferLists& lists, const AlignedVector<float>& points, FloatVectors to, bool add, Slices range) const;
     template <class Work>
     void for_filtered(Slices range, Work work);
+    template <class Work>
+    void for_between(Work work);
     void correct(int k);
     void solve_bottom(Level& level);
     static FloatVectors view(const AlignedVector<float>& data, const Level& level);
@@ -117,8 +135,11 @@ private:
     std::vector<int> by_vertex_, filter_of_slot_;  // of filtered_: ascending by vertex; of BlockMatrix::contacts_by_vertex
     int prescribed_ = 0;
     std::vector<RowEnd> row_ends_;
-    std::vector<std::array<float, 3>> row_force_;  // work space of products
-    std::vector<std::array<float, 3>> before_;     // work space of prolong
+    std::vector<int> between_rows_;    // rows between cloths, if some of them are stiff
+    std::vector<int> between_;         // their vertices in filtered_
+    std::vector<FloatVec> row_force_;  // work space of products
+    std::vector<FloatVec> before_;     // work space of prolong
+    AlignedVector<float> change_;      // of sweeps, sized on first use
     AlignedVector<double> bottom_;
     AlignedVector<float> bottom_inverse_, bottom_x_, bottom_y_;
     int bottom_size_ = 0, bottom_stride_ = 0;

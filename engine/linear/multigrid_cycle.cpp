@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "multigrid.h"
 #include "tolerances.h"
@@ -24,6 +26,17 @@ FloatVec sum(const FloatVec& a, const FloatVec& b) { return {a[0] + b[0], a[1] +
 FloatVec difference(const FloatVec& a, const FloatVec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 FloatVec scaled(float factor, const FloatVec& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
 
+/// 1/l with the roots l of the polynomial F(l), F(0) = 1, for which l F(l)^2 is nowhere above 1/(2 n + 1)^2 in 0 ... 1:
+/// T(sqrt l)/((2 n + 1) sqrt l) with the Chebyshev polynomial T of degree 2 n + 1.
+std::array<float, row_sweeps> row_sweep_factors() {
+    std::array<float, row_sweeps> factors;
+    for (int k = 0; k < row_sweeps; ++k) {
+        const double root = std::cos((2 * k + 1) * std::numbers::pi / (2 * (2 * row_sweeps + 1)));
+        factors[k] = static_cast<float>(1.0 / (root * root));
+    }
+    return factors;
+}
+
 /// K sum w x of one row.
 FloatVec row_force(const CoupledBlock& row, const FloatVectors& x) {
     FloatVec u{};
@@ -47,6 +60,15 @@ void Multigrid::for_filtered(Slices range, Work work) {
     for (auto it = first; it != by_vertex_.end() && vertex(*it) < range.last * slice_lanes; ++it) work(filtered_[*it], *it);
 }
 
+/// work(vertex, its number) for all with rows between cloths that are taken as they are, in any order.
+template <class Work>
+void Multigrid::for_between(Work work) {
+    const int count = static_cast<int>(between_.size());
+    for_stretches(compute_, count, row_grain, count >= least_shared_rows, [&](int first, int last, int) {
+        for (int k = first; k < last; ++k) work(filtered_[between_[k]], between_[k]);
+    });
+}
+
 void Multigrid::place(int k, const AlignedVector<float>& x, Slices range) {
     Level& level = levels_[k];
     const BandPattern* bands = level.pattern.bands;
@@ -56,6 +78,18 @@ void Multigrid::place(int k, const AlignedVector<float>& x, Slices range) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const float* source = x.data() + axis * bands->padded + first;
         std::copy_n(source, count, &guarded_[axis * (bands->padded + 2 * bands->guard) + bands->guard + first]);
+    }
+}
+
+/// The same for x of one vertex of the finest level.
+void Multigrid::place_vertex(int vertex) {
+    Level& level = levels_[0];
+    const BandPattern* bands = level.pattern.bands;
+    const FloatVec value = at(view(level.x, level), vertex);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t i = static_cast<std::size_t>(vertex);
+        (bands ? guarded_[axis * (bands->padded + 2 * bands->guard) + bands->guard + i] : level.points[4 * i + axis]) =
+            value[axis];
     }
 }
 
@@ -83,14 +117,36 @@ void Multigrid::set_row_forces(const AlignedVector<float>& x) {
     });
 }
 
+/// value + factor sum w f over the first rows of a vertex.
+Multigrid::FloatVec Multigrid::add_rows(const Filtered& vertex, int rows, float factor, FloatVec value) const {
+    for (int k = vertex.first_row; k < vertex.first_row + rows; ++k) {
+        value = sum(value, scaled(factor * row_ends_[k].weight, row_force_[row_ends_[k].row]));
+    }
+    return value;
+}
+
+/// D^-1 u at a vertex of the finest level.
+Multigrid::FloatVec Multigrid::by_inverse(int vertex, const FloatVec& u) const {
+    const Level& level = levels_[0];
+    FloatBlock inverse;
+    for (std::size_t entry = 0; entry < inverse.size(); ++entry) inverse[entry] = level.inverse[entry * level.padded + vertex];
+    return times(inverse, u);
+}
+
+/// The same for rows between cloths that are taken as they are, alone.
+void Multigrid::set_between_forces(const AlignedVector<float>& x) {
+    const FloatVectors from = view(x, levels_[0]);
+    const int rows = static_cast<int>(between_rows_.size());
+    for_stretches(compute_, rows, row_grain, rows >= least_shared_rows, [&](int first, int last, int) {
+        for (int k = first; k < last; ++k) row_force_[between_rows_[k]] = row_force(contacts_[between_rows_[k]], from);
+    });
+}
+
 void Multigrid::product(const AlignedVector<float>& x, AlignedVector<float>& y, Slices range) {
     multiply_level(0, x, nullptr, y, range);
     const FloatVectors result = view(y, levels_[0]);
     for_filtered(range, [&](const Filtered& vertex, int number) {
-        FloatVec value = at(result, vertex.vertex);
-        for (int k = vertex.first_row; k < vertex.first_row + vertex.rows; ++k) {
-            value = sum(value, scaled(row_ends_[k].weight, row_force_[row_ends_[k].row]));
-        }
+        const FloatVec value = add_rows(vertex, vertex.rows, 1.0f, at(result, vertex.vertex));
         set(result, vertex.vertex, number < prescribed_ ? FloatVec{} : value);
     });
 }
@@ -118,14 +174,15 @@ void Multigrid::begin(int k, Slices range) {
     place(k, levels_[k].x, range);
 }
 
-/// r = b - A x.
+/// r = b - A x; row_force_ is of x where contact between cloths is taken as it is.
 void Multigrid::set_residual(int k, Slices range) {
     Level& level = levels_[k];
     multiply_level(k, level.x, level.b.data(), level.r, range);
     if (k > 0) return;
     const FloatVectors x = view(level.x, level), r = view(level.r, level);
     for_filtered(range, [&](const Filtered& vertex, int) {
-        set(r, vertex.vertex, difference(at(r, vertex.vertex), times(vertex.contact, at(x, vertex.vertex))));
+        const FloatVec rest = difference(at(r, vertex.vertex), times(vertex.contact, at(x, vertex.vertex)));
+        set(r, vertex.vertex, vertex.between > 0 ? add_rows(vertex, vertex.between, -1.0f, rest) : rest);
     });
 }
 
@@ -135,10 +192,32 @@ void Multigrid::hand_down(int k, Slices range) {
     set_residual(k, range);
     const FloatVectors r = view(level.r, level);
     if (k == 0) {
-        for_filtered(range,
-                     [&](const Filtered& vertex, int) { set(r, vertex.vertex, times(vertex.filter, at(r, vertex.vertex))); });
+        for_filtered(range, [&](const Filtered& vertex, int) {
+            if (vertex.between == 0) set(r, vertex.vertex, times(vertex.filter, at(r, vertex.vertex)));
+        });
     }
     compute_.kernels->pack_float_points(r, level.handed.data(), range);
+}
+
+/// Between cloths r -= tau C D^-1 r, sweep by sweep, and then S r, is handed down.
+void Multigrid::sweep_residual() {
+    Level& level = levels_[0];
+    const FloatVectors r = view(level.r, level), change = view(change_, level);
+    const auto set_change = [&](const Filtered& vertex, int) {
+        set(change, vertex.vertex, by_inverse(vertex.vertex, at(r, vertex.vertex)));
+    };
+    for_between(set_change);
+    for (const float factor : row_sweep_factors()) {
+        set_between_forces(change_);
+        for_between([&](const Filtered& vertex, int number) {
+            set(r, vertex.vertex, add_rows(vertex, vertex.between, -factor, at(r, vertex.vertex)));
+            set_change(vertex, number);
+        });
+    }
+    for_between([&](const Filtered& vertex, int) {
+        const FloatVec filtered = times(vertex.filter, at(r, vertex.vertex));
+        std::ranges::copy(filtered, &level.handed[4 * static_cast<std::size_t>(vertex.vertex)]);
+    });
 }
 
 /// The last sweep; a coarser level hands its x up.
@@ -164,6 +243,26 @@ void Multigrid::prolong(int k, Slices range) {
     place(k, level.x, range);
 }
 
+/// Between cloths the change that x has got is swept, too: u -= tau D^-1 C u.
+void Multigrid::sweep_change() {
+    Level& level = levels_[0];
+    const FloatVectors x = view(level.x, level), change = view(change_, level);
+    for_between([&](const Filtered& vertex, int number) {
+        set(change, vertex.vertex, difference(at(x, vertex.vertex), before_[number]));
+    });
+    for (const float factor : row_sweep_factors()) {
+        set_between_forces(change_);
+        for_between([&](const Filtered& vertex, int) {
+            const FloatVec part = by_inverse(vertex.vertex, add_rows(vertex, vertex.between, factor, {}));
+            set(change, vertex.vertex, difference(at(change, vertex.vertex), part));
+        });
+    }
+    for_between([&](const Filtered& vertex, int number) {
+        set(x, vertex.vertex, sum(before_[number], at(change, vertex.vertex)));
+        place_vertex(vertex.vertex);
+    });
+}
+
 void Multigrid::transfer(const TransferLists& lists, const AlignedVector<float>& points, FloatVectors to, bool add,
                          Slices range) const {
     compute_.kernels->transfer(
@@ -175,9 +274,11 @@ void Multigrid::correct(int k) {
     if (k + 1 == levels()) return;
     Level &level = levels_[k], &coarser = levels_[k + 1];
     const int least = k == 0 ? least_shared_slices : least_shared_coarse_slices;
-    const bool solves = k + 2 == levels() && bottom_size_ > 0;
+    const bool solves = k + 2 == levels() && bottom_size_ > 0, sweeps = k == 0 && !between_.empty();
+    if (sweeps) set_between_forces(level.x);
     for_chunks(
         compute_, level.slices, [&](Slices range) { hand_down(k, range); }, least);
+    if (sweeps) sweep_residual();
     for_chunks(
         compute_, coarser.slices,
         [&](Slices range) {
@@ -194,6 +295,9 @@ void Multigrid::correct(int k) {
     }
     for_chunks(
         compute_, level.slices, [&](Slices range) { prolong(k, range); }, least);
+    if (!sweeps) return;
+    sweep_change();
+    set_between_forces(level.x);
 }
 
 void Multigrid::solve_bottom(Level& level) {

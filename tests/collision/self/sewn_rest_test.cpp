@@ -57,6 +57,11 @@ TEST_CASE("a point of an edge is at every feature that holds the edge, and as fa
     CHECK(between(sewn, {4}, {25, 26}) == Approx(0.05));
     CHECK(between(sewn, {4}, {30, 31}) == Approx(0.2));
     CHECK(between(sewn, {3}, {25, 26}) == Approx(0.3));
+    // However long the edge is.
+    const SewnRest near = sheets.sewn({{4, 25, 30, 0.5}}, 0.05);
+    CHECK(between(near, {4}, {25, 30, 31}) == 0.0);
+    CHECK(between(near, {25, 30}, {3, 4}) == 0.0);
+    CHECK(between(near, {4}, {31}) == infinity);
 }
 
 TEST_CASE("an end of an edge overlaps what is at a point of the edge, and nothing else") {

@@ -72,6 +72,34 @@ void check_float_product(SheetSystem& sheet) {
     for (int i = 0; i < sheet.count(); ++i) CHECK((sheet.matrix.free[i] > 0.0 || found.at(i) == Vec3::Zero()));
 }
 
+/// Two sheets 1 cm apart, their vertices not above each other, the first one's first.
+ClothModel two_layers(int side) {
+    Fabric fabric = sheet_fabric();
+    fabric.springs.shear = 0.0;
+    TriangleMesh mesh = make_grid(1.0, 1.0, side, side);
+    mesh.grid_columns = mesh.grid_rows = 0;
+    const TriangleMesh upper = mesh;
+    const double cell = 1.0 / (side - 1);
+    for (const Vec3& x : upper.vertices) mesh.vertices.push_back(x + Vec3(0.3 * cell, 0.01, 0.4 * cell));
+    const int first = side * side;
+    for (const auto& [a, b, c] : upper.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+    return cloth_model(mesh, fabric);
+}
+
+/// Every vertex of either that lies over or under the other is held on three of its vertices.
+void lay_on_each_other(int side, double factor, SheetSystem& layers) {
+    const auto lower = [&](int column, int row) { return row * side + column; };
+    const auto upper = [&](int column, int row) { return side * side + row * side + column; };
+    for (int r = 0; r + 1 < side; ++r) {
+        for (int c = 0; c + 1 < side; ++c) {
+            layers.lay_upon(upper(c, r), {lower(c, r), lower(c + 1, r), lower(c, r + 1)}, {0.3, 0.3, 0.4}, factor);
+            layers.lay_upon(lower(c + 1, r + 1), {upper(c + 1, r + 1), upper(c, r + 1), upper(c + 1, r)}, {0.3, 0.3, 0.4},
+                            factor);
+        }
+    }
+    layers.fill();
+}
+
 }  // namespace
 
 TEST_CASE("One cycle is a symmetric positive definite operator on the free vertices") {
@@ -169,6 +197,45 @@ TEST_CASE("Contacts of any stiffness cost few iterations more") {
             }
         }
     }
+}
+
+TEST_CASE("Layers that stiff contact holds on each other cost a few times as much as those that it hardly does") {
+    for (const int side : {17, 33}) {
+        int apart = 0;
+        for (const double factor : {0.01, 4.0, 10.0}) {
+            SheetSystem layers(static_cast<unsigned>(side), two_layers(side), 0.1 / side);
+            lay_on_each_other(side, factor, layers);
+            const int found = iterations(layers);
+            if (apart == 0) apart = found;
+            CAPTURE(side, factor, apart);
+            CHECK(found <= 6 * apart);
+        }
+    }
+}
+
+TEST_CASE("One cycle between layers is symmetric and positive definite, beside obstacles and pins, and leaves nothing behind") {
+    SheetSystem layers(8, two_layers(17), 0.005), other(9, two_layers(17), 0.005);
+    layers.pin_share(0.05);
+    layers.touch_share(0.3, 0.1, 1e3);
+    lay_on_each_other(17, 100.0, layers);
+    other.touch_share(0.2, 0.1, 10.0);
+    Multigrid multigrid(compute, layers.model.adjacency, layers.model.rest);
+    multigrid.fill(layers.matrix, Multigrid::Coarser::filled);
+    for (int trial = 0; trial < 10; ++trial) {
+        const Vectors r = layers.random_vector(), s = layers.random_vector();
+        const Vectors z = cycle(multigrid, r), w = cycle(multigrid, s);
+        const double zr = dot(compute, z, r), ws = dot(compute, w, s);
+        CHECK(zr > 0.0);
+        CHECK(ws > 0.0);
+        CHECK(dot(compute, z, s) == Approx(dot(compute, w, r)).margin(1e-4 * std::sqrt(zr * ws)));
+        for (int i = 0; i < layers.count(); ++i) CHECK((layers.matrix.free[i] > 0.0 || z.at(i) == Vec3::Zero()));
+    }
+    check_float_product(layers);
+    const Vectors r = other.random_vector();
+    Multigrid once(compute, other.model.adjacency, other.model.rest);
+    once.fill(other.matrix, Multigrid::Coarser::filled);
+    multigrid.fill(other.matrix, Multigrid::Coarser::filled);
+    CHECK(same_bits(cycle(multigrid, r), cycle(once, r)));
 }
 
 TEST_CASE("The solution is that of the direct solver") {

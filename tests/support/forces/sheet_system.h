@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -69,6 +70,18 @@ struct SheetSystem {
             contacts.push_back(block);
         }
         fill();
+    }
+
+    /// A contact along the y axis that holds a vertex on a point of three others, by the user's numbers; `factor` times as stiff
+    /// as the vertex's own block.
+    void lay_upon(int vertex, const std::array<int, 3>& others, const std::array<double, 3>& shares, double factor) {
+        const auto number = [&](int user_vertex) { return model.cloths[0].index_of(user_vertex); };
+        const int i = number(vertex);
+        CoupledBlock block{.vertex = {i, number(others[0]), number(others[1]), number(others[2])},
+                           .weight = {1.0, -shares[0], -shares[1], -shares[2]},
+                           .k = {}};
+        block.k[3] = factor * (matrix.diagonal[0][i] + matrix.diagonal[3][i] + matrix.diagonal[5][i]) / 3.0;
+        contacts.push_back(block);
     }
 
     Vectors zeros() const {
