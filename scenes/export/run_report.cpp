@@ -82,6 +82,7 @@ void put_measures(ordered_json& json, const Measures& m) {
     json["rms_speed_at_end"] = m.rms_speed_at_end;
     json["energy_gain"] = m.energy_gain;
     json["lowest_vertex"] = m.lowest_vertex;
+    if (m.largest_seam_gap) json["largest_seam_gap"] = *m.largest_seam_gap;
     if (m.matches) json["matches"] = *m.matches;
 }
 

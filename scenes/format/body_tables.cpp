@@ -140,7 +140,7 @@ Field<ClothSpec> rest_field() {
                                 .sentence = "Where it has no strain: a mesh file of the same triangles, or \"uv\" for the vt of "
                                             "the mesh (OBJ); without it as it starts.",
                                 .needs = "mesh",
-                                .needs_why = "a grid is its own rest shape"},
+                                .needs_why = "grids and patterns are their own rest shape"},
                                &ClothSpec::rest);
     field.key.default_text.clear();
     field.write = [](const ClothSpec& spec) { return spec.rest.empty() ? std::nullopt : std::optional(value_node(spec.rest)); };
@@ -334,7 +334,7 @@ const FieldTable<ClothSpec>& cloth_table() {
                                            .lowest = -farthest,
                                            .highest = farthest,
                                            .needs = "mesh",
-                                           .needs_why = "warp of a grid runs along x"},
+                                           .needs_why = "warp of a grid runs along x, of a pattern as its panels say"},
                                           &ClothSpec::warp),
                    value_field<ClothSpec>({.path = "layer",
                                            .sentence = "Where it is worn, from the inside out: panels of a pattern start 0.04 m "

@@ -23,6 +23,7 @@ const MeasureDescription measure_list[] = {
     {"rms_speed_at_end", "m/s", "Root of the mean squared speed of all vertices in the last step."},
     {"energy_gain", "J", "Largest rise of the total energy in one step beyond the work of pins and obstacles."},
     {"lowest_vertex", "m", "Height of the lowest cloth vertex at the end."},
+    {"largest_seam_gap", "m", "Widest gap of a stitch at the end, of all seams; not measured without one."},
 };
 
 // Six digits, or all of them where six would contradict the verdict.

@@ -254,6 +254,7 @@ std::map<std::string, double> measure_values(const Measures& measures) {
         values["deepest_penetration_at_every_step"] = measures.steps->deepest_penetration;
     }
     if (measures.matches) values["matches"] = *measures.matches;
+    if (measures.largest_seam_gap) values["largest_seam_gap"] = *measures.largest_seam_gap;
     return values;
 }
 

@@ -81,6 +81,7 @@ struct Measures {
     double energy_gain = 0.0;       // J, largest rise in a step beyond its work; NaN: not measured
     double lowest_vertex = std::numeric_limits<double>::infinity();  // m, height at the end
     std::optional<double> matches;                                   // m, largest distance from the reference at the end
+    std::optional<double> largest_seam_gap;                          // m, of a stitch at the end; nothing without seams
 
     FrameCheck worst;  // of the frame `worst_frame`
 

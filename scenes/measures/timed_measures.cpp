@@ -1,6 +1,7 @@
 #include "measures/timed_measures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,7 +19,8 @@ bool is_of_frames(const std::string& measure) { return measure == "intersections
 
 /// Of measures that a run has at its end only.
 bool is_of_end(const std::string& measure) {
-    return measure == "speed_at_end" || measure == "rms_speed_at_end" || measure == "lowest_vertex" || measure == "matches";
+    static constexpr std::array names = {"speed_at_end", "rms_speed_at_end", "lowest_vertex", "largest_seam_gap", "matches"};
+    return std::ranges::find(names, measure) != names.end();
 }
 
 }  // namespace
@@ -87,6 +89,7 @@ double TimedMeasures::value_of(std::size_t index, const StateFigures& state) con
         const double of_state = certified ? state.check().smallest_distance : std::numeric_limits<double>::infinity();
         return std::min(of_state, state.step != nullptr ? state.step->smallest_distance : of_state);
     }
+    if (measure == "largest_seam_gap") return state.seam_gap().value_or(std::numeric_limits<double>::quiet_NaN());
     if (measure == "largest_strain") return state.simulation.largest_strain();
     if (measure == "energy_gain" && !std::isnan(state.energy_gain)) return std::max(0.0, state.energy_gain);
     if (measure == "energy_gain") return state.energy_gain;

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct StateFigures {
     const StepReport* step = nullptr;                               // that ended with it; null: the start
     double energy_gain = std::numeric_limits<double>::quiet_NaN();  // J, of that step
     std::function<const FrameCheck&()> check;                       // its certificate, made when it is asked for
+    std::function<std::optional<double>()> seam_gap;                // m, Measures::largest_seam_gap
     bool framed = false;                                            // an output frame shows it
 };
 

@@ -190,6 +190,7 @@ struct RunScript {
                     .step = ended,
                     .energy_gain = ended != nullptr ? energy_gain : std::numeric_limits<double>::quiet_NaN(),
                     .check = [this]() -> const FrameCheck& { return observer.check(); },
+                    .seam_gap = [&built] { return largest_seam_gap(built); },
                     .framed = observer.framed()});
     }
 };
@@ -336,6 +337,8 @@ private:
         result_.status = RunStatus::failed;
         result_.reason =
             not_at_rest_text(figures, built_.scene.cloths.at(static_cast<std::size_t>(std::max(0, figures.fastest_cloth))).name);
+        if (!built_.scene.step.kinetic_damping)
+            result_.reason += "; step.kinetic_damping = true stops what swings, where only the rest counts";
     }
 
     void go_on_from(const RunSettings& settings) {
@@ -415,6 +418,7 @@ RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings&
         result.measures.largest_strain = result.measures.energy_gain = result.totals.energy.elastic;
     }
     add_end(result.measures, built.simulation, built.cloths);
+    result.measures.largest_seam_gap = largest_seam_gap(built);
     run.measure();
     measure_matches(built, references, result);
     result.shapes = run.shapes();

@@ -338,6 +338,11 @@ WidestGap widest_gap(const BuiltScene& built) {
     return widest;
 }
 
+std::optional<double> largest_seam_gap(const BuiltScene& built) {
+    if (built.seams.empty()) return std::nullopt;
+    return widest_gap(built).width;
+}
+
 std::string unsewn_text(const WidestGap& gap) {
     const Vec3& x = gap.place;
     const std::string place = "(" + short_number(x.x()) + ", " + short_number(x.y()) + ", " + short_number(x.z()) + ")";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,9 @@ struct WidestGap {
     Vec3 place = Vec3::Zero();  // m, of its vertex
 };
 WidestGap widest_gap(const BuiltScene& built);
+
+/// Its width, m; nothing without seams.
+std::optional<double> largest_seam_gap(const BuiltScene& built);
 
 /// For its user, of a gap that is too wide.
 std::string unsewn_text(const WidestGap& gap);

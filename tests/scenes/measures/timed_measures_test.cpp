@@ -71,6 +71,29 @@ TEST_CASE("a time that the run does not reach was not measured, which has failed
     CHECK_FALSE(judged.verdicts.at(0).passed);
 }
 
+TEST_CASE("the widest gap of seams is measured at the end, at a time and in every state of a span, and not without a seam") {
+    const std::string sheets =
+        "duration = 0.2\n[step]\ntime_step = 0.01\n[fabric.f]\nsprings = { structural = 100.0 }\n"
+        "[[cloth]]\nname = \"a\"\nfabric = \"f\"\ngrid = { size = [1, 1], vertices = [2, 2] }\n"
+        "[[cloth]]\nname = \"b\"\nfabric = \"f\"\ngrid = { size = [1, 1], vertices = [2, 2] }\n"
+        "pose = { translation = [0, 0.1, 0] }\n";
+    const std::string seam = "[[seam]]\ncloths = [\"a\", \"b\"]\nvertices = [[0, 0], [1, 1]]\nover = 0.1\nstiffness = 1e4\n";
+    const std::string expected =
+        "[[expect]]\nlargest_seam_gap = { below = 0.01 }\n[[expect]]\nat = 0.05\nlargest_seam_gap = { between = [0.04, 0.06] }\n"
+        "[[expect]]\nduring = [0.0, 0.2]\nlargest_seam_gap = { below = 0.05 }\n";
+    const Judged judged = run(sheets + seam + expected);
+    CHECK(judged.verdicts.at(0).passed);
+    CHECK(judged.verdicts.at(0).value == judged.result.measures.largest_seam_gap);
+    CHECK(judged.verdicts.at(1).passed);
+    // At its widest, which is the start.
+    CHECK_FALSE(judged.verdicts.at(2).passed);
+    CHECK(*judged.verdicts.at(2).value == Approx(0.1).epsilon(0.02));
+    for (const ExpectationResult& verdict : run(sheets + expected).verdicts) {
+        CHECK_FALSE(verdict.passed);
+        CHECK_FALSE(verdict.value.has_value());
+    }
+}
+
 TEST_CASE("over a span that is the whole run sums and extremes are those of the run") {
     const std::string measures =
         "intersections = 0\ndeepest_penetration = { below = 1.0 }\nsmallest_distance = { above = 0.0 }\n"

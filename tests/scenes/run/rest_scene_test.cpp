@@ -207,6 +207,10 @@ TEST_CASE("a run that is not at rest at its longest duration fails and says how 
         result.reason.starts_with("not at rest (still for half a second, its forces balanced) after 1 s, the longest that it may "
                                   "take: cloth 'swing' moves fastest, at "));
     CHECK(result.reason.find(" m/s rms; the largest net force on one is ") != std::string::npos);
+    CHECK(result.reason.find("; step.kinetic_damping = true stops what swings") != std::string::npos);
+    const std::string damped = run(scene_of(pendulum(), {{"step.kinetic_damping", "true"}, {"longest", "0.02"}})).result.reason;
+    CHECK(damped.starts_with("not at rest"));
+    CHECK(damped.find("kinetic_damping") == std::string::npos);
 }
 
 TEST_CASE("free fall is its own weight, and without gravity nothing is said of weight") {

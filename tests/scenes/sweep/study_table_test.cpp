@@ -36,9 +36,9 @@ TEST_CASE("a study's tables have a line a run: values, status, measures, expecta
     CHECK(tables.not_as_expected == 1);
     CHECK(tables.csv.starts_with("run,step.scheme,step.time_step,status,intersections,"));
     CHECK(std::count(tables.csv.begin(), tables.csv.end(), '\n') == 5);
-    CHECK(tables.csv.find("\n0,rk4,0.01,finished,,,,0.25,,,,,2,1\n") != std::string::npos);
-    CHECK(tables.csv.find("\n1,rk4,0.005,missing,,,,,,,,,,\n") != std::string::npos);
-    CHECK(tables.csv.find("\n3,symplectic_euler,0.005,failed,,,,4,,,,,0,0\n") != std::string::npos);
+    CHECK(tables.csv.find("\n0,rk4,0.01,finished,,,,0.25,,,,,,2,1\n") != std::string::npos);
+    CHECK(tables.csv.find("\n1,rk4,0.005,missing,,,,,,,,,,,\n") != std::string::npos);
+    CHECK(tables.csv.find("\n3,symplectic_euler,0.005,failed,,,,4,,,,,,0,0\n") != std::string::npos);
     CHECK(tables.csv.find("cpu") == std::string::npos);
     CHECK(tables.costs == "run,steps,cpu_s,wall_s,peak_memory_bytes\n0,10,0.5,,\n3,,,,\n");
     CHECK(tables.svg.find("largest_strain over step.time_step") != std::string::npos);
