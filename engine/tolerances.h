@@ -187,17 +187,14 @@ constexpr int dense_vertices = 30;
 /// twice as often.)
 constexpr float jacobi_damping = 0.7f;
 
-/// Sweeps over contact rows that filter what multigrid hands to coarser levels and back, with rows between cloths that are
-/// stiffer than this many times the cloth. Cost alone: softer rows gain less than the sweeps take.
-constexpr int row_sweeps = 3;
-constexpr double stiff_row_factor = 1.0;
-
-/// What is left of the contact at a vertex without rows between cloths is nothing below this share of it: rounding.
-constexpr double held_rounding = 1e-9;
-
 /// Times that at vertices sewn to points, whose eigenvalues go up to 3. 1: conjugate gradient takes hundreds of iterations where
 /// sewn points are stiffer than the cloth.
 constexpr float sewn_point_easing = 2.0f / 3.0f;
+
+/// Sweeps over contact rows that filter what multigrid hands to coarser levels and back, where rows between cloths are stiffer
+/// than this many times their vertex along all axes together. Cost alone: softer rows gain less than the sweeps take.
+constexpr int row_sweeps = 3;
+constexpr double stiff_row_factor = 1.0;
 
 /// Pairs in a thread's part, and from which the work is shared out. Cost alone.
 constexpr int pair_grain = 512, least_shared_pairs = 2048;

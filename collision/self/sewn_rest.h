@@ -16,7 +16,8 @@ namespace percale {
 class SewnRest {
 public:
     SewnRest() = default;
-    /// `rest`: m, of all vertices. Paths longer than `reach`, m, are left out.
+    /// `rest`: m, of all vertices. Paths longer than `reach`, m, are left out, but for those from a point of an
+    /// edge to its ends.
     SewnRest(const ClothSurface& surface, std::span<const Stitch> stitches, std::span<const Vec3> rest, double reach);
 
     /// m, between two features given by their vertices, three at most; 0 where both are at one knot, infinity where no knot is

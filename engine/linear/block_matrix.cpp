@@ -34,9 +34,10 @@ void gather_contacts(BlockMatrix& matrix) {
     for (const VertexContact& contact : matrix.contacts_by_vertex) matrix.contact_slot[contact.vertex] = -1;
     matrix.contacts_by_vertex.clear();
     for (const CoupledBlock& block : matrix.contacts) {
+        const double factor = bound_factor(block);
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
             const int i = block.vertex[k];
-            const double weight = diagonal_share(block, k);
+            const double weight = factor * std::abs(block.weight[k]);
             if (weight == 0.0 || matrix.free[i] == 0.0) continue;
             int& slot = matrix.contact_slot[i];
             if (slot < 0) {
@@ -72,10 +73,7 @@ bool between_cloths(const CoupledBlock& block) {
     return std::any_of(block.weight.begin(), block.weight.end(), [](double w) { return w < 0.0; });
 }
 
-/// |w_k| sum |w|: with it at each vertex the diagonal is an upper bound of the row.
-double diagonal_share(const CoupledBlock& block, int k) {
-    return (between_cloths(block) ? 2.0 : 1.0) * std::abs(block.weight[k]);
-}
+double bound_factor(const CoupledBlock& block) { return between_cloths(block) ? 2.0 : 1.0; }
 
 std::array<double, 6> inverse_block(const std::array<double, 6>& m) {
     const auto& [xx, xy, xz, yy, yz, zz] = m;

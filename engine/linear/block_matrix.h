@@ -24,8 +24,8 @@ struct VertexContact {
 /// Whether a contact row is between cloths, or parts of one, rather than with an obstacle: some weights are negative.
 bool between_cloths(const CoupledBlock& block);
 
-/// What a contact row adds to VertexContact::k at its vertex number k, as a share of its own K.
-double diagonal_share(const CoupledBlock& block, int k);
+/// sum |weight|: a contact row adds |weight| K at each of its vertices, times this, to VertexContact::k.
+double bound_factor(const CoupledBlock& block);
 
 /// The step matrix A = M - dt Jv - dt^2 Jq, kg. Springs act on differences of vertices by blocks a I + w w^T, held in single
 /// precision: each is then a spring whose stiffness is right to 6e-8, and the matrix is exactly symmetric and, without enclosed

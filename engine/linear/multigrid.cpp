@@ -1,6 +1,7 @@
 #include "multigrid.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tolerances.h"
 
@@ -163,18 +164,22 @@ void Multigrid::find_between(const BlockMatrix& matrix) {
         any_is_stiff = any_is_stiff || trace(block.k) > stiff_row_factor * own;
     }
     if (!any_is_stiff) between_rows_.clear();
-    if (any_is_stiff) change_.resize(3 * padded());
+    if (any_is_stiff) change_.assign(3 * padded(), 0.0f);  // 0 at all that no sweep sets
 }
 
-/// What holds each vertex of BlockMatrix::contacts_by_vertex besides rows between cloths that are taken as they are.
+/// VertexContact::k of each without the rows between cloths that are taken as they are.
 std::vector<std::array<double, 6>> Multigrid::held_alone(const BlockMatrix& matrix) const {
     std::vector<Block> held(matrix.contacts_by_vertex.size());
-    for (std::size_t slot = 0; slot < held.size(); ++slot) held[slot] = matrix.contacts_by_vertex[slot].k;
-    for (const int row : between_rows_) {
-        const CoupledBlock& block = contacts_[row];
+    if (between_rows_.empty()) {
+        std::ranges::transform(matrix.contacts_by_vertex, held.begin(), &VertexContact::k);
+        return held;
+    }
+    for (const CoupledBlock& block : contacts_) {
+        if (between_cloths(block)) continue;
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
             const int slot = matrix.contact_slot[block.vertex[k]];
-            for (int entry = 0; entry < 6 && slot >= 0; ++entry) held[slot][entry] -= diagonal_share(block, k) * block.k[entry];
+            const double weight = bound_factor(block) * std::abs(block.weight[k]);
+            for (int entry = 0; entry < 6 && slot >= 0; ++entry) held[slot][entry] += weight * block.k[entry];
         }
     }
     return held;
@@ -205,9 +210,8 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
                         .filter = to_float(soft),
                         .contact = to_float(held[slot]),
                         .ground = block_product(soft, contact.k)};
-        if (!(trace(held[slot]) > held_rounding * trace(contact.k))) {
+        if (!(trace(held[slot]) > 0.0)) {
             vertex.filter = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
-            vertex.contact = {};
         } else if (held[slot] != contact.k) {
             vertex.filter = to_float(softening(diagonal(contact.vertex), held[slot]));
         }

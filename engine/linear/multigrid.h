@@ -7,6 +7,8 @@
 
 namespace percale {
 
+using FloatVec = std::array<float, 3>;
+
 /// One V-cycle as a preconditioner, in single precision: a sweep of damped block Jacobi before and after each coarse
 /// correction; dense at the bottom. Symmetric and positive definite. Coarser levels take the triangles of membranes as the
 /// springs on their edges alone, which is within a factor of about three.
@@ -19,7 +21,7 @@ namespace percale {
 /// that kind are stiff, the finest level takes all of them, C = W K W^T, as they are, not by diagonal blocks, and another filter
 /// comes after the S of all others: a few sweeps of block Jacobi on them, x -= tau D^-1 C x, with the factors tau for which a
 /// share l that a sweep takes leaves the least energy l F(l)^2 (smoothed aggregation: Vanek, Mandel and Brezina 1996, Computing
-/// 56).
+/// 56). Coarser diagonals keep S K of all rows: without it they let layers go far apart, and stiff ones need more iterations.
 class Multigrid {
 public:
     /// The springs of `pattern` in rest positions (m, one a vertex). Everything given is viewed.
@@ -37,7 +39,7 @@ public:
 
     /// The same in parts, for a caller who makes each pass over the vectors do as much as it can: `begin` for all ranges, once
     /// residual() is there in the range; then `correct`; then `finish` for all ranges, after which correction() is there in the
-    /// range.
+    /// range. Between `correct` and `finish` no product may come.
     void begin(Slices range) { begin(0, range); }
     void correct() { correct(0); }
     void finish(Slices range) { finish(0, range); }
@@ -55,7 +57,6 @@ public:
     int levels() const { return static_cast<int>(levels_.size()); }
 
 private:
-    using FloatVec = std::array<float, 3>;
     struct Level {
         EntryPattern pattern;
         int slices = 0;
@@ -104,10 +105,7 @@ private:
     void begin(int k, Slices range);
     void finish(int k, Slices range);
     void hand_down(int k, Slices range);
-    void sweep_residual();
     void prolong(int k, Slices range);
-    void sweep_change();
-    void set_between_forces(const AlignedVector<float>& x);
     FloatVec add_rows(const Filtered& vertex, int rows, float factor, FloatVec value) const;
     FloatVec by_inverse(int vertex, const FloatVec& u) const;
     void smooth(int k, bool fresh, Slices range);
@@ -120,6 +118,12 @@ private:
     void for_filtered(Slices range, Work work);
     template <class Work>
     void for_between(Work work);
+    // Of the finest level as a whole.
+    template <class RowAt>
+    void set_forces(const AlignedVector<float>& x, std::size_t rows, RowAt row_at);
+    void set_between_forces(const AlignedVector<float>& x);
+    void sweep_residual();
+    void sweep_change();
     void correct(int k);
     void solve_bottom(Level& level);
     static FloatVectors view(const AlignedVector<float>& data, const Level& level);
@@ -137,8 +141,8 @@ private:
     std::vector<RowEnd> row_ends_;
     std::vector<int> between_rows_;    // rows between cloths, if some of them are stiff
     std::vector<int> between_;         // their vertices in filtered_
-    std::vector<FloatVec> row_force_;  // work space of products
-    std::vector<FloatVec> before_;     // work space of prolong
+    std::vector<FloatVec> row_force_;  // work space: of what a row acts on last
+    std::vector<FloatVec> before_;     // x before prolong
     AlignedVector<float> change_;      // of sweeps, sized on first use
     AlignedVector<double> bottom_;
     AlignedVector<float> bottom_inverse_, bottom_x_, bottom_y_;

@@ -9,7 +9,6 @@ namespace percale {
 namespace {
 
 using FloatBlock = std::array<float, 6>;
-using FloatVec = std::array<float, 3>;
 
 FloatVec times(const FloatBlock& m, const FloatVec& u) {
     return {m[0] * u[0] + m[1] * u[1] + m[2] * u[2], m[1] * u[0] + m[3] * u[1] + m[4] * u[2],
@@ -27,7 +26,7 @@ FloatVec difference(const FloatVec& a, const FloatVec& b) { return {a[0] - b[0],
 FloatVec scaled(float factor, const FloatVec& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
 
 /// 1/l with the roots l of the polynomial F(l), F(0) = 1, for which l F(l)^2 is nowhere above 1/(2 n + 1)^2 in 0 ... 1:
-/// T(sqrt l)/((2 n + 1) sqrt l) with the Chebyshev polynomial T of degree 2 n + 1.
+/// up to its sign T(sqrt l)/((2 n + 1) sqrt l) with the Chebyshev polynomial T of degree 2 n + 1.
 std::array<float, row_sweeps> row_sweep_factors() {
     std::array<float, row_sweeps> factors;
     for (int k = 0; k < row_sweeps; ++k) {
@@ -109,16 +108,27 @@ void Multigrid::multiply_level(int k, const AlignedVector<float>& x, const float
     compute_.kernels->multiply_float_corners(corners, pass, range);
 }
 
-void Multigrid::set_row_forces(const AlignedVector<float>& x) {
+/// row_force_ of the rows number row_at(0), row_at(1) ...
+template <class RowAt>
+void Multigrid::set_forces(const AlignedVector<float>& x, std::size_t rows, RowAt row_at) {
     const FloatVectors from = view(x, levels_[0]);
-    const int rows = static_cast<int>(contacts_.size());
-    for_stretches(compute_, rows, row_grain, rows >= least_shared_rows, [&](int first, int last, int) {
-        for (int row = first; row < last; ++row) row_force_[row] = row_force(contacts_[row], from);
+    const int count = static_cast<int>(rows);
+    for_stretches(compute_, count, row_grain, count >= least_shared_rows, [&](int first, int last, int) {
+        for (int k = first; k < last; ++k) row_force_[row_at(k)] = row_force(contacts_[row_at(k)], from);
     });
 }
 
+void Multigrid::set_row_forces(const AlignedVector<float>& x) {
+    set_forces(x, contacts_.size(), [](int k) { return k; });
+}
+
+/// Those of rows between cloths that are taken as they are, alone.
+void Multigrid::set_between_forces(const AlignedVector<float>& x) {
+    set_forces(x, between_rows_.size(), [this](int k) { return between_rows_[k]; });
+}
+
 /// value + factor sum w f over the first rows of a vertex.
-Multigrid::FloatVec Multigrid::add_rows(const Filtered& vertex, int rows, float factor, FloatVec value) const {
+FloatVec Multigrid::add_rows(const Filtered& vertex, int rows, float factor, FloatVec value) const {
     for (int k = vertex.first_row; k < vertex.first_row + rows; ++k) {
         value = sum(value, scaled(factor * row_ends_[k].weight, row_force_[row_ends_[k].row]));
     }
@@ -126,20 +136,11 @@ Multigrid::FloatVec Multigrid::add_rows(const Filtered& vertex, int rows, float 
 }
 
 /// D^-1 u at a vertex of the finest level.
-Multigrid::FloatVec Multigrid::by_inverse(int vertex, const FloatVec& u) const {
+FloatVec Multigrid::by_inverse(int vertex, const FloatVec& u) const {
     const Level& level = levels_[0];
     FloatBlock inverse;
     for (std::size_t entry = 0; entry < inverse.size(); ++entry) inverse[entry] = level.inverse[entry * level.padded + vertex];
     return times(inverse, u);
-}
-
-/// The same for rows between cloths that are taken as they are, alone.
-void Multigrid::set_between_forces(const AlignedVector<float>& x) {
-    const FloatVectors from = view(x, levels_[0]);
-    const int rows = static_cast<int>(between_rows_.size());
-    for_stretches(compute_, rows, row_grain, rows >= least_shared_rows, [&](int first, int last, int) {
-        for (int k = first; k < last; ++k) row_force_[between_rows_[k]] = row_force(contacts_[between_rows_[k]], from);
-    });
 }
 
 void Multigrid::product(const AlignedVector<float>& x, AlignedVector<float>& y, Slices range) {

@@ -97,8 +97,9 @@ const FieldTable<Expectation>& when_table() {
                     &Expectation::at),
                 value_field<Expectation>(
                     {.path = "during",
-                     .sentence = "From when to when it is looked at: sums and extremes are those of these states, and "
-                                 "what a run has at its end (speeds, heights, `matches`) must hold in each of them.",
+                     .sentence =
+                         "From when to when it is looked at: sums and extremes are those of these states, and "
+                         "what a run has at its end (speeds, heights, gaps of seams, `matches`) must hold in each of them.",
                      .unit = "s",
                      .lowest = 0.0,
                      .highest = longest},

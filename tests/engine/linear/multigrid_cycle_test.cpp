@@ -65,16 +65,18 @@ TEST_CASE("Rows that share vertices act on each as the exact matrix says") {
 }
 
 TEST_CASE("Cycles, products and solves have the same bits for any number of threads", "[slow]") {
+    const bool itself = GENERATE(false, true);
     SheetSystem sheet(6, 97, 0.2);
     sheet.pin_share(0.02);
     touch_by_rows(sheet, 1500);
+    if (itself) sheet.touch_itself(1500, 3.0);
     const Vectors r = sheet.random_vector();
     const Cycled alone = cycled(sheet, compute, r);
     CHECK(alone.iterations > 5);
     for (const int threads : {2, 3, 6}) {
         ThreadPool pool(threads);
         const Cycled shared = cycled(sheet, {.workers = &pool}, r);
-        CAPTURE(threads);
+        CAPTURE(threads, itself);
         CHECK(shared.correction == alone.correction);
         CHECK(shared.product == alone.product);
         CHECK(shared.iterations == alone.iterations);

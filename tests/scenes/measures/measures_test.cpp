@@ -193,8 +193,10 @@ TEST_CASE("the distance from a reference is that of the farthest vertex, in orde
     CHECK(largest_vertex_distance(sheet.simulation, sheet.cloths, reference) == Approx(1.0));
 }
 
-TEST_CASE("every measure that a scene may expect has a value, matches only with a reference") {
+TEST_CASE("every measure that a scene may expect has a value, matches only with a reference, gaps only with seams") {
     Measures measures;
+    CHECK(measure_values(measures).count("largest_seam_gap") == 0);
+    measures.largest_seam_gap = 0.1;
     for (const MeasureDescription& description : measure_descriptions()) {
         INFO(description.name);
         CHECK(measure_values(measures).count(description.name) == 1);

@@ -84,6 +84,24 @@ struct SheetSystem {
         contacts.push_back(block);
     }
 
+    /// Contacts between parts of the cloth, each of one vertex and three others somewhere, along random directions.
+    void touch_itself(int rows, double factor) {
+        for (int row = 0; row < rows; ++row) {
+            const Vec3 n = random.unit();
+            const auto any = [&] { return random.index(count()); };
+            CoupledBlock block{
+                .vertex = {any(), any(), any(), any()}, .weight = {1.0, -0.5, -0.3, row % 7 == 0 ? 0.0 : -0.2}, .k = {}};
+            const int i = block.vertex[0];
+            const double size = matrix.diagonal[0][i] + matrix.diagonal[3][i] + matrix.diagonal[5][i];
+            int entry = 0;
+            for (int a = 0; a < 3; ++a) {
+                for (int b = a; b < 3; ++b) block.k[entry++] = factor * size * n[a] * n[b];
+            }
+            contacts.push_back(block);
+        }
+        fill();
+    }
+
     Vectors zeros() const {
         Vectors x;
         x.resize(count());
