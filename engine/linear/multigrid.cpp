@@ -168,21 +168,20 @@ void Multigrid::find_between(const BlockMatrix& matrix) {
 }
 
 /// VertexContact::k of each without the rows between cloths that are taken as they are.
-std::vector<std::array<double, 6>> Multigrid::held_alone(const BlockMatrix& matrix) const {
-    std::vector<Block> held(matrix.contacts_by_vertex.size());
+void Multigrid::set_held_alone(const BlockMatrix& matrix) {
+    held_.assign(matrix.contacts_by_vertex.size(), {});
     if (between_rows_.empty()) {
-        std::ranges::transform(matrix.contacts_by_vertex, held.begin(), &VertexContact::k);
-        return held;
+        std::ranges::transform(matrix.contacts_by_vertex, held_.begin(), &VertexContact::k);
+        return;
     }
     for (const CoupledBlock& block : contacts_) {
         if (between_cloths(block)) continue;
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
             const int slot = matrix.contact_slot[block.vertex[k]];
             const double weight = bound_factor(block) * std::abs(block.weight[k]);
-            for (int entry = 0; entry < 6 && slot >= 0; ++entry) held[slot][entry] += weight * block.k[entry];
+            for (int entry = 0; entry < 6 && slot >= 0; ++entry) held_[slot][entry] += weight * block.k[entry];
         }
     }
-    return held;
 }
 
 void Multigrid::set_filters(const BlockMatrix& matrix) {
@@ -200,7 +199,7 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
         filtered_.push_back({.vertex = i, .filter = {}, .contact = {}, .ground = ground});
     }
     prescribed_ = static_cast<int>(filtered_.size());
-    const std::vector<Block> held = held_alone(matrix);
+    set_held_alone(matrix);
     for (std::size_t slot = 0; slot < filter_of_slot_.size(); ++slot) {
         const VertexContact& contact = matrix.contacts_by_vertex[slot];
         if (!(trace(contact.k) > 0.0)) continue;
@@ -208,12 +207,12 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
         const Block soft = softening(diagonal(contact.vertex), contact.k);
         Filtered vertex{.vertex = contact.vertex,
                         .filter = to_float(soft),
-                        .contact = to_float(held[slot]),
+                        .contact = to_float(held_[slot]),
                         .ground = block_product(soft, contact.k)};
-        if (!(trace(held[slot]) > 0.0)) {
+        if (!(trace(held_[slot]) > 0.0)) {
             vertex.filter = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
-        } else if (held[slot] != contact.k) {
-            vertex.filter = to_float(softening(diagonal(contact.vertex), held[slot]));
+        } else if (held_[slot] != contact.k) {
+            vertex.filter = to_float(softening(diagonal(contact.vertex), held_[slot]));
         }
         filtered_.push_back(vertex);
     }
@@ -231,11 +230,11 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
 /// they are come first.
 void Multigrid::set_contact_rows(const BlockMatrix& matrix) {
     row_force_.resize(contacts_.size());
-    std::vector<char> between(contacts_.size(), 0);
-    for (const int row : between_rows_) between[row] = 1;
+    is_between_.assign(contacts_.size(), 0);
+    for (const int row : between_rows_) is_between_[row] = 1;
     const auto for_ends = [&](bool of_between, auto work) {
         for (std::size_t row = 0; row < contacts_.size(); ++row) {
-            if ((between[row] == 1) != of_between) continue;
+            if ((is_between_[row] == 1) != of_between) continue;
             const CoupledBlock& block = contacts_[row];
             for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
                 const int slot = matrix.contact_slot[block.vertex[k]];

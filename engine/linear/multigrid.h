@@ -92,7 +92,7 @@ private:
     void ease(Level& level) const;
     Level sized_level(EntryPattern pattern, int slices) const;
     void find_between(const BlockMatrix& matrix);
-    std::vector<std::array<double, 6>> held_alone(const BlockMatrix& matrix) const;
+    void set_held_alone(const BlockMatrix& matrix);
     void set_filters(const BlockMatrix& matrix);
     void set_contact_rows(const BlockMatrix& matrix);
     void expand_blocks(const SpringTerms& springs);
@@ -139,11 +139,13 @@ private:
     std::vector<int> by_vertex_, filter_of_slot_;  // of filtered_: ascending by vertex; of BlockMatrix::contacts_by_vertex
     int prescribed_ = 0;
     std::vector<RowEnd> row_ends_;
-    std::vector<int> between_rows_;    // rows between cloths, if some of them are stiff
-    std::vector<int> between_;         // their vertices in filtered_
-    std::vector<FloatVec> row_force_;  // work space: of what a row acts on last
-    std::vector<FloatVec> before_;     // x before prolong
-    AlignedVector<float> change_;      // of sweeps, sized on first use
+    std::vector<std::array<double, 6>> held_;  // work space of set_filters
+    std::vector<char> is_between_;             // work space of set_contact_rows
+    std::vector<int> between_rows_;            // rows between cloths, if some of them are stiff
+    std::vector<int> between_;                 // their vertices in filtered_
+    std::vector<FloatVec> row_force_;          // work space: of what a row acts on last
+    std::vector<FloatVec> before_;             // x before prolong
+    AlignedVector<float> change_;              // of sweeps, sized on first use
     AlignedVector<double> bottom_;
     AlignedVector<float> bottom_inverse_, bottom_x_, bottom_y_;
     int bottom_size_ = 0, bottom_stride_ = 0;
