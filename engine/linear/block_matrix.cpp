@@ -30,6 +30,9 @@ CornerProduct corner_product(const BlockMatrix& matrix, const SpringTerms& sprin
     return {matrix.pattern->membrane.corners(), springs.corners.data()};
 }
 
+/// sum |weight|: the factor that makes |w_k| K at each vertex an upper bound of the row.
+double bound_factor(const CoupledBlock& block) { return between_cloths(block) ? 2.0 : 1.0; }
+
 void gather_contacts(BlockMatrix& matrix) {
     for (const VertexContact& contact : matrix.contacts_by_vertex) matrix.contact_slot[contact.vertex] = -1;
     matrix.contacts_by_vertex.clear();
@@ -72,8 +75,6 @@ void invert_with_contacts(BlockMatrix& matrix) {
 bool between_cloths(const CoupledBlock& block) {
     return std::any_of(block.weight.begin(), block.weight.end(), [](double w) { return w < 0.0; });
 }
-
-double bound_factor(const CoupledBlock& block) { return between_cloths(block) ? 2.0 : 1.0; }
 
 std::array<double, 6> inverse_block(const std::array<double, 6>& m) {
     const auto& [xx, xy, xz, yy, yz, zz] = m;

@@ -24,9 +24,6 @@ struct VertexContact {
 /// Whether a contact row is between cloths, or parts of one, rather than with an obstacle: some weights are negative.
 bool between_cloths(const CoupledBlock& block);
 
-/// sum |weight|: a contact row adds |weight| K at each of its vertices, times this, to VertexContact::k.
-double bound_factor(const CoupledBlock& block);
-
 /// The step matrix A = M - dt Jv - dt^2 Jq, kg. Springs act on differences of vertices by blocks a I + w w^T, held in single
 /// precision: each is then a spring whose stiffness is right to 6e-8, and the matrix is exactly symmetric and, without enclosed
 /// blocks, positive definite. What couples the edges of a membrane's triangle comes in addition, corner by corner

@@ -150,7 +150,7 @@ void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {
     if (bottom_size_ > 0) fill_bottom();
 }
 
-/// Rows between cloths, if some of them are stiffer than the cloth.
+/// Rows between cloths, if some of them are stiffer than their vertex.
 void Multigrid::find_between(const BlockMatrix& matrix) {
     between_rows_.clear();
     if (levels() == 1) return;
@@ -178,7 +178,7 @@ void Multigrid::set_held_alone(const BlockMatrix& matrix) {
         if (between_cloths(block)) continue;
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
             const int slot = matrix.contact_slot[block.vertex[k]];
-            const double weight = bound_factor(block) * std::abs(block.weight[k]);
+            const double weight = std::abs(block.weight[k]);
             for (int entry = 0; entry < 6 && slot >= 0; ++entry) held_[slot][entry] += weight * block.k[entry];
         }
     }
@@ -230,12 +230,10 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
 /// they are come first.
 void Multigrid::set_contact_rows(const BlockMatrix& matrix) {
     row_force_.resize(contacts_.size());
-    is_between_.assign(contacts_.size(), 0);
-    for (const int row : between_rows_) is_between_[row] = 1;
     const auto for_ends = [&](bool of_between, auto work) {
         for (std::size_t row = 0; row < contacts_.size(); ++row) {
-            if ((is_between_[row] == 1) != of_between) continue;
             const CoupledBlock& block = contacts_[row];
+            if ((!between_rows_.empty() && between_cloths(block)) != of_between) continue;
             for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
                 const int slot = matrix.contact_slot[block.vertex[k]];
                 if (slot < 0 || filter_of_slot_[slot] < 0 || block.weight[k] == 0.0) continue;

@@ -140,7 +140,6 @@ private:
     int prescribed_ = 0;
     std::vector<RowEnd> row_ends_;
     std::vector<std::array<double, 6>> held_;  // work space of set_filters
-    std::vector<char> is_between_;             // work space of set_contact_rows
     std::vector<int> between_rows_;            // rows between cloths, if some of them are stiff
     std::vector<int> between_;                 // their vertices in filtered_
     std::vector<FloatVec> row_force_;          // work space: of what a row acts on last

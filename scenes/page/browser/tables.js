@@ -23,9 +23,9 @@ function folded(title, content, open) { return make('details', { open: Boolean(o
 const breakable = text => String(text).split(/(?<=[_.])/).flatMap((part, i) => i > 0 ? [make('wbr'), part] : [part]);
 
 // Units of what [expect] judges.
-const measureUnits = { deepest_penetration: metres, smallest_distance: metres, lowest_vertex: metres, largest_seam_gap: metres, matches: metres,
-  largest_strain: percent, speed_at_end: value => withUnit(value, 'm/s'), rms_speed_at_end: value => withUnit(value, 'm/s'),
-  energy_gain: value => withUnit(value, 'J') };
+const measureUnits = { deepest_penetration: metres, smallest_distance: metres, lowest_vertex: metres, matches: metres,
+  largest_seam_gap: metres, largest_strain: percent, speed_at_end: value => withUnit(value, 'm/s'),
+  rms_speed_at_end: value => withUnit(value, 'm/s'), energy_gain: value => withUnit(value, 'J') };
 
 const measureText = (name, value) => (measureUnits[name] || (number => digits(number, 4)))(value);
 

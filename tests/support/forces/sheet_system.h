@@ -55,6 +55,16 @@ struct SheetSystem {
         fill();
     }
 
+    /// stiffness n n^T
+    static SymmetricBlock along(const Vec3& n, double stiffness) {
+        SymmetricBlock block;
+        int entry = 0;
+        for (int a = 0; a < 3; ++a) {
+            for (int b = a; b < 3; ++b) block[entry++] = stiffness * n[a] * n[b];
+        }
+        return block;
+    }
+
     /// Contacts along random directions, stiffer than the vertex's own block by a random factor.
     void touch_share(double share, double least_factor, double most_factor) {
         for (int i = 0; i < count(); ++i) {
@@ -63,10 +73,7 @@ struct SheetSystem {
             const double stiffness = random.decades(least_factor, most_factor) * size / 3.0;
             const Vec3 n = random.unit();
             CoupledBlock block{.vertex = {i, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
-            int entry = 0;
-            for (int a = 0; a < 3; ++a) {
-                for (int b = a; b < 3; ++b) block.k[entry++] = stiffness * n[a] * n[b];
-            }
+            block.k = along(n, stiffness);
             contacts.push_back(block);
         }
         fill();
@@ -93,10 +100,7 @@ struct SheetSystem {
                 .vertex = {any(), any(), any(), any()}, .weight = {1.0, -0.5, -0.3, row % 7 == 0 ? 0.0 : -0.2}, .k = {}};
             const int i = block.vertex[0];
             const double size = matrix.diagonal[0][i] + matrix.diagonal[3][i] + matrix.diagonal[5][i];
-            int entry = 0;
-            for (int a = 0; a < 3; ++a) {
-                for (int b = a; b < 3; ++b) block.k[entry++] = factor * size * n[a] * n[b];
-            }
+            block.k = along(n, factor * size);
             contacts.push_back(block);
         }
         fill();
