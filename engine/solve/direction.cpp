@@ -49,43 +49,17 @@ void fill_system(const StageEquations& equations, const ForeseenRows* foreseen) 
     add_obstacle_advance(point.rows, point.contact, rate, stage.scene.script.free, space.right_side);
 }
 
-/// Whether a body that is solved for is held by nothing.
-bool drifts(const StepScene& scene, const BodyStates& states, std::size_t number) {
-    if (states.settled(number)) return false;
-    const Body& body = scene.model.bodies[number];
-    for (int i = body.first; i < body.first + body.count; ++i) {
-        if (!scene.is_free(i)) return false;
-    }
-    return true;
-}
-
-/// Springs do not resist a translation, so the one left over by an unfinished linear solve is known exactly: with it, a cloth
-/// that nothing holds keeps its momentum whatever the tolerance.
-void correct_translation(const StepScene& scene, const BodyStates& states, const Vectors& residual, Vectors& direction) {
-    for (std::size_t number = 0; number < scene.model.bodies.size(); ++number) {
-        if (!drifts(scene, states, number)) continue;
-        const Body& body = scene.model.bodies[number];
-        Vec3 missing = Vec3::Zero();
-        for (int i = body.first; i < body.first + body.count; ++i) {
-            missing -= residual.at(i) + scene.model.mass[i] * direction.at(i);
-        }
-        for (int i = body.first; i < body.first + body.count; ++i) direction.add(i, missing / body.mass);
-    }
-}
-
-/// With contact it is not known, and stiff rows hide it from the energy: what is left of it is bounded, by a share of the
-/// momentum that the right side or gravity gives, or that moves it by no more than means nothing (change_is_small).
+/// Where it is not known how a body moves as a whole, stiff rows hide that from the energy: what is left of it is bounded, by a
+/// share of the momentum that the right side or gravity gives, or that moves it by no more than means nothing (change_is_small).
 void set_net_limits(const StepScene& scene, double dt, NewtonSpace& space) {
     space.net_limits.clear();
-    for (std::size_t number = 0; number < scene.model.bodies.size(); ++number) {
-        if (!drifts(scene, space.bodies, number)) continue;
-        const Body& body = scene.model.bodies[number];
+    space.translations.for_each_open(scene.model, [&](const Body& body) {
         Vec3 sum = Vec3::Zero();
         for (int i = body.first; i < body.first + body.count; ++i) sum += space.right_side.at(i);
         const double negligible = contact_accuracy * scene.model.thickness[body.first] / dt;  // m/s
         const double given = std::max(sum.norm(), body.mass * std::max(dt * scene.settings.gravity.norm(), negligible));
         space.net_limits.push_back({body.first, body.count, net_momentum_share * given});
-    }
+    });
 }
 
 }  // namespace
@@ -101,17 +75,15 @@ Direction newton_direction(const StageEquations& equations, const SolveTarget& t
     }
     fill_system(equations, foreseen);
     StageTimer timer(equations.times().solve);
-    const bool springs_alone = !stage.scene.plan.wind && point.rows.size() == 0 && !foreseen;
+    const ClothModel& model = stage.scene.model;
+    space.translations.find(stage.scene, space.bodies, foreseen ? foreseen->blocks : point.contact.blocks);
+    // As the start, too: what is left to solve for, and to be exact about, is how the cloth deforms.
+    space.translations.correct(model, point.residual, space.direction);
+    set_net_limits(stage.scene, stage.base.h, space);
     SolveTarget wanted = target;
-    if (springs_alone) {
-        // As the start, too: what is left to solve for, and to be exact about, is how the cloth deforms.
-        correct_translation(stage.scene, space.bodies, point.residual, space.direction);
-    } else {
-        set_net_limits(stage.scene, stage.base.h, space);
-        wanted.net = space.net_limits;
-    }
+    wanted.net = space.net_limits;
     const SolveReport solved = space.solver.solve(space.right_side, wanted, space.direction);
-    if (springs_alone) correct_translation(stage.scene, space.bodies, point.residual, space.direction);
+    space.translations.correct(model, point.residual, space.direction);
     return {solved.iterations, solved.converged};
 }
 

@@ -15,6 +15,7 @@
 #include "plan/scene.h"
 #include "schemes/stage_base.h"
 #include "support/deadline.h"
+#include "translations.h"
 
 namespace percale {
 
@@ -71,6 +72,7 @@ struct NewtonSpace {
     FrictionStart friction;
     Vectors direction, right_side;
     Vectors first_direction;                                // m/s, before rows were foreseen
+    Translations translations;                              // of the last direction
     std::vector<NetLimit> net_limits;                       // of the last direction
     BodyStates bodies;                                      // in the rounds of find_motion
     PatchSpace patches;                                     // of the last iteration that looked for some

@@ -17,13 +17,13 @@ struct Tableau {
     std::span<const double> weights, ahead;
 };
 
-constexpr double one[] = {1.0}, midpoint_weights[] = {0.0, 1.0}, midpoint_ahead[] = {0.5};
+constexpr double euler_weights[] = {1.0}, midpoint_weights[] = {0.0, 1.0}, midpoint_ahead[] = {0.5};
 constexpr double rk4_weights[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}, rk4_ahead[] = {0.5, 0.5, 1.0};
 
 Tableau tableau_of(Scheme scheme) {
     if (scheme == Scheme::rk4) return {rk4_weights, rk4_ahead};
     if (scheme == Scheme::midpoint) return {midpoint_weights, midpoint_ahead};
-    return {one, {}};
+    return {euler_weights, {}};
 }
 
 /// sum w . (M (v - v_n) - dt sum b_i f_i), J, over free and over prescribed vertices, and what velocities lost.

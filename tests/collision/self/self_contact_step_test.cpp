@@ -116,7 +116,7 @@ TEST_CASE("A sheet split along a line, its halves side by side at rest, falls on
 }
 
 TEST_CASE("Sheets that meet in free space keep their momentum and do not pass each other") {
-    Simulation simulation({.newton_tolerance = 1e-8, .gravity = Vec3::Zero()}, make_brute_force_detector());
+    Simulation simulation({.gravity = Vec3::Zero()}, make_brute_force_detector());
     const TriangleMesh sheet = make_grid(0.2, 0.2, 7, 7);
     const Pose turned{.translation = {0.01, 0.03, 0.02}, .rotation = {std::cos(0.3), 0.0, std::sin(0.3), 0.0}};
     const ClothId first = simulation.add_cloth(sheet, fabric_with(0.3), {}, "first");
@@ -135,7 +135,7 @@ TEST_CASE("Sheets that meet in free space keep their momentum and do not pass ea
         const StepReport report = simulation.step();
         REQUIRE(report.ok());
         contacts += report.contacts;
-        CHECK((momentum() - start).norm() < 1e-5 * start.norm());
+        CHECK((momentum() - start).norm() < 1e-12 * start.norm());  // though what deforms them is solved for to percents
     }
     CHECK(contacts > 0);
     CHECK(mean(simulation.velocities(first)).y() < -0.1);

@@ -1,0 +1,107 @@
+#include "engine/solve/translations.h"
+
+#include "tests/support/catch.h"
+#include "tests/support/cloth_scenes.h"
+
+namespace percale::test {
+namespace {
+
+/// Bodies of two masses each, of 1 and 2, 3 and 4 kg and so on, and a residual.
+struct Bodies {
+    static constexpr int count = 4;
+    SolverScene scene;
+    BodyStates states;
+    Vectors residual, direction;
+    Translations translations;
+
+    Bodies() {
+        std::vector<double> mass;
+        std::vector<Link> links;
+        for (int b = 0; b < count; ++b) {
+            mass.insert(mass.end(), {2.0 * b + 1.0, 2.0 * b + 2.0});
+            links.push_back({2 * b, 2 * b + 1, 1.0, 10.0, 0.0});
+        }
+        ClothModel model = linked_masses(mass, links);
+        model.cloths.clear();
+        for (int b = 0; b < count; ++b)
+            model.cloths.push_back({.name = "pair", .first = 2 * b, .count = 2, .mass = 4.0 * b + 3.0});
+        finish_model(model);
+        Random random(3);
+        scene = solver_scene(std::move(model), random_points(random, 2 * count, 1.0), {});
+        states.start(scene.model);
+        residual = to_vectors(random_points(random, 2 * count, 1.0));
+        direction = to_vectors(random_points(random, 2 * count, 1.0));
+    }
+
+    static CoupledBlock against_obstacle(int vertex) { return {{vertex, -1, -1, -1}, {1, 0, 0, 0}, {}}; }
+    static CoupledBlock between(int first, int second) { return {{first, second, -1, -1}, {1, -1, 0, 0}, {}}; }
+
+    std::vector<int> open(const std::vector<CoupledBlock>& blocks) {
+        translations.find(scene, states, blocks);
+        std::vector<int> found;
+        translations.for_each_open(scene.model, [&](const Body& body) { found.push_back(body.first / 2); });
+        return found;
+    }
+
+    /// sum m dv + sum r over some bodies.
+    Vec3 missing(const std::vector<int>& bodies) const {
+        Vec3 sum = Vec3::Zero();
+        for (const int b : bodies) {
+            for (const int i : {2 * b, 2 * b + 1}) sum += scene.model.mass[i] * direction.at(i) + residual.at(i);
+        }
+        return sum;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("The translation of what touches nothing, or only itself, is known") {
+    Bodies bodies;
+    CHECK(bodies.open({}).empty());
+    CHECK(bodies.open({Bodies::between(0, 1), Bodies::between(7, 6)}).empty());
+    CHECK(bodies.missing({2}).norm() > 0.1);
+    bodies.translations.correct(bodies.scene.model, bodies.residual, bodies.direction);
+    for (int b = 0; b < Bodies::count; ++b) CHECK(bodies.missing({b}).norm() < 1e-12);
+}
+
+TEST_CASE("Of bodies that touch each other the common translation is known, in whatever order they are found") {
+    Bodies bodies;
+    CHECK(bodies.open({Bodies::between(6, 3), Bodies::between(4, 7)}) == std::vector{1, 2, 3});
+    const Vec3 relative = bodies.direction.at(2) - bodies.direction.at(7);
+    bodies.translations.correct(bodies.scene.model, bodies.residual, bodies.direction);
+    CHECK(bodies.missing({0}).norm() < 1e-12);
+    CHECK(bodies.missing({1, 2, 3}).norm() < 1e-12);
+    CHECK(bodies.missing({1}).norm() > 0.1);
+    CHECK((bodies.direction.at(2) - bodies.direction.at(7) - relative).norm() < 1e-12);
+}
+
+TEST_CASE("An obstacle holds what touches it and what touches that") {
+    Bodies bodies;
+    CHECK(bodies.open({Bodies::between(2, 5), Bodies::against_obstacle(4)}) == std::vector{1, 2});
+    CHECK(bodies.open({Bodies::against_obstacle(4), Bodies::between(2, 5)}) == std::vector{1, 2});
+    const Vectors before = bodies.direction;
+    bodies.translations.correct(bodies.scene.model, bodies.residual, bodies.direction);
+    for (const int i : {2, 3, 4, 5}) CHECK(bodies.direction.at(i) == before.at(i));
+    CHECK(bodies.missing({0}).norm() < 1e-12);
+    CHECK(bodies.missing({3}).norm() < 1e-12);
+}
+
+TEST_CASE("What is pinned or settled moves by its own equations, and holds what touches it") {
+    Bodies bodies;
+    bodies.scene.pin(0);
+    bodies.states.mark(bodies.scene.model, [](const Body& body) { return body.first == 2; });
+    bodies.states.settle_small();
+    CHECK(bodies.open({}).empty());
+    CHECK(bodies.open({Bodies::between(1, 4), Bodies::between(3, 6)}) == std::vector{2, 3});
+    const Vectors before = bodies.direction;
+    bodies.translations.correct(bodies.scene.model, bodies.residual, bodies.direction);
+    CHECK(same_bits(bodies.direction, before));
+}
+
+TEST_CASE("In wind no translation is known") {
+    Bodies bodies;
+    bodies.scene.plan.wind = true;
+    CHECK(bodies.open({}) == std::vector{0, 1, 2, 3});
+}
+
+}  // namespace percale::test
