@@ -310,7 +310,7 @@ struct SewnAroundSheet {
 
 }  // namespace
 
-TEST_CASE("A seam that is sewn without contact closes around a lower layer, and not upon what stands out of it") {
+TEST_CASE("A seam that is sewn without contact closes around a lower layer, and not upon what stands out of it", "[slow]") {
     SewnAroundSheet same(0), outside(1);
     CHECK(same.simulation.meets(same.sheet, same.cover));
     CHECK_FALSE(outside.simulation.meets(outside.sheet, outside.cover));

@@ -187,7 +187,7 @@ TEST_CASE("cloth that moves as a whole or apart is not cut, cloth that is not sa
     CHECK(rows.size() == 0);
 }
 
-TEST_CASE("threads change no bit of rows, distances and cuts between cloths") {
+TEST_CASE("threads change no bit of rows, distances and cuts between cloths", "[slow]") {
     Random random(41);
     const Cloths cloths = sheet_stack(3, 25, 0.06, 0.03, random);
     const auto workers = make_workers(3);
