@@ -84,7 +84,7 @@ TEST_CASE("no text says that a distance is inf") {
     CHECK(report_in(folder, "out").at("smallest_distance").is_null());
 }
 
-TEST_CASE("a run in which cloth would have torn says so, and whose pins stay behind a body") {
+TEST_CASE("a run in which cloth would have torn says so, and whose pins stay behind a body", "[slow]") {
     const TestFolder folder;
     const std::string scene =
         "duration = 0.5\ngravity = [0, 0, 0]\n[fabric.f]\nsprings = { structural = 5, bend = 0.01 }\n"

@@ -35,9 +35,9 @@ public:
     StartedRun(const StartedRun&) = delete;
     StartedRun& operator=(const StartedRun&) = delete;
 
-    /// Waits, ten seconds at most, until the file is there.
+    /// Waits, two minutes at most, until the file is there: the program may be one under sanitizers, on a busy machine.
     void wait_for(const TestFolder& folder, const std::string& file) const {
-        for (int i = 0; i < 10000 && !folder.holds(file); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        for (int i = 0; i < 120000 && !folder.holds(file); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     void send(int signal) const { kill(child_, signal); }
     /// Sends the signal; returns the exit code, or -1 where the signal ended the program.
