@@ -102,27 +102,10 @@ stage_engine_only() {
 }
 
 # Sources of collision and scenes, each read by clang++ without the others of its batch, and the programs that measure, which nothing
-# else builds; nothing is compiled. Eigen, which nearly all of them read through percale/mesh.h, is read once.
+# else builds; nothing is compiled. Where one reads Eigen, mostly through percale/mesh.h, Eigen has been read before.
 stage_alone() {
     configure build/ci-alone -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF
-    python3 - build/ci-alone/compile_commands.json "$root" <<'PYTHON' | xargs -0 -P "$jobs" -n 1 bash -c
-import json, re, shlex, subprocess, sys
-precompiled = {}
-def with_eigen(words):
-    """The command with Eigen precompiled by the flags it has."""
-    flags = tuple(word for word in words[1:] if re.match('-[Ofmsg]|-std', word))
-    if flags not in precompiled:
-        precompiled[flags] = f'{sys.argv[2]}/build/ci-alone/eigen-{len(precompiled)}.pch'
-        subprocess.run([words[0], *flags, '-isystem', '/usr/include/eigen3', '-x', 'c++-header', '-', '-o', precompiled[flags]],
-                       input='#include <Eigen/Core>\n#include <Eigen/Geometry>\n', text=True, check=True)
-    return [words[0], '-include-pch', precompiled[flags], *words[1:]]
-for entry in json.load(open(sys.argv[1])):
-    if re.match(re.escape(sys.argv[2]) + '/(collision|scenes|tests/bench)/', entry['file']):
-        words = with_eigen(shlex.split(entry['command']))
-        output = words.index('-o')
-        words[output:output + 2] = ['-fsyntax-only']
-        print('cd ' + shlex.quote(entry['directory']) + ' && ' + shlex.join(words), end='\0')
-PYTHON
+    python3 .ci/read_alone.py "$root" build/ci-alone | xargs -0 -P "$jobs" -n 1 bash -c
 }
 
 # build_sanitizers TARGET...: clang++, address and undefined-behaviour sanitizers.

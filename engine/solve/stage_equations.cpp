@@ -126,7 +126,13 @@ void StageEquations::evaluate(StagePoint& point) {
                      .with_matrix = true},
                     point.forces);
     if (stage_.wind && stage_.wind->blows) set_vertex_blocks(point.forces.wind.blocks, point.contact);
-    if (scene.plan.contacts) add_contact(point);
+    if (scene.plan.contacts) {
+        add_contact(point);
+    } else {  // what a scene that had contact left
+        point.rows.clear();
+        point.row_forces.clear();
+        point.contact.clear();
+    }
     set_residual(point);
 }
 

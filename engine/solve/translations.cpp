@@ -1,7 +1,8 @@
 #include "translations.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "linear/block_matrix.h"
 
 namespace percale {
 namespace {
@@ -16,60 +17,66 @@ bool drifts(const StepScene& scene, const BodyStates& states, std::size_t number
     return true;
 }
 
-/// Weights sum to 1 against an obstacle and to 0 between cloths.
-bool is_between_cloths(const CoupledBlock& block) {
-    return std::abs(std::accumulate(block.weight.begin(), block.weight.end(), 0.0)) < 0.5;
-}
-
 }  // namespace
 
-void Translations::find(const StepScene& scene, const BodyStates& states, const std::vector<CoupledBlock>& blocks) {
+void Translations::find(const StepScene& scene, const BodyStates& states, std::span<const CoupledBlock> blocks) {
     const std::vector<Body>& bodies = scene.model.bodies;
+    const int count = static_cast<int>(bodies.size());
     group_.resize(bodies.size());
     known_ = 0;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-        group_[b] = !drifts(scene, states, b) ? held : scene.plan.wind ? touching : static_cast<int>(b);
+    for (int b = 0; b < count; ++b) {
+        group_[b] = !drifts(scene, states, b) ? held : scene.plan.wind ? resisted : b;
         known_ += group_[b] >= 0;
     }
     for (const CoupledBlock& block : blocks) {
-        if (known_ == 0) return;
+        if (known_ == 0) break;
         const int first = body_of(bodies, block.vertex[0]);
-        if (!is_between_cloths(block)) join(first, -1);
+        if (!between_cloths(block)) resist(first);
         for (int k = 1; k < 4 && block.vertex[k] >= 0; ++k) join(first, body_of(bodies, block.vertex[k]));
     }
+    members_.assign(bodies.size(), 0);
+    for (const int group : group_) {
+        if (group >= 0) ++members_[group];
+    }
 }
 
-/// These two, or one and what is held (-1), touch each other: so do their groups.
+/// Something resists the translation of a body, and so that of its group.
+void Translations::resist(int body) {
+    if (group_[body] >= 0) replace(group_[body], resisted);
+}
+
+/// Two bodies touch each other.
 void Translations::join(int first, int second) {
-    const int a = group_[first], b = second < 0 ? held : group_[second];
+    const int a = group_[first], b = group_[second];
     if (a == b) return;
-    const int together = a >= 0 && b >= 0 ? std::min(a, b) : touching;
-    for (int& group : group_) {
-        if (group < 0 || (group != a && group != b)) continue;
-        group = together;
-        known_ -= together < 0;
+    if (a >= 0 && b >= 0) return replace(std::max(a, b), std::min(a, b));
+    resist(first);
+    resist(second);
+}
+
+void Translations::replace(int group, int by) {
+    for (int& of : group_) {
+        if (of != group) continue;
+        of = by;
+        known_ -= by < 0;
     }
 }
 
-bool Translations::shared(std::size_t body) const { return std::count(group_.begin(), group_.end(), group_[body]) > 1; }
-
-void Translations::correct(const ClothModel& model, const Vectors& residual, Vectors& direction) const {
-    for (std::size_t first = 0; first < group_.size(); ++first) {
-        if (group_[first] != static_cast<int>(first)) continue;
-        Vec3 missing = Vec3::Zero();
-        double mass = 0.0;
-        const auto for_each_vertex = [&](const auto& f) {
-            for (std::size_t b = first; b < group_.size(); ++b) {
-                if (group_[b] != static_cast<int>(first)) continue;
-                const Body& body = model.bodies[b];
-                for (int i = body.first; i < body.first + body.count; ++i) f(i);
-            }
-        };
-        for (std::size_t b = first; b < group_.size(); ++b)
-            mass += group_[b] == static_cast<int>(first) ? model.bodies[b].mass : 0.0;
-        for_each_vertex([&](int i) { missing -= residual.at(i) + model.mass[i] * direction.at(i); });
-        for_each_vertex([&](int i) { direction.add(i, missing / mass); });
+void Translations::correct(const ClothModel& model, const Vectors& residual, Vectors& direction) {
+    mass_.assign(group_.size(), 0.0);
+    missing_.assign(group_.size(), Vec3::Zero());
+    const auto for_each_known = [&](const auto& f) {
+        for (std::size_t b = 0; b < group_.size(); ++b) {
+            const Body& body = model.bodies[b];
+            if (group_[b] < 0) continue;
+            for (int i = body.first; i < body.first + body.count; ++i) f(i, group_[b]);
+        }
+    };
+    for_each_known([&](int i, int group) { missing_[group] -= residual.at(i) + model.mass[i] * direction.at(i); });
+    for (std::size_t b = 0; b < group_.size(); ++b) {
+        if (group_[b] >= 0) mass_[group_[b]] += model.bodies[b].mass;
     }
+    for_each_known([&](int i, int group) { direction.add(i, missing_[group] / mass_[group]); });
 }
 
 }  // namespace percale

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "body_states.h"
@@ -13,31 +14,36 @@ namespace percale {
 ///
 ///     sum m dv = -sum r.
 ///
-/// That of what touches an obstacle, or cloth that something holds, is not; nor is that of one body beside those it touches.
+/// It is not known of what touches an obstacle or cloth that is pinned or settled, nor in wind; nor is that of one body beside
+/// those it touches.
 class Translations {
 public:
     /// `blocks` are those of contact in the system.
-    void find(const StepScene& scene, const BodyStates& states, const std::vector<CoupledBlock>& blocks);
+    void find(const StepScene& scene, const BodyStates& states, std::span<const CoupledBlock> blocks);
 
     /// Adds to the direction dv, m/s, what is missing of the translations that are known. r is the residual, kg m/s.
-    void correct(const ClothModel& model, const Vectors& residual, Vectors& direction) const;
+    void correct(const ClothModel& model, const Vectors& residual, Vectors& direction);
 
     /// Calls `f(body)` for bodies that nothing holds and whose translation is not known.
     template <typename F>
     void for_each_open(const ClothModel& model, const F& f) const {
         for (std::size_t b = 0; b < group_.size(); ++b) {
-            if (group_[b] == touching || (group_[b] >= 0 && shared(b))) f(model.bodies[b]);
+            if (group_[b] == resisted || (group_[b] >= 0 && members_[group_[b]] > 1)) f(model.bodies[b]);
         }
     }
 
 private:
-    static constexpr int held = -1, touching = -2;
+    static constexpr int held = -1, resisted = -2;
 
-    bool shared(std::size_t body) const;
+    void resist(int body);
     void join(int first, int second);
+    void replace(int group, int by);
 
-    std::vector<int> group_;  // of each body: the first of those it touches, if their translation is known; else held or touching
-    int known_ = 0;           // how many are known
+    std::vector<int> group_;  // of each body: the lowest number in its group, if the translation is known; else held or resisted
+    std::vector<int> members_;   // of each group
+    std::vector<double> mass_;   // kg, likewise
+    std::vector<Vec3> missing_;  // kg m/s, likewise
+    int known_ = 0;              // bodies whose translation is
 };
 
 }  // namespace percale

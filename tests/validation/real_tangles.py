@@ -18,7 +18,7 @@ import time
 from real_garments import fetch
 
 FILES = {"isantesteban/snug": ["assets/meshes/tshirt.obj"], "omegaiota/DiffCloth": ["src/assets/meshes/remeshed/dress-v7k-f14k.obj"]}
-LIMIT_S = 10.0
+LIMIT_S, RUN_LIMIT_S = 10.0, 300.0
 
 # name: keys of each cloth
 TANGLES = {
@@ -49,20 +49,28 @@ self_contact = true
 
 def timed(command):
     start = time.monotonic()
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=RUN_LIMIT_S, check=False)
+    except subprocess.TimeoutExpired:
+        done = subprocess.CompletedProcess(command, 1, "", f"took longer than {RUN_LIMIT_S:g} s")
     return done, time.monotonic() - start
 
 
+def last_line(text):
+    return text.strip().splitlines()[-1] if text.strip() else "no message"
+
+
 def untangle(program, folder, name, cloths):
-    file, out = folder / f"tangle_{len(cloths)}.toml", folder / f"tangle_{len(cloths)}"
+    number = list(TANGLES).index(name) + 1
+    file, out = folder / f"tangle_{number}.toml", folder / f"tangle_{number}"
     file.write_text(scene(name, cloths))
     plan, start_s = timed([program, "plan", str(file)])
     if plan.returncode == 2 and "starts through" in plan.stderr:
-        print(f"{name:34} refused in {start_s:.1f} s: {plan.stderr.strip().splitlines()[-1]}")
+        print(f"{name:34} refused in {start_s:.1f} s: {last_line(plan.stderr)}")
         return start_s <= LIMIT_S
     run, run_s = timed([program, "run", str(file), "-o", str(out)])
     if plan.returncode != 0 or run.returncode != 0:
-        print(f"{name:34} {(plan.stderr + run.stderr).strip().splitlines()[-1]}")
+        print(f"{name:34} {last_line(plan.stderr + run.stderr)}")
         return False
     report = json.loads((out / "report.json").read_text())
     moved = report["start_repair"]

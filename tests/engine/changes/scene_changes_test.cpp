@@ -278,6 +278,20 @@ TEST_CASE("An obstacle that nothing touched leaves the steps that would have bee
     }
 }
 
+TEST_CASE("Cloth falls freely when the only obstacle is removed, whatever the contact response") {
+    for (const auto response : {ContactResponse::penalty, ContactResponse::projection}) {
+        Simulation s({.contact_response = response}, std::make_unique<PlaneDetector>());
+        const ClothId cloth = s.add_cloth(make_grid(0.2, 0.2, 4, 4), sheet_fabric(), {.translation = Vec3(0, 0.0045, 0)});
+        const ObstacleId plane = s.add_obstacle(make_plane(1.0), {});
+        for (int n = 0; n < 30; ++n) REQUIRE(s.step().ok());
+        REQUIRE(s.force_on(plane).y() < 0.0);
+        const double before = s.velocities(cloth)[5].y();
+        s.remove_obstacle(plane);
+        for (int n = 0; n < 3; ++n) REQUIRE(s.step().ok());
+        CHECK(s.velocities(cloth)[5].y() - before == Approx(-3.0 / 60.0 * 9.81).epsilon(1e-3));
+    }
+}
+
 TEST_CASE("Cloth falls when what it lies on is removed, and what presses on is told by its own id") {
     SlopeScene scene(5.0, false);
     Simulation& s = scene.simulation;

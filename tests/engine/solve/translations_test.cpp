@@ -33,7 +33,7 @@ struct Bodies {
         direction = to_vectors(random_points(random, 2 * count, 1.0));
     }
 
-    static CoupledBlock against_obstacle(int vertex) { return {{vertex, -1, -1, -1}, {1, 0, 0, 0}, {}}; }
+    static CoupledBlock against_obstacle(int vertex) { return {{vertex, vertex ^ 1, -1, -1}, {0.3, 0.7, 0, 0}, {}}; }
     static CoupledBlock between(int first, int second) { return {{first, second, -1, -1}, {1, -1, 0, 0}, {}}; }
 
     std::vector<int> open(const std::vector<CoupledBlock>& blocks) {
@@ -75,6 +75,15 @@ TEST_CASE("Of bodies that touch each other the common translation is known, in w
     CHECK((bodies.direction.at(2) - bodies.direction.at(7) - relative).norm() < 1e-12);
 }
 
+TEST_CASE("Groups that meet later are one, edge upon edge, too") {
+    Bodies bodies;
+    const CoupledBlock edges{{1, 0, 4, 5}, {0.5, 0.5, -0.25, -0.75}, {}};
+    CHECK(bodies.open({Bodies::between(0, 2), Bodies::between(6, 5), edges}) == std::vector{0, 1, 2, 3});
+    bodies.translations.correct(bodies.scene.model, bodies.residual, bodies.direction);
+    CHECK(bodies.missing({0, 1, 2, 3}).norm() < 1e-12);
+    CHECK(bodies.open({}).empty());
+}
+
 TEST_CASE("An obstacle holds what touches it and what touches that") {
     Bodies bodies;
     CHECK(bodies.open({Bodies::between(2, 5), Bodies::against_obstacle(4)}) == std::vector{1, 2});
@@ -102,6 +111,9 @@ TEST_CASE("In wind no translation is known") {
     Bodies bodies;
     bodies.scene.plan.wind = true;
     CHECK(bodies.open({}) == std::vector{0, 1, 2, 3});
+    const Vectors before = bodies.direction;
+    bodies.translations.correct(bodies.scene.model, bodies.residual, bodies.direction);
+    CHECK(same_bits(bodies.direction, before));
 }
 
 }  // namespace percale::test
