@@ -182,7 +182,7 @@ void add_options(CLI::App& command, DrapeCommand& all) {
         .add_option("--still", options.still,
                     "At rest is what for half a second keeps within half a second times this of one place, m/s (default 0.0002)")
         ->type_name("V");
-    command.add_flag("--until-rest", all.until_rest, "Go on until all garments are proven at rest; so it does without this, too");
+    command.add_flag("--until-rest", all.until_rest, "Go on until all garments are proven at rest, as it does anyway");
     command.add_flag_callback(
         "--no-weld", [&options] { options.weld = false; },
         "Leave what gaps springs leave at the seams of patterns (default: no gap)");

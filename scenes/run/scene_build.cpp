@@ -42,6 +42,8 @@ void at_place_of(const Spec& spec, Work work) {
     try {
         work();
     } catch (const SceneError& error) {
+        // A file that is all there is to say of the place, and in which a place was found.
+        if (spec.place.line == 0 && error.subject().starts_with(spec.place.file + ":")) throw;
         fail_at(spec.place, told_of(spec, error));
     }
 }

@@ -292,3 +292,17 @@ TEST_CASE("a pattern without a seam gets its weight, too") {
     for (const Vec3& x : read(folder, "out.obj").vertices) lowest = std::min(lowest, x.y());
     CHECK(lowest < 0.09);
 }
+
+TEST_CASE("what is wrong within a pattern is told with its place, and the file once") {
+    const TestFolder folder;
+    write_pair(folder, 1.0);
+    folder.write("cloth.toml",
+                 "unit = \"cm\"\n[[panel]]\nname = \"cloth\"\npoints = [[-10, -10], [10, -10], [10, 10], [-10, 10]]\n"
+                 "[[seam]]\nname = \"side\"\nsides = [[\"cloth.1\"], [\"cloth.9\"]]\n");
+    const ProgramRun run = run_program({"drape", "cloth.toml", "block.obj", "-o", "out.obj"}, folder.path());
+    CAPTURE(run.out, run.error);
+    CHECK(run.exit_code == 2);
+    CHECK(run.error.starts_with("percale: cloth.toml:7:24: panel"));
+    CHECK(run.error.find("cloth.toml", 20) == std::string::npos);
+    CHECK(line_count(run.error) == 1);
+}
