@@ -2,8 +2,8 @@
 """Prints, each ended by a 0 byte, the commands that read a source alone: .ci/read_alone.py ROOT BUILD.
 
 They are those of BUILD's compile_commands.json for collision/, scenes/ and tests/bench/, without output. Half of their time would go
-into Eigen, so it is precompiled here, by the flags of the command; a source that does not include it by whatever headers goes without,
-as it would else not be missed what Eigen includes.
+into Eigen, so it is precompiled here, by the flags of the command. A source that includes Eigen by none of its headers goes without:
+else nobody would notice that it lacks a header which Eigen happens to include.
 """
 import json
 import re

@@ -42,8 +42,9 @@ std::string fault_of(const Drape& drape, const FrameCheck& check, const WidestGa
 
 std::string seam_text(const WidestGap& gap, const FrameCheck& check) {
     std::string text = std::to_string(gap.stitches) + " stitches, largest gap " + short_number(gap.width) + " m";
-    if (check.at_seams > 0)
-        text += "; " + std::to_string(check.at_seams) + " pairs of triangles at one stitch overlap by it, as they may";
+    if (check.at_seams > 0) {
+        text += "; " + std::to_string(check.at_seams) + " pairs of triangles at one stitch overlap by its gap, as they may";
+    }
     return text;
 }
 
