@@ -1,22 +1,53 @@
 #!/usr/bin/env bash
 # All that a change must pass, in order; stops at the first stage that fails: .ci/check.sh [STAGE...]
-# Stages: format layers release scenes python perf consumer engine_only alone sanitizers fuzz; only on demand: night packages. Builds are kept under build/ci-*.
-# Each compiler builds what it tests once, in batches: g++ all, as the README says; clang++ the tests, under sanitizers. That no source
-# leans on its batch is seen by engine_only, which builds the engine file by file, and by alone, which reads the other layers' sources.
+# By day, without arguments: format layers release python perf consumer engine_only alone sanitizers fuzz. `night` stands for the stages
+# one_by_one soak sanitizers_night races fuzz_night, which take longer than a change can wait for; only on demand: packages.
+# Each compiler builds what it tests once, in batches: g++ all, as the README says; clang++ the engine and collision, under sanitizers.
+# That no source leans on its batch is seen by alone, which reads what changed, and by one_by_one, which builds everything.
+# A stage says how long it compiled (within cmake) and ran, and what was dearest. Builds are kept under build/ci-*.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
 
-stages=(format layers release scenes python perf consumer engine_only alone sanitizers fuzz)
-on_demand=(night packages)
+stages=(format layers release python perf consumer engine_only alone sanitizers fuzz)
+night=(one_by_one soak sanitizers_night races fuzz_night)
+on_demand=(packages)
 release_copy="$root/build/ci-release/a path with a space"
 jobs=${PERCALE_JOBS:-2}
 export CMAKE_BUILD_PARALLEL_LEVEL=$jobs CTEST_PARALLEL_LEVEL=$jobs CTEST_OUTPUT_ON_FAILURE=1
 export PERCALE_REAL_MESHES=${PERCALE_REAL_MESHES:-$root/build/real_meshes}
 export GIT_CONFIG_COUNT=1 GIT_CONFIG_KEY_0=safe.directory GIT_CONFIG_VALUE_0='*'   # a checkout owned by somebody else, as in containers
-if [ -n "${CCACHE_DIR:-}" ] && command -v ccache >/dev/null; then   # worth it where a cache is kept
-    export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$root
-fi
+export CMAKE_CXX_COMPILER_LAUNCHER=$root/.ci/timed_compiler CCACHE_BASEDIR=$root
+export PERCALE_COMPILE_TIMES=$root/build/ci-times/compile   # a line a compilation
+waited=$root/build/ci-times/waited                          # a line a call of cmake
+
+# Seconds within cmake, which configures, compiles and installs, count as compiling.
+cmake() {
+    local started=$EPOCHREALTIME status=0
+    command cmake "$@" || status=$?
+    echo "$started $EPOCHREALTIME" >>"$waited"
+    return $status
+}
+
+# compiled: whole seconds within cmake in this stage.
+compiled() {
+    awk '{ sum += $2 - $1 } END { printf "%d", sum }' "$waited"
+}
+
+# dearest TITLE: the ten greatest of the lines SECONDS NAME on standard input, on one line.
+dearest() {
+    sort -rn | head -10 | awk -v title="$1" '{ seconds = $1; $1 = ""; text = text sprintf("%s%s %.0f", NR > 1 ? "," : "", $0, seconds) }
+        END { if (NR > 0) print "   " title ":" text }'
+}
+
+# tell_dearest: of the stage that ran since the file of times was emptied.
+tell_dearest() {
+    sed -E "s|^([0-9.]+) ([0-9.]+) .*/([^/]+/[^/]+/[^/]+)$|\\1 \\2 \\3|" "$PERCALE_COMPILE_TIMES" | sed 's|CMakeFiles/||; s|\.dir/Unity||' |
+        awk '{ seconds = $1 + $2; $1 = $2 = ""; print seconds, $0 }' | dearest "dearest to compile, CPU s"
+    # ctest's own file: name, runs, seconds.
+    find build -newer build/ci-times/started -name CTestCostData.txt -exec awk '/^---/ { exit } { s = $NF; $NF = $(NF - 1) = ""; print s, $0 }' {} \; |
+        dearest "dearest to run, s"
+}
 
 # Files that git tracks or would track; without git or a repository all but builds. NUL-separated.
 project_files() {
@@ -76,22 +107,27 @@ stage_release() {
             # shellcheck source=/dev/null
             . "../$name.sh"
         ) | tee "$release_copy/../$name.log"
+        echo "README, $name: done at $((SECONDS - started)) s"
     done
     find "$release_copy" -name report.json -not -path '*/data/*' -not -path '*/Testing/*' -printf '%h\0' >"$release_copy/../runs"
     [ -s "$release_copy/../runs" ] || { echo "the README's first command left no report.json"; return 1; }
     xargs -0 -n 1 "$release_copy/build/percale" certify <"$release_copy/../runs"
     echo "without body scans:"
-    PERCALE_REAL_MESHES=$root/build/ci-release/none ctest --test-dir "$release_copy/build" --no-tests=error -R 'body scan|scanned'
+    for name in collision validation; do
+        PERCALE_REAL_MESHES=$root/build/ci-release/none "$release_copy/build/percale_${name}_tests" '*body scan*,*scanned*' | tail -3
+    done
+    echo "of all test programs: $(sed -n -E 's/^All tests passed .* in ([0-9]+) test cases?.*/\1/p' "$release_copy/build/Testing/Temporary/LastTest.log" |
+        awk '{ sum += $1 } END { print sum }') cases"
 }
 
 # The engine must build where FCL, Bullet and assimp are missing; CMake is told not to find them. Its tests run in the stages release and
-# sanitizers; here a towel hangs. File by file: none may lean on what another one of its batch includes.
+# sanitizers; here a towel hangs.
 stage_engine_only() {
     local hidden=() package
     for package in fcl ccd octomap Bullet assimp tomlplusplus nlohmann_json CLI11; do
         hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
     done
-    configure build/ci-engine-only --preset engine-only -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_TESTS=OFF -DPERCALE_UNITY=OFF "${hidden[@]}"
+    configure build/ci-engine-only --preset engine-only -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_TESTS=OFF "${hidden[@]}"
     cmake --build build/ci-engine-only
     rm -rf build/ci-engine-only/installed
     cmake --install build/ci-engine-only --prefix build/ci-engine-only/installed >>build/ci-engine-only.log
@@ -101,11 +137,28 @@ stage_engine_only() {
     ctest --test-dir build/ci-engine-only/consumer --no-tests=error
 }
 
-# Sources of collision and scenes, each read by clang++ without the others of its batch, and the programs that measure, which nothing
-# else builds; nothing is compiled. Where one reads Eigen, mostly through percale/mesh.h, Eigen has been read before.
+# The newest commit that what is here does not count as changed from: PERCALE_BASE; else that of the default branch; on that branch itself
+# the last one that is a day older than the newest. Nothing where there is no such history.
+changes_since() {
+    local base
+    if [ -n "${PERCALE_BASE:-}" ]; then echo "$PERCALE_BASE"; return; fi
+    git rev-parse -q --verify HEAD >/dev/null 2>&1 || return 0
+    base=$(git merge-base HEAD refs/remotes/origin/HEAD 2>/dev/null || true)
+    if [ -z "$base" ] || [ "$base" = "$(git rev-parse HEAD)" ]; then
+        base=$(git rev-list -1 --before="$(($(git log -1 --format=%ct) - 86400))" HEAD)
+    fi
+    echo "$base"
+}
+
+# Sources that changed, and those that include what changed, each read by clang++ without the others of its batch; nothing is compiled.
+# Where one reads Eigen, mostly through percale/mesh.h, Eigen has been read before.
 stage_alone() {
+    local base
+    base=$(changes_since)
     configure build/ci-alone -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF
-    python3 .ci/read_alone.py "$root" build/ci-alone | xargs -0 -P "$jobs" -n 1 bash -c
+    python3 .ci/read_alone.py "$root" build/ci-alone "$base" >build/ci-alone/commands
+    echo "$(tr -d -c '\0' <build/ci-alone/commands | wc -c) sources are read, $([ -z "$base" ] || echo "that or whose headers changed since $base")"
+    xargs -0 -r -P "$jobs" -n 1 bash -c <build/ci-alone/commands
 }
 
 # build_sanitizers TARGET...: clang++, address and undefined-behaviour sanitizers.
@@ -119,10 +172,11 @@ build_sanitizers() {
 whole_runs=(real_mesh_test bullet_world_test mannequin_test mannequin_motion_test poncho_test shipped_meshes_test rest_scene_test
             start_repair_run_test)
 
-# run_file LAYER NAME: the cases of the test files of that name, without laws and cases that take seconds, in one process.
+# run_file BUILD LAYER NAME: the cases of the test files of that name, without laws and cases that take seconds, in one process.
 run_file() {
-    local log=build/ci-sanitizers/cases/$1.$2.log
-    "build/ci-sanitizers/percale_$1_tests" -# "[#$2]~[law]~[slow]" >"$log" 2>&1 || { echo "$1, $2:"; tail -80 "$log"; return 1; }
+    local log=$1/cases/$2.$3.log started=$EPOCHREALTIME
+    "$1/percale_$2_tests" -# "[#$3]~[law]~[slow]~[.]" >"$log" 2>&1 || { echo "$2, $3:"; tail -80 "$log"; return 1; }
+    awk -v a="$started" -v b="$EPOCHREALTIME" -v name="$2: $3" 'BEGIN { printf "%.2f %s\n", b - a, name }' >>"$1/cases/times"
 }
 
 # The test files of a layer's program, by name; those of properties/ are asked for in both programs that have some.
@@ -131,24 +185,65 @@ test_files() {
         grep -v -x -F "$(printf '%s\n' "${whole_runs[@]}")" | sed "s/^/$1 /"
 }
 
-# Without whole runs, laws and cases tagged [slow] (seconds in a release build), which go the ways of unit tests many times over. A process
-# for each case would take longer than the case, so there is one for each file; that no case was left out is checked by their number.
-stage_sanitizers() {
-    local layer wanted ran
-    build_sanitizers percale_engine_tests percale_collision_tests percale_scenes_tests fuzz
-    rm -rf build/ci-sanitizers/cases
-    mkdir -p build/ci-sanitizers/cases
+# run_files BUILD LAYER...: a process for each test file; that no case was left out is checked by their number.
+run_files() {
+    local build=$1 layer wanted ran
+    shift
+    rm -rf "$build/cases"
+    mkdir -p "$build/cases"
     export -f run_file
-    export UBSAN_OPTIONS=print_stacktrace=1
-    for layer in engine collision scenes; do test_files "$layer"; done | xargs -P "$jobs" -n 2 bash -c 'run_file "$1" "$2"' run_file
+    for layer in "$@"; do test_files "$layer"; done | xargs -P "$jobs" -n 2 bash -c 'run_file "$0" "$1" "$2"' "$build"
     # The exit code of a listing is the number of cases.
-    wanted=$(for layer in engine collision scenes; do
-        "build/ci-sanitizers/percale_${layer}_tests" -# --list-test-names-only "~[law]~[slow]$(printf '~[#%s]' "${whole_runs[@]}")" || true
+    wanted=$(for layer in "$@"; do
+        "$build/percale_${layer}_tests" -# --list-test-names-only "~[law]~[slow]~[.]$(printf '~[#%s]' "${whole_runs[@]}")" || true
     done | wc -l)
-    ran=$(sed -n -E 's/^All tests passed .* in ([0-9]+) test cases?.*/\1/p; s/^test cases: +([0-9]+) \| +\1 passed.*/\1/p' build/ci-sanitizers/cases/*.log |
+    ran=$(sed -n -E 's/^All tests passed .* in ([0-9]+) test cases?.*/\1/p; s/^test cases: +([0-9]+) \| +\1 passed.*/\1/p' "$build"/cases/*.log |
         awk '{ sum += $1 } END { print sum + 0 }')
-    echo "$ran of $wanted cases passed under sanitizers"
+    dearest "dearest to run, s" <"$build/cases/times"
+    echo "$ran of $wanted cases passed"
     [ "$wanted" -gt 0 ] && [ "$ran" -eq "$wanted" ]
+}
+
+# Scenes that go through what the program has: springs and hinges, bodies rigid and bending, cloth on cloth, sewing, pressure, wind.
+sanitized_scenes=(hang six_particles strip_with_hinges tablecloth_on_sphere sheet_folding_on_floor beach_ball skirt poncho_wave flag
+                  two_sheets_on_spikes)
+
+# The beginning of a scene, with all that the program writes of a run, and its certificate. Expectations are of whole runs: those that
+# fail here are nothing.
+sanitize_scene() {
+    local folder=build/ci-sanitizers/runs/$1
+    build/ci-sanitizers/percale run "data/scenes/$1.toml" -o "$folder" --set duration=0.1 --set expect={} --frames obj,glb,pc2 --quiet >"$folder.log" 2>&1 &&
+        build/ci-sanitizers/percale certify "$folder" >>"$folder.log" 2>&1 || { echo "scene $1:"; tail -40 "$folder.log"; return 1; }
+}
+
+# Without whole runs, laws and cases tagged [slow] (seconds in a release build), which go the ways of unit tests many times over.
+stage_sanitizers() {
+    build_sanitizers percale_engine_tests percale_collision_tests percale fuzz
+    export UBSAN_OPTIONS=print_stacktrace=1
+    run_files build/ci-sanitizers engine collision
+    rm -rf build/ci-sanitizers/runs
+    mkdir -p build/ci-sanitizers/runs
+    export -f sanitize_scene
+    printf '%s\n' "${sanitized_scenes[@]}" | xargs -P "$jobs" -n 1 bash -c 'sanitize_scene "$0"'
+}
+
+stage_sanitizers_night() {
+    build_sanitizers percale_scenes_tests
+    export UBSAN_OPTIONS=print_stacktrace=1
+    run_files build/ci-sanitizers scenes
+}
+
+# What threads share, under the thread sanitizer: tests of threads, and a scene of each kind on two.
+stage_races() {
+    local scene
+    configure build/ci-races --preset tsan -DCMAKE_CXX_COMPILER=clang++
+    cmake --build build/ci-races --target percale_engine_tests percale_collision_tests percale
+    for layer in engine collision; do
+        build/ci-races/percale_${layer}_tests '*thread*~[law]~[slow]~[.]'
+    done
+    for scene in "${sanitized_scenes[@]}"; do
+        build/ci-races/percale run "data/scenes/$scene.toml" -o "build/ci-races/runs/$scene" --set duration=0.1 --threads 4 --quiet
+    done
 }
 
 # fuzz_one NAME: from the corpus and what it finds; what fails is left in build/ci-fuzz-found. Sanitizers make a second about three.
@@ -170,11 +265,6 @@ stage_fuzz() {
     printf '%s\n' tests/fuzz/*_target.cpp | sed 's|.*/\(.*\)_target.cpp|\1|' | xargs -P "$jobs" -n 1 bash -c 'fuzz_one "$1"' fuzz_one
 }
 
-stage_scenes() {
-    [ -x "$release_copy/build/percale" ] || { echo "$release_copy/build/percale is missing: run the stage release first"; return 1; }
-    "$release_copy/build/percale" check data/scenes/*.toml
-}
-
 # The Python module in the same build, and its tests.
 stage_python() {
     [ -x "$release_copy/build/percale" ] || { echo "$release_copy/build/percale is missing: run the stage release first"; return 1; }
@@ -189,13 +279,20 @@ stage_perf() {
     python3 .ci/perf_gate.py --program "$release_copy/build/percale"
 }
 
-# What takes longer than a change can wait for: the engine's tests and laws by clang++ without sanitizers, the hidden soak tests, and
-# five minutes a fuzz target.
-stage_night() {
-    configure build/ci-night -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DCMAKE_BUILD_TYPE=Release
-    cmake --build build/ci-night --target all benches
-    ctest --test-dir build/ci-night --no-tests=error
-    build/ci-night/percale_validation_tests '[.soak]'
+# Everything by clang++ without sanitizers, file by file, programs that measure, too; all tests and laws.
+stage_one_by_one() {
+    configure build/ci-one-by-one -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF -DCMAKE_BUILD_TYPE=Release
+    cmake --build build/ci-one-by-one --target all benches
+    ctest --test-dir build/ci-one-by-one --no-tests=error
+}
+
+# Hidden tests: a million steps; every shipped scene whole with every tree.
+stage_soak() {
+    [ -x build/ci-one-by-one/percale_validation_tests ] || { echo "build/ci-one-by-one is missing: run the stage one_by_one first"; return 1; }
+    build/ci-one-by-one/percale_validation_tests '[.soak],[.night]'
+}
+
+stage_fuzz_night() {
     PERCALE_FUZZ_SECONDS=${PERCALE_FUZZ_SECONDS:-300} stage_fuzz
 }
 
@@ -246,26 +343,40 @@ stage_packages() {
     .ci/packages.sh build/ci-packages "$scratch/consumer" "$scratch"
 }
 
-selected=("$@")
-[ ${#selected[@]} -gt 0 ] || selected=("${stages[@]}")
+selected=()
+for stage in "${@:-day}"; do
+    case $stage in
+        day) selected+=("${stages[@]}") ;;
+        night) selected+=("${night[@]}") ;;
+        *) selected+=("$stage") ;;
+    esac
+done
 for stage in "${selected[@]}"; do
-    case " ${stages[*]} ${on_demand[*]} " in *" $stage "*) ;; *) echo "check.sh: no stage '$stage' (${stages[*]} ${on_demand[*]})"; exit 2 ;; esac
+    case " ${stages[*]} ${night[*]} ${on_demand[*]} " in
+        *" $stage "*) ;;
+        *) echo "check.sh: no stage '$stage' (day: ${stages[*]}; night: ${night[*]}; ${on_demand[*]})"; exit 2 ;;
+    esac
 done
 
-mkdir -p build
+mkdir -p build/ci-times
 times=()
 for stage in "${selected[@]}"; do
     echo "== $stage"
     started=$SECONDS
+    : >"$PERCALE_COMPILE_TIMES" >"$waited"
+    touch build/ci-times/started
     (set -e; "stage_$stage") </dev/null
     status=$?
-    times+=("$stage $((SECONDS - started)) s")
+    passed="$((SECONDS - started)) s: $(compiled) s compiling, $((SECONDS - started - $(compiled))) s running"
+    times+=("$stage $passed")
+    tell_dearest
     if [ $status -ne 0 ]; then
-        echo "check.sh: stage $stage FAILED after $((SECONDS - started)) s (exit code $status)"
+        echo "check.sh: stage $stage FAILED after $passed (exit code $status)"
         exit 1
     fi
-    echo "== $stage passed in $((SECONDS - started)) s"
+    echo "== $stage passed in $passed"
 done
-echo "check.sh: all stages passed: $(printf '%s, ' "${times[@]}" | sed 's/, $//')"
+echo "check.sh: all stages passed in $SECONDS s"
+printf '   %s\n' "${times[@]}"
 # The closing lines of the whole test suite come last.
 case " ${selected[*]} " in *" release "*) echo "whole test suite (stage release):" && sed -n '/% tests passed/,$p' "$release_copy/../test.log" ;; esac

@@ -87,7 +87,7 @@ MACHINE_PATH = re.compile(r'(?<![\w.}])/(?:work|root|home)/|(?<![\w.}])/tmp/[A-Z
 EIGEN_IN_PUBLIC = re.compile(
     r'\b(?:(?:Row)?Vector[24X][dfi]?|Matrix(?:[24X][dfi]?|[23]X[dfi]?|X[23][dfi]?)|Array(?:XX?|[24])[dfi]?|Quaternion[df]?'
     r'|(?:Isometry|Affine|Transform|Projective)[23]?[df]?|SparseMatrix|Dynamic)\b')
-TEST_NAME = re.compile(r'TEST_CASE\("((?:[^"\\\n]|\\.)*)"')
+OWN_NAMESPACE = re.compile(r'^namespace (percale::[\w:]+) \{$', re.M)
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">\n]+)[">]', re.M)
 COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/', re.S)
 
@@ -398,12 +398,20 @@ def check_texts(tree):
                 tree.complain(path, line_of(text, found.start()), f'{what} ({found.group()})')
 
 
-def check_test_names(tree):
-    """CTest takes the names of cases as a list, which a semicolon cuts in two."""
+def check_test_namespaces(tree):
+    """Test files are compiled in batches and have helpers in common, so the cases of each stand in a namespace that ends in its name."""
+    holder = {}
     for path in tree.code('tests'):
-        for found in TEST_NAME.finditer(tree.text.get(path, '')):
-            if ';' in found.group(1):
-                tree.complain(path, line_of(tree.text[path], found.start()), 'semicolon in the name of a test, at which ctest cuts it in two')
+        if not path.endswith('_test.cpp'):
+            continue
+        stem, text = PurePosixPath(path).stem, uncommented(tree.text.get(path, ''))
+        own = [name for name in OWN_NAMESPACE.findall(text) if name.endswith(stem)]
+        if len(own) != 1:
+            tree.complain(path, 1, f'no namespace of its own (namespace percale::test::{stem})')
+        elif holder.setdefault(own[0], path) != path:
+            tree.complain(path, 1, f'namespace {own[0]} is that of {holder[own[0]]}, too')
+        elif 'TEST_CASE(' in text[:text.find(f'namespace {own[0]} {{')]:
+            tree.complain(path, 1, f'a case before namespace {own[0]}')
 
 
 def check_test_size(tree):
@@ -415,7 +423,7 @@ def check_test_size(tree):
 
 
 RULES = (check_top_level, check_directions, check_rooms, check_collision_folders, check_cycles, check_modules,
-         check_folder_sizes, check_mirror, check_public_headers, check_names, check_texts, check_test_names,
+         check_folder_sizes, check_mirror, check_public_headers, check_names, check_texts, check_test_namespaces,
          check_readmes, check_glossary)
 
 

@@ -29,7 +29,8 @@ CLEAN = {
     'scenes/scene.h': '#pragma once\n#include <percale/detectors.h>\n#include <toml++/toml.h>\n',
     'scenes/export/frames.h': '#pragma once\n#include "scene.h"\n',
     'tests/engine/model/shapes_test.cpp':
-        '#include "model/shapes.h"\n#include "tests/support/catch.h"\n' + 'TEST_CASE("a shape") { CHECK(shape() == 3); }\n' * 60,
+        '#include "model/shapes.h"\n#include "tests/support/catch.h"\n\nnamespace percale::test::shapes_test {\n' +
+        'TEST_CASE("a shape") { CHECK(shape() == 3); }\n' * 60 + '}  // namespace percale::test::shapes_test\n',
     'tests/support/catch.h': '#pragma once\n#include <catch2/catch.hpp>\n',
     'data/scenes/hang.toml': 'title = "hang"\n',
 }
@@ -60,9 +61,13 @@ class Rules(unittest.TestCase):
     def include_caught(self, path, include, expected):
         self.caught(path, CLEAN.get(path, '') + f'#include {include}\n', expected)
 
-    def test_semicolons_in_test_names(self):
-        self.caught('tests/engine/model/shapes_test.cpp', CLEAN['tests/engine/model/shapes_test.cpp'] + 'TEST_CASE("one; two") { CHECK(shape() == 3); }\n',
-                    'semicolon in the name of a test')
+    def test_namespaces_of_tests(self):
+        path = 'tests/engine/model/shapes_test.cpp'
+        text = CLEAN[path]
+        self.caught(path, text.replace('shapes_test', 'forms_test'), 'no namespace of its own')
+        self.caught(path, text.replace('namespace percale', 'TEST_CASE("first") {}\nnamespace percale', 1), 'a case before')
+        self.caught('tests/engine/more/shapes_test.cpp', text, 'is that of tests/engine/model/shapes_test.cpp, too')
+        self.assertEqual(violations({'tests/engine/more/shapes_test.cpp': text.replace('::shapes_test', '::more_shapes_test')}), [])
 
     def test_a_clean_tree_passes(self):
         self.assertEqual(violations(), [])
@@ -156,7 +161,7 @@ class Rules(unittest.TestCase):
         self.assertEqual(found, ['scenes:1: folders include each other (scenes, scenes/export)'])
 
     def test_modules_that_include_each_other(self):
-        small_tests = {f'tests/scenes/{name}_test.cpp': 'int x;\n' for name in 'ab'}
+        small_tests = {f'tests/scenes/{name}_test.cpp': f'namespace percale::test::{name}_test {{\n}}\n' for name in 'ab'}
         ring = {'scenes/a.h': 'int x;\n', 'scenes/b.h': 'int x;\n', 'scenes/a.cpp': '#include "b.h"\n', 'scenes/b.cpp': '#include "a.h"\n'}
         self.assertEqual(violations({**ring, **small_tests}), ['scenes/a:1: modules include each other (scenes/a, scenes/b)'])
         self.assertEqual(violations({**ring, **small_tests, 'scenes/b.cpp': '#include "b.h"\n'}), [])
@@ -168,7 +173,7 @@ class Rules(unittest.TestCase):
 
     def test_a_public_header_belongs_to_the_source_of_its_name(self):
         ring = {'engine/include/percale/world.h': '#pragma once\n', 'engine/world.cpp': '#include "step/run.h"\n',
-                'engine/step/run.h': '#include "percale/world.h"\n', 'tests/engine/world_test.cpp': 'int x;\n'}
+                'engine/step/run.h': '#include "percale/world.h"\n', 'tests/engine/world_test.cpp': 'namespace percale::test::world_test {\n}\n'}
         self.assertEqual(violations(ring), ['engine/step/run:1: modules include each other (engine/step/run, engine/world)'])
         self.assertEqual(violations({**ring, 'engine/world.cpp': 'int x;\n'}), [])
 

@@ -1,16 +1,49 @@
 #!/usr/bin/env python3
-"""Prints, each ended by a 0 byte, the commands that read a source alone: .ci/read_alone.py ROOT BUILD.
+"""Prints, each ended by a 0 byte, the commands that read a source alone: .ci/read_alone.py ROOT BUILD [REF].
 
-They are those of BUILD's compile_commands.json for collision/, scenes/ and tests/bench/, without output. Half of their time would go
-into Eigen, so it is precompiled here, by the flags of the command. A source that includes Eigen by none of its headers goes without:
-else nobody would notice that it lacks a header which Eigen happens to include.
+They are those of BUILD's compile_commands.json for the libraries and tests/bench/, without output; with REF those whose source changed
+since that commit, or a file that it includes, by whatever detour. Half of their time would go into Eigen, so it is precompiled here, by
+the flags of the command. A source that includes Eigen by none of its headers goes without: else nobody would notice that it lacks a
+header which Eigen happens to include.
 """
 import json
 import re
 import shlex
 import subprocess
 import sys
+from collections import defaultdict
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import layers
+
+READ = ('engine/', 'collision/', 'scenes/', 'tests/bench/')
+
+
+def with_users(changed, includes):
+    """Changed files and all that include one of them. `includes`: (line, name, file) of each inclusion, by including file."""
+    users = defaultdict(set)
+    for path, found in includes.items():
+        for _, _, target in found:
+            users[target].add(path)
+    reached, left = set(), list(changed)
+    while left:
+        path = left.pop()
+        if path not in reached:
+            reached.add(path)
+            left += users[path]
+    return reached
+
+
+def chosen_sources(root, base):
+    """Relative paths of the sources to read: all, or what a change since `base` asks for."""
+    tree = layers.read_tree(root)
+    if not base:
+        return set(tree.files)
+    git = ['git', '-c', 'safe.directory=*', '-C', root]
+    listed = [subprocess.run([*git, *command], text=True, check=True, capture_output=True).stdout.splitlines()
+              for command in (['diff', '--name-only', base], ['ls-files', '-o', '--exclude-standard'])]
+    return with_users([path for paths in listed for path in paths], tree.includes)
 
 
 def includes_eigen(source, folders, known):
@@ -37,11 +70,13 @@ def precompiled(words, build, made):
 
 
 def main():
-    root, build = (Path(argument).resolve() for argument in sys.argv[1:])
+    root, build = (Path(argument).resolve() for argument in sys.argv[1:3])
+    chosen = chosen_sources(root, sys.argv[3] if len(sys.argv) > 3 else '')
     made, known = {}, {}
     for entry in json.loads((build / 'compile_commands.json').read_text()):
         source = Path(entry['file'])
-        if not re.match(re.escape(str(root)) + '/(collision|scenes|tests/bench)/', str(source)):
+        path = str(source.relative_to(root)) if source.is_relative_to(root) else ''
+        if not path.startswith(READ) or path not in chosen:
             continue
         words = shlex.split(entry['command'])
         folders = [Path(word[2:]) for word in words if re.match('-I.', word)]

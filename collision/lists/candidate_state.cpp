@@ -2,15 +2,9 @@
 
 #include <algorithm>
 
+#include "geometry/box_state.h"
+
 namespace percale {
-
-template <>
-inline constexpr bool is_plain_state<Box> = sizeof(Box) == 2 * sizeof(Vec3);
-
-template <class Archive, OfType<Box> Value>
-void exchange(Archive& archive, Value& box) {
-    archive(box.low, box.high);
-}
 
 template <class Archive, OfType<ContactPair> Value>
 void exchange(Archive& archive, Value& pair) {

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-namespace percale {
+#include "geometry/box_state.h"
 
-template <class Archive, OfType<Box> Value>
-void exchange(Archive& archive, Value& box) {
-    archive(box.low, box.high);
-}
+namespace percale {
 
 template <class Archive, OfType<SelfPair> Value>
 void exchange(Archive& archive, Value& pair) {

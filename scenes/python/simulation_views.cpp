@@ -99,7 +99,7 @@ void bind_arrays(SimulationClass& simulation) {
             py::arg("cloth"), "Ascending, int32.");
 }
 
-void bind_bodies(SimulationClass& simulation) {
+void bind_body_views(SimulationClass& simulation) {
     simulation
         .def(
             "force_on", [](const SharedSimulation& self, ObstacleId id) { return array_of(self.look().force_on(id)); },
@@ -172,7 +172,7 @@ void bind_figures(SimulationClass& simulation) {
 
 void bind_simulation_views(SimulationClass& simulation) {
     bind_arrays(simulation);
-    bind_bodies(simulation);
+    bind_body_views(simulation);
     bind_figures(simulation);
 }
 

@@ -12,7 +12,7 @@ namespace percale::scenes {
 namespace {
 
 constexpr double plot_width = 860.0, plot_height = 540.0;  // pixels
-constexpr double left = 90.0, right = 640.0, top = 50.0, bottom = 470.0;
+constexpr double plot_left = 90.0, plot_right = 640.0, plot_top = 50.0, plot_bottom = 470.0;
 constexpr double legend_left = 660.0, legend_line = 24.0;
 
 // Dark enough on white; the first seven told apart with any colour vision (Okabe and Ito 2008), the others by their markers, too.
@@ -66,7 +66,7 @@ Axes axes_of(const Plot& plot) {
         }
     }
     if (has_place(plot.floor)) y.push_back(plot.floor);
-    return {axis_around(x, left, right), axis_around(y, bottom, top)};
+    return {axis_around(x, plot_left, plot_right), axis_around(y, plot_bottom, plot_top)};
 }
 
 /// Values within a decade that have a label: all that fit.
@@ -91,22 +91,23 @@ void for_ticks(const LogAxis& axis, Visit visit) {
 std::string grid(const Axes& axes) {
     std::string text;
     for_ticks(axes.x, [&](double x, int digit, int power) {
-        text += svg_line(x, top, x, bottom, digit == 1 ? thick : thin);
-        if (is_labelled(digit, axes.x)) text += svg_text(x, bottom + 20.0, "middle", tick_text(digit, power));
+        text += svg_line(x, plot_top, x, plot_bottom, digit == 1 ? thick : thin);
+        if (is_labelled(digit, axes.x)) text += svg_text(x, plot_bottom + 20.0, "middle", tick_text(digit, power));
     });
     for_ticks(axes.y, [&](double y, int digit, int power) {
-        text += svg_line(left, y, right, y, digit == 1 ? thick : thin);
-        if (is_labelled(digit, axes.y)) text += svg_text(left - 8.0, y + 4.5, "end", tick_text(digit, power));
+        text += svg_line(plot_left, y, plot_right, y, digit == 1 ? thick : thin);
+        if (is_labelled(digit, axes.y)) text += svg_text(plot_left - 8.0, y + 4.5, "end", tick_text(digit, power));
     });
     return text;
 }
 
 std::string frame_and_labels(const Plot& plot) {
-    const double middle = 0.5 * (top + bottom);
-    std::string text = "<rect" + svg_attribute("x", left) + svg_attribute("y", top) + svg_attribute("width", right - left) +
-                       svg_attribute("height", bottom - top) + " fill=\"none\" stroke=\"#444444\"/>\n";
-    text += svg_text(0.5 * (left + right), 30.0, "middle", plot.title, " font-size=\"17\"");
-    text += svg_text(0.5 * (left + right), bottom + 48.0, "middle", plot.x_label);
+    const double middle = 0.5 * (plot_top + plot_bottom);
+    std::string text = "<rect" + svg_attribute("x", plot_left) + svg_attribute("y", plot_top) +
+                       svg_attribute("width", plot_right - plot_left) + svg_attribute("height", plot_bottom - plot_top) +
+                       " fill=\"none\" stroke=\"#444444\"/>\n";
+    text += svg_text(0.5 * (plot_left + plot_right), 30.0, "middle", plot.title, " font-size=\"17\"");
+    text += svg_text(0.5 * (plot_left + plot_right), plot_bottom + 48.0, "middle", plot.x_label);
     const std::string turned = " transform=\"rotate(-90 24 " + svg_number(middle) + ")\"";
     return text + svg_text(24.0, middle, "middle", plot.y_label, turned);
 }
@@ -114,8 +115,8 @@ std::string frame_and_labels(const Plot& plot) {
 std::string floor_line(const Plot& plot, const Axes& axes) {
     if (!has_place(plot.floor)) return "";
     const double y = axes.y.place(plot.floor);
-    return svg_line(left, y, right, y, "stroke=\"#444444\" stroke-dasharray=\"6 4\"") +
-           svg_text(right - 6.0, y - 6.0, "end", plot.floor_label);
+    return svg_line(plot_left, y, plot_right, y, "stroke=\"#444444\" stroke-dasharray=\"6 4\"") +
+           svg_text(plot_right - 6.0, y - 6.0, "end", plot.floor_label);
 }
 
 std::string curve(const PlotSeries& series, std::size_t kind, const Axes& axes) {
@@ -131,7 +132,7 @@ std::string curve(const PlotSeries& series, std::size_t kind, const Axes& axes) 
 }
 
 std::string legend_entry(const PlotSeries& series, std::size_t kind) {
-    const double y = top + 12.0 + legend_line * static_cast<double>(kind);
+    const double y = plot_top + 12.0 + legend_line * static_cast<double>(kind);
     return svg_line(legend_left, y, legend_left + 28.0, y,
                     "stroke-width=\"2\"" + svg_attribute("stroke", std::string(colours[kind % colours.size()]))) +
            marker(kind, legend_left + 14.0, y, series.name) + svg_text(legend_left + 36.0, y + 4.5, "start", series.name);

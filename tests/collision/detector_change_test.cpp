@@ -6,9 +6,9 @@
 #include "tests/support/random.h"
 #include "tests/support/saved_bytes.h"
 
+namespace percale::test::detector_change_test {
+
 // Obstacles that are taken out, and friction that changes, between steps.
-using namespace percale;
-using namespace percale::test;
 
 namespace {
 
@@ -19,7 +19,7 @@ Steps sheet_on_three(const Backend& backend, int without = -1, const Vec3& away 
     const TriangleMesh meshes[] = {make_sphere(0.25, 2), make_box({0.3, 0.5, 0.3}), make_box({0.25, 0.5, 0.2})};
     Steps steps{.cloth = make_grid(1.1, 0.6, 23, 13), .obstacles = {}, .detector = backend.make_detector()};
     for (Vec3& x : steps.cloth.vertices) x.y() += 0.37;
-    steps.detector->set_cloth(steps.cloth.triangles, std::vector<double>(steps.cloth.vertices.size(), thickness));
+    steps.detector->set_cloth(steps.cloth.triangles, std::vector<double>(steps.cloth.vertices.size(), sheet_thickness));
     for (int k = 0; k < 3; ++k) {
         if (k == without) continue;
         const Pose pose{.translation = places[k] + (k == 1 ? away : Vec3(Vec3::Zero()))};
@@ -156,3 +156,5 @@ TEST_CASE("friction that was changed is that of all later rows of the obstacle, 
         CHECK(same_rows(after, before));
     }
 }
+
+}  // namespace percale::test::detector_change_test

@@ -6,9 +6,7 @@
 #include "tests/support/collision/scenes.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::detector_hold_test {
 namespace {
 
 /// A vertex on the top of a box near its ridge, and round the ridge at its side.
@@ -23,7 +21,7 @@ struct OverTheRidge {
     /// Place of the first vertex from the ridge (x = 0.2, y = 0.15), in thicknesses.
     std::vector<Vec3> at(double x, double y) const {
         std::vector<Vec3> result = steps.cloth.vertices;
-        for (Vec3& p : result) p += Vec3(0.2 + x * thickness, 0.15 + y * thickness, 0.04);
+        for (Vec3& p : result) p += Vec3(0.2 + x * sheet_thickness, 0.15 + y * sheet_thickness, 0.04);
         return result;
     }
     /// Contacts of the first vertex with triangles of the top.
@@ -90,3 +88,5 @@ TEST_CASE("a contact gives way where cloth passes an edge, as its neighbour take
     detector.evaluate(top, 0.0, scene.rows);
     CHECK(scene.top_rows() == 1);
 }
+
+}  // namespace percale::test::detector_hold_test

@@ -5,8 +5,7 @@
 #include "tests/support/collision/scenes.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
+namespace percale::test::detector_start_test {
 
 TEST_CASE("a start is checked: clean, through, inside and touching are told apart") {
     Random random(440);
@@ -38,7 +37,7 @@ TEST_CASE("a start is checked: clean, through, inside and touching are told apar
     Steps beside{.cloth = make_grid(0.5, 0.5, 5, 5),
                  .obstacles = {{.mesh = make_box({0.5, 0.5, 0.5}), .start = {}, .end = {}}},
                  .detector = nullptr};
-    beside.start(backends().back().make_detector(), thickness);
+    beside.start(backends().back().make_detector(), sheet_thickness);
     const StartFault touching = beside.detector->check_start(shifted(beside.cloth, {0.5, 0.0, 0.0}, 0.0, random));
     CHECK(touching.any());
     CHECK(touching.obstacle == 0);
@@ -48,7 +47,7 @@ TEST_CASE("a start is checked: clean, through, inside and touching are told apar
     Steps inner{.cloth = make_grid(0.05, 0.05, 3, 3),
                 .obstacles = {{.mesh = make_box({1, 1, 1}), .start = {}, .end = {}}},
                 .detector = nullptr};
-    inner.start(backends().back().make_detector(), thickness);
+    inner.start(backends().back().make_detector(), sheet_thickness);
     const StartFault inside = inner.detector->check_start(inner.cloth.vertices);
     CHECK(inside.any());
     CHECK(inside.intersecting_pairs == 0);
@@ -72,7 +71,7 @@ TEST_CASE("a start is checked where the obstacle is at the start of the step, no
 TEST_CASE("obstacles are numbered in order, and one without any area is refused") {
     const auto detector = make_detector(make_brute_force_tree);
     const TriangleMesh cloth = small_sheet();
-    detector->set_cloth(cloth.triangles, std::vector<double>(25, thickness));
+    detector->set_cloth(cloth.triangles, std::vector<double>(25, sheet_thickness));
     CHECK(detector->add_obstacle(make_box({1, 1, 1}), {}, 0.2) == 0);
     CHECK(detector->add_obstacle(make_sphere(1, 1), {}, 0.2) == 1);
     CHECK_THROWS(detector->add_obstacle({.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, .triangles = {{0, 1, 2}}}, {}, 0.2));
@@ -82,7 +81,7 @@ TEST_CASE("obstacles are numbered in order, and one without any area is refused"
 TEST_CASE("without obstacles there is no contact, no cut and no fault") {
     const auto detector = make_detector(make_brute_force_tree);
     const TriangleMesh cloth = small_sheet();
-    detector->set_cloth(cloth.triangles, std::vector<double>(25, thickness));
+    detector->set_cloth(cloth.triangles, std::vector<double>(25, sheet_thickness));
     ContactRows rows;
     detector->refresh(cloth.vertices, cloth.vertices);
     detector->evaluate(cloth.vertices, 0.0, rows);
@@ -108,3 +107,5 @@ TEST_CASE("every backend untangles to the same bits, from where the obstacle is 
     }
     for (const std::vector<Vec3>& result : results) CHECK(result == results[0]);
 }
+
+}  // namespace percale::test::detector_start_test

@@ -9,9 +9,7 @@
 #include "tests/support/collision/truth.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::detector_test {
 namespace {
 
 /// The same scene with every backend of the build.
@@ -90,7 +88,7 @@ std::vector<Contact> contacts_of_all_pairs(const Steps& steps, std::span<const V
         obstacle.move(steps.obstacles[o].start, steps.obstacles[o].end);
         for (const ContactPair& pair : all_pairs(steps.cloth, obstacle, true)) {
             const PairContact contact = pair_contact(pair, x, obstacle, fraction);
-            const bool counts = pair.kind != PairKind::face_vertex && contact.distance < thickness && contact.local_minimum;
+            const bool counts = pair.kind != PairKind::face_vertex && contact.distance < sheet_thickness && contact.local_minimum;
             if (counts) contacts.emplace_back(o, pair.feature, contact.distance);
         }
     }
@@ -183,9 +181,9 @@ TEST_CASE("every row keeps the promise of its header, and the nearest of them is
                          true_mesh_distance({.vertices = std::vector<Vec3>(3, rows.obstacle_point[i]), .triangles = {{0, 1, 2}}},
                                             steps.obstacles[rows.obstacle[i]].at(part.from)));
             CHECK(rows.friction[i] == 0.1 * rows.obstacle[i]);
-            CHECK(rows.thickness[i] == thickness);
+            CHECK(rows.thickness[i] == sheet_thickness);
             CHECK(rows.distance[i] > 0.0);
-            CHECK(rows.distance[i] < thickness);
+            CHECK(rows.distance[i] < sheet_thickness);
             least = std::min(least, rows.distance[i]);
         }
         CHECK(worst < 1e-14);
@@ -194,13 +192,13 @@ TEST_CASE("every row keeps the promise of its header, and the nearest of them is
         here.vertices = x;
         double truth = infinity;
         for (const MovingMesh& o : steps.obstacles) truth = std::min(truth, true_mesh_distance(here, o.at(part.from)));
-        if (truth < thickness) {
+        if (truth < sheet_thickness) {
             ++near;
             CHECK(least == Approx(truth).margin(1e-13));
             CHECK(steps.detector->smallest_distance() == Approx(truth).margin(1e-13));
         } else {
             CHECK(rows.size() == 0);
-            CHECK(steps.detector->smallest_distance() >= thickness);
+            CHECK(steps.detector->smallest_distance() >= sheet_thickness);
         }
     }
     CHECK(near > 5);
@@ -316,19 +314,19 @@ TEST_CASE("cuts leave a fifth of the thickness, half of what was there, and neve
         const auto from = shifted(cloth, {0.1, height, 0.13}, 0.0, random), to = shifted(cloth, {0.1, -1.0, 0.13}, 0.0, random);
         return between(from, to, steps.detector->largest_safe_fraction(from, to, {0.0, 1.0}))[0].y();
     };
-    for (const double height : {10.0, 1.0, 0.1, 0.5 * thickness}) {
-        CHECK(left_after(height) > 0.2 * thickness);
-        CHECK(left_after(height) < 0.2 * thickness + 0.101 * (height - 0.2 * thickness));
+    for (const double height : {10.0, 1.0, 0.1, 0.5 * sheet_thickness}) {
+        CHECK(left_after(height) > 0.2 * sheet_thickness);
+        CHECK(left_after(height) < 0.2 * sheet_thickness + 0.101 * (height - 0.2 * sheet_thickness));
     }
-    for (const double height : {0.39 * thickness, 0.1 * thickness, 0.01 * thickness}) {
+    for (const double height : {0.39 * sheet_thickness, 0.1 * sheet_thickness, 0.01 * sheet_thickness}) {
         CHECK(left_after(height) > 0.5 * height);
         CHECK(left_after(height) < 0.56 * height);
     }
-    CHECK(left_after(1.5e-3 * thickness) > 1e-3 * thickness);
-    CHECK(left_after(1e-5 * thickness) > 0.998e-5 * thickness);
+    CHECK(left_after(1.5e-3 * sheet_thickness) > 1e-3 * sheet_thickness);
+    CHECK(left_after(1e-5 * sheet_thickness) > 0.998e-5 * sheet_thickness);
     double height = 1.0;
     for (int i = 0; i < 50; ++i) height = left_after(height);
-    CHECK(height > 1e-3 * thickness);
+    CHECK(height > 1e-3 * sheet_thickness);
 }
 
 TEST_CASE("the lists of a step do not lose contacts when the cloth outruns the prediction") {
@@ -350,3 +348,5 @@ TEST_CASE("the lists of a step do not lose contacts when the cloth outruns the p
     CHECK(with_rows > 20);
     CHECK(differing == 0);
 }
+
+}  // namespace percale::test::detector_test

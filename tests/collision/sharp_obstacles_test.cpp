@@ -5,9 +5,7 @@
 #include "tests/support/collision/shapes.h"
 #include "tests/support/stepped_scene.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::sharp_obstacles_test {
 namespace {
 
 /// Needles on a grid: three-sided, 4 mm wide at the bottom, sharp at the top.
@@ -109,3 +107,5 @@ TEST_CASE("a sheet dragged over needles by its edge does not go through them") {
     CHECK(faults == 0);
     CHECK(bad_steps == 0);
 }
+
+}  // namespace percale::test::sharp_obstacles_test

@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::options_test {
 namespace {
 
 template <class Owner>
@@ -192,4 +192,4 @@ TEST_CASE("An empty newton tolerance means automatic and is not checked") {
     CHECK(mentions(scene_error([&] { check_options(settings, "settings"); }), {"newton_tolerance", "2"}));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::options_test

@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::engine_report_test {
 namespace {
 
 constexpr StepStatus all_statuses[] = {StepStatus::ok,
@@ -139,4 +139,4 @@ TEST_CASE("Solvers have the words of their option, and none where nothing was so
     CHECK(solver_word(LinearSolver::direct) == std::string("direct"));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::engine_report_test

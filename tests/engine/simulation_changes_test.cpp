@@ -9,7 +9,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/slope_scene.h"
 
-namespace percale::test {
+namespace percale::test::simulation_changes_test {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -293,4 +293,4 @@ TEST_CASE("A detector that cannot remove an obstacle says so, naming it") {
     CHECK(scene.simulation.force_on(scene.plane).norm() > 0.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::simulation_changes_test

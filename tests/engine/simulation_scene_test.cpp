@@ -6,7 +6,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::simulation_scene_test {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -175,4 +175,4 @@ TEST_CASE("Cloth that is to meet cloth needs a detector that can do that") {
                    {"self_contact must be false"}));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::simulation_scene_test

@@ -7,7 +7,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::simulation_script_test {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -283,4 +283,4 @@ TEST_CASE("A simulation that was moved from says so whatever is asked of it, and
     CHECK(scene.simulation.step().ok());
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::simulation_script_test

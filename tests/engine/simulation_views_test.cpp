@@ -9,7 +9,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::simulation_views_test {
 namespace {
 
 /// A sheet 2 cm above a plane at y = 0.
@@ -255,4 +255,4 @@ TEST_CASE("Pinned vertices are told ascending, by the numbers of the mesh") {
     CHECK_THROWS_AS(simulation.pinned_vertices(first), SceneError);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::simulation_views_test

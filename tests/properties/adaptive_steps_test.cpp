@@ -8,7 +8,7 @@
 
 // time_step = "auto": the error at the end against what was asked for each second.
 
-namespace percale::test {
+namespace percale::test::adaptive_steps_test {
 namespace {
 
 constexpr double duration = 0.5;
@@ -119,4 +119,4 @@ TEST_CASE("Adaptive TR-BDF2 slides as steps a hundred times more exact do", "[la
     check_errors("sliding sheet", sliding_sheet, exact.positions, {1e-2, 1e-3});
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::adaptive_steps_test

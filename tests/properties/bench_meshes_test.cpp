@@ -9,7 +9,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::bench_meshes_test {
 namespace {
 
 /// Sets of vertices that hang together by edges.
@@ -176,4 +176,4 @@ TEST_CASE("The worst aspect of an equilateral triangle is that of its height") {
     CHECK(worst_aspect(mesh) > 9.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::bench_meshes_test

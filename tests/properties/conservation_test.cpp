@@ -5,7 +5,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"
 
-namespace percale::test {
+namespace percale::test::conservation_test {
 namespace {
 
 /// A free sheet, stretched and thrown about at random.
@@ -118,4 +118,4 @@ TEST_CASE("Backward Euler never gains energy, at small steps and large ones", "[
     check_law("thrown sheet, backward Euler at 1/960 to 0.5 s: largest gain of energy in a step, J", worst, 1e-7);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::conservation_test

@@ -6,7 +6,7 @@
 
 // Strips that bend under their own weight against the heavy elastica (data/reference/elastica.csv).
 
-namespace percale::test {
+namespace percale::test::elastica_test {
 namespace {
 
 constexpr double length = 0.2, weight = 0.2 * 9.81;  // m; N/m^2
@@ -194,4 +194,4 @@ TEST_CASE("A hanging ring, a pear loop and a heart loop take the shapes of the h
     check_loop("heart", Vec3::UnitY(), -Vec3::UnitY(), 1e-3);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::elastica_test

@@ -5,7 +5,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"
 
-namespace percale::test {
+namespace percale::test::energy_bounds_test {
 namespace {
 
 constexpr int side = 6;
@@ -95,4 +95,4 @@ TEST_CASE("In any state a step of backward Euler gains at most <v, v_n> - T_n", 
     check_law("crumpled sheet, backward Euler: gain in a step beyond <v, v_n> - T_n, of its energy", worst, 1e-9);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::energy_bounds_test

@@ -7,7 +7,7 @@
 #include "tests/support/plane_detector.h"
 
 // What becomes of energy over whole runs.
-namespace percale::test {
+namespace percale::test::energy_ledger_test {
 namespace {
 
 /// The ledger of a run: its sum and the worst closure of a step.
@@ -194,4 +194,4 @@ TEST_CASE("Cloth that falls asleep keeps a closed ledger", "[law]") {
     CHECK(std::abs(ledger.sum.imbalance) < 1e-12);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::energy_ledger_test

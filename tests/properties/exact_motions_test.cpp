@@ -8,7 +8,7 @@
 #include "tests/support/laws.h"
 #include "tests/support/reference_table.h"
 
-namespace percale::test {
+namespace percale::test::exact_motions_test {
 namespace {
 
 constexpr double m1 = 0.2, m2 = 0.5, rest = 1.0;
@@ -213,4 +213,4 @@ TEST_CASE("A short chain swings in its lowest mode with the first zero of the La
               std::abs(omega * std::sqrt(link / 9.81) / exact - 1.0), 1e-3);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::exact_motions_test

@@ -10,7 +10,7 @@
 #include "tests/support/reference_table.h"
 
 // Exact answers about forces and equilibria.
-namespace percale::test {
+namespace percale::test::exact_statics_test {
 namespace {
 
 /// Spring forces of a model at some positions, N.
@@ -184,4 +184,4 @@ TEST_CASE("A chain between two points hangs as the funicular polygon", "[law]") 
     check_law("hung chains of 4, 10, 20 links: relative error of the horizontal tension", worst_pull, 1e-3);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::exact_statics_test

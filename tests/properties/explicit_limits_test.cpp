@@ -10,7 +10,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"
 
-namespace percale::test {
+namespace percale::test::explicit_limits_test {
 namespace {
 
 constexpr int links = 6;  // of a chain along x, its ends held
@@ -75,4 +75,4 @@ TEST_CASE("What a simulation expects of explicit schemes is the limit that is me
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::explicit_limits_test

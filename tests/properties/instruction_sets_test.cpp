@@ -4,7 +4,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::instruction_sets_test {
 namespace {
 
 constexpr int steps = 60;
@@ -83,4 +83,4 @@ TEST_CASE("A whole run has the same bits in every instruction set", "[slow]") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::instruction_sets_test

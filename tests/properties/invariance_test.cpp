@@ -7,7 +7,7 @@
 #include "tests/support/laws.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::invariance_test {
 namespace {
 
 /// A sheet without its grid, hung from two vertices of the boundary and pushed sideways.
@@ -151,4 +151,4 @@ TEST_CASE("Two runs of the same scene have the same bits in every step") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::invariance_test

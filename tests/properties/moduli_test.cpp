@@ -6,7 +6,7 @@
 #include "tests/support/forces/membrane_cases.h"
 #include "tests/support/laws.h"
 
-namespace percale::test {
+namespace percale::test::moduli_test {
 namespace {
 
 constexpr double small = 1e-6;
@@ -136,4 +136,4 @@ TEST_CASE("Where triangles are slivers steps stay within newton_share of the err
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::moduli_test

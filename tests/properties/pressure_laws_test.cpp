@@ -6,7 +6,7 @@
 #include "tests/support/laws.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::pressure_laws_test {
 namespace {
 
 constexpr double radius = 0.2, stretch_stiffness = 500.0, poisson_ratio = 0.3, stretch = 1.2;
@@ -157,4 +157,4 @@ TEST_CASE("A ball that slides over a plate comes to roll as a hollow sphere does
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::pressure_laws_test

@@ -9,7 +9,7 @@
 
 // The hanging sheet: 1 m x 1 m, 33 x 33 vertices, two neighbouring corners held.
 
-namespace percale::test {
+namespace percale::test::reference_sheet_test {
 namespace {
 
 constexpr int side = 33;
@@ -157,4 +157,4 @@ TEST_CASE("The hanging sheet by backward Euler at 1/60 s keeps every strain belo
     for (const Vec3& x : positions) CHECK(x.y() > -1.3);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::reference_sheet_test

@@ -8,7 +8,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"
 
-namespace percale::test {
+namespace percale::test::rest_shape_test {
 namespace {
 
 Fabric woven() {
@@ -166,4 +166,4 @@ TEST_CASE("Warp of a mesh that is its own rest shape turns with the pose") {
     CHECK(energies[0] == Approx(0.5 * 400.0 * 0.05125 * 0.05125 * 0.3 * 0.15));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::rest_shape_test

@@ -10,7 +10,7 @@
 
 // What each scheme promises, measured: orders, free fall, momentum.
 
-namespace percale::test {
+namespace percale::test::scheme_orders_test {
 namespace {
 
 /// A taut string of stretched, damped springs between two held ends, displaced sideways: no spring ever goes slack.
@@ -131,4 +131,4 @@ TEST_CASE("A rotating pair keeps its angular momentum by the implicit midpoint a
     check_law_between("spinning pair, backward Euler at 1/60 s, 2 s: angular momentum left", euler, 0.2, 0.7);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::scheme_orders_test

@@ -4,7 +4,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"
 
-namespace percale::test {
+namespace percale::test::seam_laws_test {
 namespace {
 
 using Pairs = std::vector<std::array<int, 2>>;
@@ -284,4 +284,4 @@ TEST_CASE("A wrong seam is refused and changes nothing") {
     CHECK(tube.simulation.plan().springs.seam == 18);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::seam_laws_test

@@ -20,7 +20,7 @@
 //   | X | X |
 //   0 - 1 - 2
 
-namespace percale::test {
+namespace percale::test::six_particles_test {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -245,4 +245,4 @@ TEST_CASE("Six particles: neither the order of the particles nor that of the spr
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::six_particles_test

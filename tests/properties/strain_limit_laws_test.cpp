@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::strain_limit_laws_test {
 namespace {
 
 constexpr double limit = 0.05;
@@ -119,4 +119,4 @@ TEST_CASE("Schemes that take no contact take no limit") {
     CHECK(mentions(scene_error([&] { strip.simulation.step(); }), {"rk4", "strain limit", "backward_euler"}));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::strain_limit_laws_test

@@ -13,7 +13,7 @@
 // Local truncation error: what one step from an exact state is off by. A scheme of order p makes an error of h^(p + 1) a step
 // (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, chapter II.3).
 
-namespace percale::test {
+namespace percale::test::truncation_error_test {
 namespace {
 
 struct System {
@@ -121,4 +121,4 @@ TEST_CASE("One step from an exact state is off by a power of the step one higher
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::truncation_error_test

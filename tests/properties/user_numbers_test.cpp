@@ -5,7 +5,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::user_numbers_test {
 namespace {
 
 constexpr int grid_vertices = 12;
@@ -192,4 +192,4 @@ TEST_CASE("A start through an obstacle names a corner of the user's triangle") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::user_numbers_test

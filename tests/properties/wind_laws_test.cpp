@@ -4,7 +4,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"
 
-namespace percale::test {
+namespace percale::test::wind_laws_test {
 namespace {
 
 constexpr double g = 9.81, air = 1.2, area_density = 0.2;
@@ -135,4 +135,4 @@ TEST_CASE("Wind that changes wakes cloth, and a wind out of range is refused") {
           }) == "set_wind: wind = 2000 m/s is outside the allowed range -1000 ... 1000");
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::wind_laws_test

@@ -2,6 +2,7 @@
 import csv
 import hashlib
 import base64
+import io
 import shutil
 import subprocess
 import sys
@@ -55,6 +56,19 @@ def test_a_build_folder_may_be_named_and_other_settings_are_refused(backend, sou
     assert backend.build_folder(None).parent == source_dir / 'build'
     with pytest.raises(ValueError, match="no config setting 'builddir'; it has build-dir"):
         backend.build_folder({'builddir': 'build/mine'})
+
+
+def test_the_terminal_is_told_how_far_a_build_is(backend, monkeypatch, capfd):
+    monkeypatch.setattr(backend, 'TOLD_EVERY', 0.0)
+    terminal = io.StringIO()
+    lines = "print('[ 12%] Building A'); print('warning'); print('[3/25] Building B')"
+    backend.compile_told([sys.executable, '-c', lines], terminal)
+    assert [line.split(' after ')[0] for line in terminal.getvalue().splitlines() if line] == [
+        '\033[Kpercale: compiling, 12%', '\033[Kpercale: compiling, 3/25']
+    assert capfd.readouterr().out == '[ 12%] Building A\nwarning\n[3/25] Building B\n'  # all of it, for pip -v
+    backend.compile_told([sys.executable, '-c', lines], None)
+    with pytest.raises(subprocess.CalledProcessError):
+        backend.compile_told([sys.executable, '-c', 'raise SystemExit(3)'], None)
 
 
 def test_a_wheel_can_be_imported_from_where_it_is_unpacked(backend, tmp_path):

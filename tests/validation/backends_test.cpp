@@ -11,9 +11,10 @@
 #include "tests/support/collision/steps.h"
 #include "tests/support/random.h"
 #include "tests/support/real_meshes.h"
+#include "tests/support/skip.h"
 
 // Whatever the tree: the same contacts, cuts and distances, to the last bit.
-namespace percale::test {
+namespace percale::test::backends_test {
 namespace {
 
 TriangleMesh random_obstacle(Random& random) {
@@ -115,7 +116,7 @@ TEST_CASE("FCL, Bullet and brute force give the same contacts on body scans") {
     const std::string name = GENERATE("bunny00.off", "man.off", "armadillo.off", "refined_elephant.off", "fandisk.off");
     const std::filesystem::path file = real_mesh_folder() / name;
     if (!std::filesystem::exists(file)) {
-        WARN("skipped: no " << file.string() << "; .ci/fetch_meshes.sh fetches it");
+        skip("no " + file.string() + "; .ci/fetch_meshes.sh fetches it");
         return;
     }
     const TriangleMesh body = unit_size(scenes::import_mesh(file.string()));
@@ -144,4 +145,4 @@ TEST_CASE("FCL, Bullet and brute force give the same contacts on body scans") {
 }
 
 }  // namespace
-}  // namespace percale::test
+}  // namespace percale::test::backends_test

@@ -8,9 +8,10 @@
 #include "scenes/run/run_scene.h"
 #include "tests/support/catch.h"
 #include "tests/support/real_meshes.h"
+#include "tests/support/skip.h"
 
 // Body meshes nobody here made: a sheet is dropped on each, every frame certified.
-namespace percale::scenes {
+namespace percale::scenes::body_scans_test {
 namespace {
 
 struct Extent {
@@ -70,7 +71,7 @@ RunHooks counting_hooks(const BuiltScene& built, FrameCounts& counts) {
 void drop_on(const std::string& name, double size) {
     const std::filesystem::path file = test::real_mesh_folder() / name;
     if (!std::filesystem::exists(file)) {
-        WARN("skipped: no " << file.string() << "; .ci/fetch_meshes.sh fetches it, PERCALE_REAL_MESHES names its folder");
+        test::skip("no " + file.string() + "; .ci/fetch_meshes.sh fetches it, PERCALE_REAL_MESHES names its folder");
         return;
     }
     BuiltScene built = build_scene(parse_scene(drop_scene(file, size), name));
@@ -97,4 +98,4 @@ TEST_CASE("A sheet dropped on a scanned armadillo never goes through it") { drop
 TEST_CASE("A sheet dropped on a scanned bunny never goes through it") { drop_on("bunny00.off", 0.5); }
 
 }  // namespace
-}  // namespace percale::scenes
+}  // namespace percale::scenes::body_scans_test

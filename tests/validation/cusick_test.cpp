@@ -8,7 +8,7 @@
 #include "percale/percale.h"
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::cusick_test {
 namespace {
 
 constexpr double radius = 0.15, support = 0.09;  // m
@@ -100,4 +100,4 @@ TEST_CASE("The drape coefficient grows with bending stiffness, up to 100 for sti
     CHECK(before > 97.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::cusick_test

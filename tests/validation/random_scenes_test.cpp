@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::random_scenes_test {
 namespace {
 
 TEST_CASE("Nothing crosses in 200 random scenes, by the exact certificate after every step") {
@@ -31,4 +31,4 @@ TEST_CASE("Nothing crosses in 200 random scenes, by the exact certificate after 
 }
 
 }  // namespace
-}  // namespace percale::test
+}  // namespace percale::test::random_scenes_test

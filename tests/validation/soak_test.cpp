@@ -8,7 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::soak_test {
 namespace {
 
 /// Bytes that the program holds.
@@ -97,4 +97,4 @@ TEST_CASE("A hundred thousand steps of a sheet that friction holds on a slope: i
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::soak_test

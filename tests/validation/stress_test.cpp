@@ -3,7 +3,7 @@
 #include "scenes/stress/stress_report.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::validation_stress_test {
 
 TEST_CASE("Backward Euler and TR-BDF2 stand the default matrix of percale stress, and no scheme fails silently") {
     const StressRun run = stress_cells(stress_matrix(), 16, {});
@@ -19,4 +19,4 @@ TEST_CASE("Backward Euler and TR-BDF2 stand the default matrix of percale stress
     }
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::validation_stress_test

@@ -2,7 +2,8 @@
 
 Standard library alone, so nothing is downloaded. The build is kept in build/pip-TAG of the checkout, or in the folder that
 `--config-settings build-dir=FOLDER` names (from the checkout): a second install is quick.
-CMake's own environment variables (CXX, CMAKE_GENERATOR, CMAKE_BUILD_PARALLEL_LEVEL) hold.
+CMake's own environment variables (CXX, CMAKE_GENERATOR, CMAKE_BUILD_PARALLEL_LEVEL) hold. pip shows what a build prints only with -v,
+so how far compiling has come is also written to the terminal, where there is one.
 """
 import base64
 import hashlib
@@ -13,12 +14,14 @@ import subprocess
 import sys
 import sysconfig
 import tarfile
+import time
 import tomllib
 import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
 TAG = f'cp{sys.version_info.major}{sys.version_info.minor}'
+TOLD_EVERY = 5.0  # s
 
 
 def project():
@@ -43,6 +46,28 @@ def build_folder(config_settings):
     return build
 
 
+def open_terminal():
+    """The terminal that somebody watches while pip keeps our output; None where there is none."""
+    try:
+        return open('/dev/tty', 'w', encoding='utf-8')
+    except OSError:
+        return None
+
+
+def compile_told(command, terminal):
+    """Runs a build; of its lines `[ 12%] ...` or `[3/25] ...` the terminal gets one every few seconds."""
+    started = told = time.monotonic()
+    with subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, text=True) as building:
+        for line in building.stdout:
+            print(line, end='', flush=True)
+            progress = re.match(r'\[ *(\d+%|\d+/\d+)\]', line)
+            if terminal and progress and time.monotonic() - told >= TOLD_EVERY:
+                told = time.monotonic()
+                print(f'\r\033[Kpercale: compiling, {progress.group(1)} after {told - started:.0f} s', file=terminal, flush=True)
+    if building.returncode != 0:
+        raise subprocess.CalledProcessError(building.returncode, command)
+
+
 def build_package(config_settings=None):
     """The folder of the package, built and then installed to where nothing else lies."""
     build = build_folder(config_settings)
@@ -50,7 +75,10 @@ def build_package(config_settings=None):
     jobs = os.environ.get('CMAKE_BUILD_PARALLEL_LEVEL', str(os.cpu_count() or 1))
     subprocess.run(['cmake', '-S', ROOT, '-B', build, '-DCMAKE_BUILD_TYPE=Release', '-DPERCALE_PYTHON=ON', '-DPERCALE_TESTS=OFF',
                     f'-DPython3_EXECUTABLE={sys.executable}'], check=True)
-    subprocess.run(['cmake', '--build', build, '--target', 'percale_python', '--parallel', jobs], check=True)
+    terminal = open_terminal()
+    if terminal:
+        print(f'\r\033[Kpercale: compiling in {build}, two minutes on two cores', file=terminal, flush=True)
+    compile_told(['cmake', '--build', build, '--target', 'percale_python', '--parallel', jobs], terminal)
     stage = build / 'wheel'
     shutil.rmtree(stage, ignore_errors=True)
     subprocess.run(['cmake', '--install', build, '--prefix', stage, '--component', 'python', '--strip'], check=True)

@@ -8,7 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/random.h"
 
-using namespace percale;
+namespace percale::test::surface_point_test {
 
 TEST_CASE("Points attached to a surface are where they were, and go along with it as it moves as a whole") {
     const TriangleMesh ball = make_sphere(0.3, 2);
@@ -73,3 +73,5 @@ TEST_CASE("A surface without an area, a triangle that loses it and points withou
     CHECK_THROWS_AS(place_of(attached, one.vertices), SceneError);
     CHECK_THROWS_AS(attach(one, std::span(&point, 1)), SceneError);
 }
+
+}  // namespace percale::test::surface_point_test

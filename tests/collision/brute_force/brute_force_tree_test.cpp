@@ -3,8 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/trees.h"
 
-using namespace percale;
-using namespace percale::test;
+namespace percale::test::brute_force_tree_test {
 
 TEST_CASE("brute_force: a tree finds every triangle whose box overlaps the asked one") { check_tree_laws(make_brute_force_tree); }
 
@@ -24,3 +23,5 @@ TEST_CASE("brute_force: what only touches a box is found, in ascending order") {
     CHECK(found.start == std::vector<int>{0, 2, 2, 4});
     CHECK(found.ids == std::vector<int>{0, 1, 0, 1});
 }
+
+}  // namespace percale::test::brute_force_tree_test

@@ -15,7 +15,7 @@
 
 // Bullet's distance of two triangles (GJK in double precision, no margins) beside ours.
 
-namespace percale::test {
+namespace percale::test::bullet_oracles_test {
 namespace {
 
 using certificate::Corners;
@@ -85,4 +85,4 @@ TEST_CASE("Distances of triangles are Bullet's, and never longer", "[law]") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::bullet_oracles_test

@@ -3,8 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/trees.h"
 
-using namespace percale;
-using namespace percale::test;
+namespace percale::test::bullet_tree_test {
 
 TEST_CASE("bullet: a tree finds every triangle whose box overlaps the asked one") { check_tree_laws(make_bullet_tree); }
 
@@ -37,3 +36,5 @@ TEST_CASE("bullet: boxes beside, around and far from the mesh are asked without 
         CHECK(check_tree(make_bullet_tree, scaled, asked) > 0);
     }
 }
+
+}  // namespace percale::test::bullet_tree_test

@@ -7,8 +7,9 @@
 #include "percale/detectors.h"
 #include "tests/support/catch.h"
 
+namespace percale::test::bullet_world_test {
+
 // Bodies of a Bullet world and cloth, as data/examples/bullet_bodies.h couples them.
-using namespace percale;
 
 namespace {
 
@@ -147,3 +148,5 @@ TEST_CASE("A box dropped askew on a trampoline comes to rest level, carried by i
     CHECK((pins / dt - Vec3(0.0, (2.0 + sheet_mass) * g, 0.0)).norm() < 1e-6 * 2.3 * g);
     CHECK(box->getWorldTransform().getBasis()[1][1] > 0.99);
 }
+
+}  // namespace percale::test::bullet_world_test

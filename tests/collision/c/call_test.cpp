@@ -23,9 +23,8 @@
 #endif
 #endif
 
-using namespace percale;
+namespace percale::test::call_test {
 using namespace percale::c_interface;
-using percale::test::fails;
 
 TEST_CASE("Whatever is thrown becomes a status with a text, of the object and of the thread") {
     ErrorText own;
@@ -112,3 +111,5 @@ TEST_CASE("Every simulation has an error text of its own") {
     CHECK(percale_last_error(one.get()) == std::string(percale_last_error(nullptr)));
     CHECK(percale_last_error(other.get()) == std::string());
 }
+
+}  // namespace percale::test::call_test

@@ -5,6 +5,8 @@
 #include "percale.h"
 #include "tests/support/catch.h"
 
+namespace percale::test::header_test {
+
 TEST_CASE("A C99 compiler lays the structs of percale.h out as C++ does") {
     const std::vector<std::size_t> of_cpp{sizeof(percale_pose),
                                           sizeof(percale_stitch),
@@ -31,3 +33,5 @@ TEST_CASE("A C99 compiler lays the structs of percale.h out as C++ does") {
 }
 
 TEST_CASE("A call written in C is refused as one written in C++") { CHECK(percale_error_in_c() == 1); }
+
+}  // namespace percale::test::header_test

@@ -8,9 +8,7 @@
 #include "collision/c/call.h"
 #include "tests/support/collision/c_objects.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::host_test {
 namespace {
 
 /// A host that begins threads for every run.
@@ -133,3 +131,5 @@ TEST_CASE("A detector is chosen by its word, and one that is not built is refuse
     CHECK(percale_has_detector("bullet") == 0);
 #endif
 }
+
+}  // namespace percale::test::host_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/collision/c_objects.h"
 
-using namespace percale::test;
+namespace percale::test::library_calls_test {
 
 TEST_CASE("Every status of the C interface has a text of its own, others are unknown") {
     std::set<std::string> texts;
@@ -44,3 +44,5 @@ TEST_CASE("Detectors are asked for by word") {
     CHECK(percale_has_detector("") == 0);
     CHECK(percale_has_detector(nullptr) == 0);
 }
+
+}  // namespace percale::test::library_calls_test

@@ -6,9 +6,7 @@
 #include "percale/strain.h"
 #include "tests/support/collision/c_objects.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::mesh_calls_test {
 namespace {
 
 void check_same(const percale_mesh* made, const TriangleMesh& mesh) {
@@ -144,3 +142,5 @@ TEST_CASE("Strains of a sheet that is stretched by known shares, at the scale of
     settings.warp[1] = 1.0;  // normal to all triangles
     fails(call(9, 8), PERCALE_INVALID_ARGUMENT, "percale_triangle_strains", "warp");
 }
+
+}  // namespace percale::test::mesh_calls_test

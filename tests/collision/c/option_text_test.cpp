@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
+namespace percale::test::option_text_test {
 using namespace percale::c_interface;
 
 namespace {
@@ -107,3 +107,5 @@ TEST_CASE("Words of the table of options end where C expects it") {
         for (const std::string_view word : words_of(option)) check_end(word);
     }
 }
+
+}  // namespace percale::test::option_text_test

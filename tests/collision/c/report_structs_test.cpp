@@ -6,7 +6,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
+namespace percale::test::report_structs_test {
 using namespace percale::c_interface;
 
 namespace {
@@ -141,3 +141,5 @@ TEST_CASE("A plan as lines says its scheme, warnings, counts and what is left ou
         CHECK(text.find(part) != std::string::npos);
     }
 }
+
+}  // namespace percale::test::report_structs_test

@@ -4,9 +4,7 @@
 
 #include "tests/support/collision/c_objects.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::scene_calls_test {
 namespace {
 
 struct BadScene {
@@ -238,3 +236,5 @@ TEST_CASE("Numbers of what was removed are refused and not given again, all othe
     CHECK(c_add_cloth(simulation.get(), sheet().get(), cotton().get(), 3.0) == 2);
     well(percale_step(simulation.get(), nullptr));
 }
+
+}  // namespace percale::test::scene_calls_test

@@ -5,9 +5,7 @@
 
 #include "tests/support/collision/c_objects.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::script_calls_test {
 namespace {
 
 struct BadMove {
@@ -165,3 +163,5 @@ TEST_CASE("What is moved through C is where it was moved to") {
     well(percale_obstacle_shape(simulation.get(), 1, moved.data(), 4, nullptr));
     CHECK(moved == shape);
 }
+
+}  // namespace percale::test::script_calls_test

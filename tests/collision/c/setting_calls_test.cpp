@@ -4,8 +4,7 @@
 #include "percale/options.h"
 #include "tests/support/collision/c_objects.h"
 
-using namespace percale::test;
-
+namespace percale::test::setting_calls_test {
 namespace {
 
 std::string step_text(const percale_step_settings* settings, const char* key) {
@@ -130,3 +129,5 @@ TEST_CASE("What C tells of options is what the table of options says") {
     CHECK(percale_step_option_word(999, 0) == nullptr);
     CHECK(percale_fabric_option_word(0, -1) == nullptr);
 }
+
+}  // namespace percale::test::setting_calls_test

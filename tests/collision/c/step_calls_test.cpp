@@ -3,9 +3,7 @@
 
 #include "tests/support/collision/c_objects.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::step_calls_test {
 namespace {
 
 std::string plan_of(const percale_simulation* simulation, const percale_scripted_changes* changes = nullptr) {
@@ -184,3 +182,5 @@ TEST_CASE("What is saved is restored to the same bits, and what is damaged is re
     CHECK(size == now.size());
     CHECK(small == std::vector<char>(small.size(), 'x'));
 }
+
+}  // namespace percale::test::step_calls_test

@@ -7,9 +7,7 @@
 #include "percale/simulation.h"
 #include "tests/support/collision/c_objects.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::structs_test {
 namespace {
 
 template <class Struct>
@@ -114,3 +112,5 @@ TEST_CASE("Lists that are NULL or longer than an int counts are refused") {
     CHECK_THROWS_WITH(c_interface::vectors_of(one, too_many, "places"), Catch::Contains(std::to_string(too_many)));
     CHECK(c_interface::vectors_of(one, 1, "places").front() == Vec3(1.0, 2.0, 3.0));
 }
+
+}  // namespace percale::test::structs_test

@@ -7,6 +7,9 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
+
+namespace percale::test::symbols_test {
 
 // The binary interface of libpercale.so: what it shows to those that load it.
 namespace {
@@ -60,6 +63,8 @@ TEST_CASE("libpercale.so shows the symbols of the list and no others") {
 #ifdef PERCALE_SHARED_LIBRARY
     CHECK(exported_symbols() == stored_symbols());
 #else
-    std::printf("skipped: this build has no libpercale.so\n");
+    skip("this build has no libpercale.so");
 #endif
 }
+
+}  // namespace percale::test::symbols_test

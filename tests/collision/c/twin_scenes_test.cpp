@@ -5,8 +5,7 @@
 
 #include "tests/support/collision/c_twin.h"
 
-using namespace percale;
-using namespace percale::test;
+namespace percale::test::twin_scenes_test {
 
 // The same scenes made through C++ and through C step alike in every bit.
 namespace {
@@ -297,3 +296,5 @@ TEST_CASE("The same scenes through C++ and through C have equal state hashes aft
         CHECK((twin.failed_steps() > 0) == scene.fails);
     }
 }
+
+}  // namespace percale::test::twin_scenes_test

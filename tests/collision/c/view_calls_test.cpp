@@ -5,9 +5,7 @@
 #include "tests/support/collision/c_objects.h"
 #include "tests/support/collision/c_twin.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::view_calls_test {
 namespace {
 
 CSimulation stepped_sheet() {
@@ -271,3 +269,5 @@ TEST_CASE("Gaps of a seam are told in m, one a stitch, and cloths that meet say 
     well(percale_meets(simulation.get(), 0, 1, &meet));
     CHECK(meet == 0);
 }
+
+}  // namespace percale::test::view_calls_test

@@ -5,8 +5,9 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
+namespace percale::test::box_tree_test {
 using namespace percale::certificate;
+using certificate::Box;  // not that of the search
 
 namespace {
 
@@ -151,3 +152,5 @@ TEST_CASE("an empty tree has no items, no bounds and no nearest") {
               .first == -1);
     CHECK_FALSE(empty.bounds().contains(Vec3::Zero()));
 }
+
+}  // namespace percale::test::box_tree_test

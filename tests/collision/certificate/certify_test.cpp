@@ -11,8 +11,7 @@
 #include "percale/error.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-
+namespace percale::test::certificate_certify_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -359,3 +358,5 @@ TEST_CASE("cloth that only touches itself away from its neighbours is told apart
     mesh.triangles[0][1] = 4242;
     CHECK_THROWS_WITH(certify_cloth(mesh), Catch::Contains("4242"));
 }
+
+}  // namespace percale::test::certificate_certify_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
+namespace percale::test::exact_orientation_test {
 using namespace percale::certificate;
 
 namespace {
@@ -202,3 +202,5 @@ TEST_CASE("collinear points have no projection axis and others have one that kee
     }
     SUCCEED();
 }
+
+}  // namespace percale::test::exact_orientation_test

@@ -9,7 +9,7 @@
 #include "percale/mesh.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
+namespace percale::test::inside_test_test {
 using namespace percale::certificate;
 
 namespace {
@@ -201,3 +201,5 @@ TEST_CASE("side does not depend on how corners are numbered or triangles ordered
     }
     SUCCEED();
 }
+
+}  // namespace percale::test::inside_test_test

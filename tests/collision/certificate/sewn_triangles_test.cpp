@@ -5,8 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
+namespace percale::test::sewn_triangles_test {
 using certificate::SewnTriangles;
 
 namespace {
@@ -60,3 +59,5 @@ TEST_CASE("vertices sewn to each other, in chains too, count as the lowest of th
     const std::vector<Stitch> stitches = {{4, 2, 2, 0.0}, {5, 4, 1, 0.0}, {3, 0, 1, 0.5}};
     CHECK(certificate::closed_vertices(6, stitches) == std::vector<int>{0, 1, 2, 3, 2, 2});
 }
+
+}  // namespace percale::test::sewn_triangles_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
+namespace percale::test::triangle_gap_test {
 using namespace percale::certificate;
 
 namespace {
@@ -172,3 +172,5 @@ TEST_CASE("a separation above what is enough is still a lower bound") {
     }
     CHECK(stopped > 100);
 }
+
+}  // namespace percale::test::triangle_gap_test

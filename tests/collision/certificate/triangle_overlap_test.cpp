@@ -6,7 +6,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
+namespace percale::test::triangle_overlap_test {
 using namespace percale::certificate;
 
 namespace {
@@ -253,3 +253,5 @@ TEST_CASE("a point lies on a triangle exactly where it does in rational arithmet
     }
     CHECK(on > 500);
 }
+
+}  // namespace percale::test::triangle_overlap_test

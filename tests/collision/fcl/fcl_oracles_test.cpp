@@ -19,7 +19,7 @@
 
 // FCL's narrow phase beside ours: what it says of pairs of triangles and of moves, where it can be believed.
 
-namespace percale::test {
+namespace percale::test::fcl_oracles_test {
 namespace {
 
 using certificate::Corners;
@@ -194,4 +194,4 @@ TEST_CASE("Moves are cut before FCL's first contact, and before those that FCL d
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::fcl_oracles_test

@@ -3,8 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/trees.h"
 
-using namespace percale;
-using namespace percale::test;
+namespace percale::test::fcl_tree_test {
 
 TEST_CASE("fcl: a tree finds every triangle whose box overlaps the asked one") { check_tree_laws(make_fcl_tree); }
 
@@ -22,3 +21,5 @@ TEST_CASE("fcl: a tree finds no triangle whose box lies apart") {
     CHECK(apart == 0);
     CHECK(found.ids.size() > 1000);
 }
+
+}  // namespace percale::test::fcl_tree_test

@@ -7,9 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::cloth_clusters_test {
 namespace {
 
 TriangleMesh cloth_number(int i) {
@@ -145,3 +143,5 @@ TEST_CASE("the clusters of a cloth are the same each time they are made") {
         CHECK(a.clusters[i].edges == b.clusters[i].edges);
     }
 }
+
+}  // namespace percale::test::cloth_clusters_test

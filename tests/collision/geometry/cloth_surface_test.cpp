@@ -6,8 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
+namespace percale::test::cloth_surface_test {
 
 TEST_CASE("edges of a cloth surface know their triangles and the vertices opposite") {
     const TriangleMesh mesh = GENERATE(make_grid(1, 1, 7, 5), make_sphere(1.0, 2), joined(make_grid(1, 1, 2, 2), soup(3, 1)));
@@ -54,3 +53,5 @@ TEST_CASE("a vertex of a cloth surface has its neighbours around it and the lowe
     CHECK(surface.neighbours(static_cast<int>(mesh.vertices.size())).empty());
     CHECK(surface.vertex_owner.back() == -1);
 }
+
+}  // namespace percale::test::cloth_surface_test

@@ -3,8 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
+namespace percale::test::disjoint_sets_test {
 
 TEST_CASE("numbers are in one set where joins lead from one to the other, known by the lowest of them") {
     Random random(4);
@@ -20,3 +19,5 @@ TEST_CASE("numbers are in one set where joins lead from one to the other, known 
         for (int i = 0; i < count; ++i) REQUIRE(sets.of(i) == lowest[i]);
     }
 }
+
+}  // namespace percale::test::disjoint_sets_test

@@ -6,8 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
+namespace percale::test::morton_order_test {
 
 TEST_CASE("the order along the curve names every triangle once and keeps neighbours together") {
     const TriangleMesh ball = make_sphere(1.0, 4);
@@ -41,3 +40,5 @@ TEST_CASE("all vertices in one point, whose mean may differ by rounding, have an
     std::sort(order.begin(), order.end());
     CHECK(order == std::vector<int>{0, 1, 2});
 }
+
+}  // namespace percale::test::morton_order_test

@@ -8,9 +8,7 @@
 #include "tests/support/collision/shapes.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::signed_depth_convex_test {
 namespace {
 
 double reach(std::span<const Vec3> points, const Vec3& way) {
@@ -99,3 +97,5 @@ TEST_CASE("a disc in the middle of a sphere leaves across, not along") {
     CHECK(overlap->depth == Approx(0.25).margin(2e-3));
     CHECK_FALSE(hull_overlap(disc, moved(sphere, {0, 0.3, 0}).vertices));
 }
+
+}  // namespace percale::test::signed_depth_convex_test

@@ -11,9 +11,7 @@
 #include "tests/support/collision/truth.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::signed_depth_test {
 namespace {
 
 /// Distance to a mesh by trying every triangle; negative where it winds around the point.
@@ -116,3 +114,5 @@ TEST_CASE("depth in the middle") {
     CHECK(capsule_distance(Vec3(0, 0.25, 0), 0.2, 0.5) == -0.2);
     CHECK(capsule_distance(Vec3::Zero(), 0.2, 0.0) == -0.2);
 }
+
+}  // namespace percale::test::signed_depth_test

@@ -8,9 +8,7 @@
 #include "tests/support/collision/truth.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::time_of_impact_test {
 namespace {
 
 std::array<Vec3, 4> at(const MovingFour& four, double time) {
@@ -256,3 +254,5 @@ TEST_CASE("a start at or below the floor allows no time at all, an earlier limit
     CHECK(safe_time(four, PairShape::point_triangle, 0.2, 0.0) == 0.0);
     CHECK(safe_time(four, PairShape::point_triangle, 0.2, 0.39) <= 0.39);
 }
+
+}  // namespace percale::test::time_of_impact_test

@@ -7,9 +7,7 @@
 #include "tests/support/collision/truth.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::triangle_distance_test {
 namespace {
 
 struct PointCase {
@@ -271,3 +269,5 @@ TEST_CASE("segments that cross above each other at any angle keep the digits of 
     CHECK(worst < 1e-12);
     CHECK(worst_digits < 1e-5);
 }
+
+}  // namespace percale::test::triangle_distance_test

@@ -11,9 +11,7 @@
 #include "tests/support/collision/shapes.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::candidate_lists_test {
 namespace {
 
 constexpr double thickness = 0.06;
@@ -290,3 +288,5 @@ TEST_CASE("a cluster's thickness is the largest of its vertices") {
         CHECK(lists.lists()[i].thickness == (has_first ? 3.0 : 1.0) * thickness);
     }
 }
+
+}  // namespace percale::test::candidate_lists_test

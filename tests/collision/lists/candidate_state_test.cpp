@@ -6,9 +6,7 @@
 #include "tests/support/collision/scenes.h"
 #include "tests/support/saved_bytes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::candidate_state_test {
 namespace {
 
 /// What a detector answers in a step that starts at `from` and would lead to `to`; in the end the cloth is where that led.
@@ -39,18 +37,18 @@ struct Walk {
     std::vector<Vec3> at;
 
     Walk(Scene scene, const Backend& backend, unsigned seed) : steps(make_steps(scene, small_sheet(), backend)), random(seed) {
-        at = shifted(steps.cloth, {0, 0.25 + 0.5 * thickness, 0}, 0.1 * thickness, random);
+        at = shifted(steps.cloth, {0, 0.25 + 0.5 * sheet_thickness, 0}, 0.1 * sheet_thickness, random);
     }
     std::vector<Vec3> next(int step) {
         std::vector<Vec3> to = at;
-        const Vec3 way(0, step % 7 < 4 ? -0.3 * thickness : 0.25 * thickness, 0);
-        for (Vec3& x : to) x += way + random.point(step % 5 == 0 ? 0.0 : 0.05 * thickness);
+        const Vec3 way(0, step % 7 < 4 ? -0.3 * sheet_thickness : 0.25 * sheet_thickness, 0);
+        for (Vec3& x : to) x += way + random.point(step % 5 == 0 ? 0.0 : 0.05 * sheet_thickness);
         return step % 6 == 5 ? at : to;
     }
     void move_obstacles(int step) {
         for (MovingMesh& o : steps.obstacles) {
             o.start = o.end;
-            if (step % 4 == 3) o.end.translation += random.point(0.2 * thickness);
+            if (step % 4 == 3) o.end.translation += random.point(0.2 * sheet_thickness);
         }
         steps.tell_poses();
     }
@@ -153,3 +151,5 @@ TEST_CASE("a detector's state whose bytes were changed is refused, or taken and 
     CHECK(taken > 50);
     CHECK(saved_by(*walk.steps.detector) == good);
 }
+
+}  // namespace percale::test::candidate_state_test

@@ -11,9 +11,7 @@
 #include "tests/support/collision/truth.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::contact_pair_test {
 namespace {
 
 Obstacle make(const TriangleMesh& mesh, const Pose& pose = {}) { return {mesh, pose, 0.5, make_brute_force_tree}; }
@@ -343,3 +341,5 @@ TEST_CASE("the four moving points of a pair start and end where cloth and obstac
     }
     CHECK(wrong == 0);
 }
+
+}  // namespace percale::test::contact_pair_test

@@ -5,8 +5,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
-
+namespace percale::test::feature_minima_test {
 namespace {
 
 /// Rows told apart by `feature`, which is their thickness and distance, too, with directions by their angle from y.
@@ -90,3 +89,5 @@ TEST_CASE("rows of edges do not give way") {
     written.end_feature();
     CHECK(written.rows.feature == std::vector<int>{1, 2});
 }
+
+}  // namespace percale::test::feature_minima_test

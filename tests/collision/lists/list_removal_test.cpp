@@ -9,9 +9,7 @@
 #include "tests/support/collision/shapes.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::list_removal_test {
 namespace {
 
 constexpr double thickness = 0.06;
@@ -104,3 +102,5 @@ TEST_CASE("lists that were not good before are not so after, and without obstacl
         CHECK(lists.empty() == (left == 0));
     }
 }
+
+}  // namespace percale::test::list_removal_test

@@ -11,9 +11,7 @@
 #include "tests/support/collision/trees.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::pack_measure_test {
 namespace {
 
 /// A random cloth triangle of some size near a point.
@@ -125,3 +123,5 @@ TEST_CASE("nothing of a pack becomes a contact before the cloth has moved as far
     CHECK(told > 1000);
     CHECK(rows == 0);
 }
+
+}  // namespace percale::test::pack_measure_test

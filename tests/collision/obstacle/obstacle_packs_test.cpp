@@ -10,9 +10,7 @@
 #include "tests/support/collision/trees.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::obstacle_packs_test {
 namespace {
 
 TriangleMesh some_mesh(int number) {
@@ -180,3 +178,5 @@ TEST_CASE("every direction in which a vertex faces the viewer is in its cone") {
     CHECK(outside == 0);
     CHECK((number == 1 || cones > 50));
 }
+
+}  // namespace percale::test::obstacle_packs_test

@@ -9,9 +9,7 @@
 #include "tests/support/collision/shapes.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::obstacle_surface_test {
 namespace {
 
 ObstacleSurface surface_of(const TriangleMesh& mesh) { return make_surface(mesh.vertices, mesh.triangles); }
@@ -290,3 +288,5 @@ TEST_CASE("a point faces an edge or vertex only inside its normal cone") {
         CHECK_FALSE(edge_faces(box, e, middle, Vec3((outward + 1.01 * across).normalized()), at));
     }
 }
+
+}  // namespace percale::test::obstacle_surface_test

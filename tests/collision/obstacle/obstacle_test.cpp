@@ -8,9 +8,7 @@
 #include "tests/support/collision/trees.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::obstacle_test {
 namespace {
 
 /// The patch whose packs a triangle is in.
@@ -223,3 +221,5 @@ TEST_CASE("the given mesh is kept with what cleaning drops, at the start of the 
     CHECK(obstacle.given_mesh().vertices == transform(start, mesh.vertices));
     CHECK(obstacle.friction() == 0.3);
 }
+
+}  // namespace percale::test::obstacle_test

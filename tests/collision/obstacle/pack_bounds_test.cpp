@@ -7,10 +7,9 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/random.h"
+#include "tests/support/skip.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::pack_bounds_test {
 namespace {
 
 bool same(const PackAnswer& a, const PackAnswer& b) {
@@ -23,7 +22,7 @@ bool same(const PackAnswer& a, const PackAnswer& b) {
 TEST_CASE("all instruction sets give the same bits") {
     const PackKernels* wide = avx2_pack_kernels();
     if (!wide) {
-        WARN("skipped: this processor has the baseline alone");
+        skip("this processor has the baseline alone");
         return;
     }
     const PackKernels& narrow = *baseline_pack_kernels();
@@ -98,3 +97,5 @@ TEST_CASE("the least bound and those up to a limit are found in arrays of any le
     CHECK(found == expected);
     CHECK(kernels->smallest(bounds.data(), static_cast<long>(count)) == least);
 }
+
+}  // namespace percale::test::pack_bounds_test

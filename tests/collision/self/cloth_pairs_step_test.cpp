@@ -8,9 +8,9 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/collision/shapes.h"
 
+namespace percale::test::cloth_pairs_step_test {
+
 // What is said of pairs of cloths, through the whole of a simulation.
-using namespace percale;
-using namespace percale::test;
 
 namespace {
 
@@ -375,3 +375,5 @@ TEST_CASE("The order of layers says which of two interleaved cloths goes above t
     const ClothId alone = simulation->add_cloth(make_grid(0.1, 0.1, 3, 3), single, {.translation = {0, 1, 0}}, "alone");
     CHECK(scene_error([&] { simulation->set_layer(alone, 1); }).find("alone: a layer says nothing") != std::string::npos);
 }
+
+}  // namespace percale::test::cloth_pairs_step_test

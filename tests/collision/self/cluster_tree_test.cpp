@@ -3,9 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::cluster_tree_test {
 namespace {
 
 std::vector<Box> random_boxes(int count, Random& random) {
@@ -55,3 +53,5 @@ TEST_CASE("boxes of a cluster tree that only touch are a pair") {
     tree.find_pairs(found);
     CHECK(found == std::vector<std::pair<int, int>>{{0, 0}, {0, 1}, {1, 1}});
 }
+
+}  // namespace percale::test::cluster_tree_test

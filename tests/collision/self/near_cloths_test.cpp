@@ -7,9 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::near_cloths_test {
 namespace {
 
 constexpr int points_each = 4;
@@ -102,3 +100,5 @@ TEST_CASE("cloths that hover between half of their thicknesses and a whole one k
     CHECK(groups_at(0.21, joined, false) == joined);
     CHECK(groups_at(0.09, parted, false) == joined);
 }
+
+}  // namespace percale::test::near_cloths_test

@@ -10,9 +10,7 @@
 #include "tests/support/collision/cloths.h"
 #include "tests/support/collision/steps.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::self_contact_detection_test {
 namespace {
 
 std::unique_ptr<ContactDetector> detector_for(const Cloths& cloths, const Backend& backend) {
@@ -386,3 +384,5 @@ TEST_CASE("a start where cloth crosses or touches cloth is reported with both tr
     CHECK(touching.between_cloths());
     CHECK(touching.intersecting_pairs == 0);
 }
+
+}  // namespace percale::test::self_contact_detection_test

@@ -9,9 +9,7 @@
 #include "tests/support/collision/cloths.h"
 #include "tests/support/collision/steps.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::self_contact_lists_test {
 namespace {
 
 using Key = std::pair<int, std::array<int, 2>>;
@@ -365,3 +363,5 @@ TEST_CASE("a move that would take too many pairs is covered in part, and leaves 
     CHECK(after[0] <= 2 * before[0]);
     CHECK(after[1] <= 4 * before[1]);
 }
+
+}  // namespace percale::test::self_contact_lists_test

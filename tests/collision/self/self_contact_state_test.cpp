@@ -7,9 +7,7 @@
 #include "tests/support/collision/steps.h"
 #include "tests/support/saved_bytes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::self_contact_state_test {
 namespace {
 
 SelfContactDetection detection_of(const Cloths& cloths) {
@@ -85,3 +83,5 @@ TEST_CASE("a state of cloth against cloth whose bytes were changed is refused, o
     CHECK(refused > 20);
     CHECK_THROWS_AS(restore(detection, Saved(good.begin(), good.end() - 1)), SceneError);
 }
+
+}  // namespace percale::test::self_contact_state_test

@@ -7,9 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::self_contact_step_test {
 namespace {
 
 constexpr double h = 0.005;
@@ -169,3 +167,5 @@ TEST_CASE("Cloth finer than its thickness lies at rest as it was made") {
     for (int i = 0; i < 5; ++i) CHECK(simulation.step().contacts == 0);
     for (std::size_t v = 0; v < before.size(); ++v) CHECK((simulation.positions(cloth)[v] - before[v]).norm() < 1e-12);
 }
+
+}  // namespace percale::test::self_contact_step_test

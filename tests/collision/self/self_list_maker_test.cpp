@@ -5,9 +5,7 @@
 #include "tests/support/collision/cloths.h"
 #include "tests/support/collision/steps.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::self_list_maker_test {
 namespace {
 
 /// m, below it a vertex and a triangle of two cloths are in contact.
@@ -97,3 +95,5 @@ TEST_CASE("lists hold every pair of cloths of several thicknesses, or of one tha
     }
     CHECK(near > 1000);
 }
+
+}  // namespace percale::test::self_list_maker_test

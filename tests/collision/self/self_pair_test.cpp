@@ -8,9 +8,7 @@
 #include "tests/support/collision/truth.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::self_pair_test {
 namespace {
 
 /// Two sheets whose features are paired: the lower has the first vertices.
@@ -232,3 +230,5 @@ TEST_CASE("a pair moves with its four vertices") {
         CHECK(four.to[k] == to[v]);
     }
 }
+
+}  // namespace percale::test::self_pair_test

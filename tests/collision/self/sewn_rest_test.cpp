@@ -7,9 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::sewn_rest_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -112,3 +110,5 @@ TEST_CASE("a way may lead through several seams, and none is longer than the rea
     CHECK(between(near, {0}, {49}) == infinity);
     CHECK(between(sheets.sewn({}), {4}, {25}) == infinity);
 }
+
+}  // namespace percale::test::sewn_rest_test

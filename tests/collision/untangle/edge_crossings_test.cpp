@@ -6,9 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::edge_crossings_test {
 namespace {
 
 /// A bumpy sheet through a flat one of other triangles. The bumps' vertices come first.
@@ -98,3 +96,5 @@ TEST_CASE("the edge of a boundary that pokes through is drawn back") {
     CHECK(sum.y() > 1.0);
     CHECK(std::abs(sum.x()) + std::abs(sum.z()) < 1e-12);
 }
+
+}  // namespace percale::test::edge_crossings_test

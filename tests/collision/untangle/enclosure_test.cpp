@@ -3,9 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::enclosure_test {
 namespace {
 
 std::vector<Vec3> shifted(std::vector<Vec3> x, const Vec3& by) {
@@ -51,3 +49,5 @@ TEST_CASE("What does not pass through two rims is not surrounded") {
     CHECK_FALSE(loses(ball, rod));
     CHECK_FALSE(loses(ring, rod));
 }
+
+}  // namespace percale::test::enclosure_test

@@ -4,9 +4,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::layer_order_test {
 namespace {
 
 /// Upright tubes without ends, one cloth each, a layer each.
@@ -109,3 +107,5 @@ TEST_CASE("the other side of a flat tube is nothing to be outside of, and what i
         CHECK(x[v].z() < height + 0.003);
     }
 }
+
+}  // namespace percale::test::layer_order_test

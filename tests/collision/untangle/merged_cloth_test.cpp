@@ -5,9 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::merged_cloth_test {
 namespace {
 
 /// Two squares of two triangles each, the second `above` the first; vertices 4 ... 7 are over 0 ... 3.
@@ -69,3 +67,5 @@ TEST_CASE("what did not move keeps its gap where that is asked for, what moved h
     CHECK(none[1] == gaps[1]);
     CHECK(merged.mean_edge() > 0.5);
 }
+
+}  // namespace percale::test::merged_cloth_test

@@ -7,11 +7,12 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/off.h"
 #include "tests/support/collision/shapes.h"
+#include "tests/support/skip.h"
 #include "tests/support/stepped_scene.h"
 
+namespace percale::test::start_repair_run_test {
+
 // Starts in conflict with obstacles, through the whole of a simulation.
-using namespace percale;
-using namespace percale::test;
 
 namespace {
 
@@ -87,7 +88,7 @@ TEST_CASE("a sheet through a sphere's middle is moved out, told about, and then 
 TEST_CASE("a tilted sheet through a body scan is moved out and simulated") {
     const auto scan = read_off(real_mesh_folder() / "bunny00.off");
     if (!scan) {
-        WARN("skipped: no bunny00.off in " << real_mesh_folder() << " (PERCALE_REAL_MESHES)");
+        skip("no bunny00.off in " + real_mesh_folder().string() + " (PERCALE_REAL_MESHES)");
         return;
     }
     SteppedScene scene(tilted(make_grid(1, 1, 25, 25), 0.4), {.time_step = 1.0 / 60.0, .measure = StepMeasures::all});
@@ -355,3 +356,5 @@ TEST_CASE("sewing without contact goes on from a saved state with the same bits,
     SewnPanels other(true);
     CHECK(holds(error_of([&] { other.simulation.restore(state); }), {"seams"}));
 }
+
+}  // namespace percale::test::start_repair_run_test

@@ -6,9 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::untangle_check_test {
 namespace {
 
 struct Sheet {
@@ -78,3 +76,5 @@ TEST_CASE("of cloth cut by an open obstacle the smaller part is behind") {
     const std::vector<SolidObstacle> others{SolidObstacle(make_plane(0.2)), SolidObstacle(make_sphere(0.2, 2))};
     CHECK(count(find_behind(sheet.cloth, others, sheet.mesh.vertices), -1) == 121);
 }
+
+}  // namespace percale::test::untangle_check_test

@@ -7,9 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::untangle_cloth_test {
 namespace {
 
 /// Cloth, and what became of it.
@@ -177,3 +175,5 @@ TEST_CASE("of sheets interleaved at random the order of layers decides which lie
     }
     for (int k = 1; k < sheets; ++k) CHECK(height[k - 1] > height[k] + 0.0005);
 }
+
+}  // namespace percale::test::untangle_cloth_test

@@ -5,8 +5,7 @@
 #include "tests/support/collision/shapes.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::test;
+namespace percale::test::untangle_obstacle_test {
 
 TEST_CASE("inside is where a closed surface winds around a point, open ones hold nothing") {
     const SolidObstacle box(make_box({2, 2, 2})), turned(inside_out(make_box({2, 2, 2}))), plane(make_plane(1));
@@ -54,3 +53,5 @@ TEST_CASE("a point on the surface is pushed along the normal") {
     const SolidObstacle box(make_box({2, 2, 2}));
     CHECK((box.pushed_out({1, 0.3, 0.1}, 0.05) - Vec3(1.05, 0.3, 0.1)).norm() < 1e-12);
 }
+
+}  // namespace percale::test::untangle_obstacle_test

@@ -4,8 +4,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
-
+namespace percale::test::untangle_spread_test {
 namespace {
 
 struct Strip {
@@ -59,3 +58,5 @@ TEST_CASE("nothing moves beyond its limit") {
     CHECK(moves[4] == Vec3::Zero());
     CHECK(moves[5] == Vec3(0, 0, 0.5));
 }
+
+}  // namespace percale::test::untangle_spread_test

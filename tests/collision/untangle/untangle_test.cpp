@@ -11,10 +11,9 @@
 #include "tests/support/collision/off.h"
 #include "tests/support/collision/shapes.h"
 #include "tests/support/random.h"
+#include "tests/support/skip.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::untangle_test {
 namespace {
 
 constexpr double thickness = 5e-3;
@@ -94,7 +93,7 @@ TEST_CASE("a tilted sheet through a body scan comes clear of it") {
     const std::string name = GENERATE("bunny00.off", "man.off");
     const auto scan = read_off(real_mesh_folder() / name);
     if (!scan) {
-        WARN("skipped: no " << name << " in " << real_mesh_folder() << " (PERCALE_REAL_MESHES)");
+        skip("no " + name + " in " + real_mesh_folder().string() + " (PERCALE_REAL_MESHES)");
         return;
     }
     Case c{.cloth = turned(make_grid(1, 1, 33, 33), 0.4), .obstacles = {scaled(*scan, 0.5)}};
@@ -246,3 +245,5 @@ TEST_CASE("the same start is repaired to the same bits") {
     c.solve();
     CHECK(c.out->positions == first);
 }
+
+}  // namespace percale::test::untangle_test

@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::remake_test {
 namespace {
 
 /// Cloths of every kind, sewn to each other by springs, points and welds. `without`: the cloth that is never there; `fabric`: of
@@ -223,4 +223,4 @@ TEST_CASE("A fabric that the cloth cannot have is refused by its name") {
     CHECK(mentions(scene_error([&] { remake(whole.model, whole.seams, {1, &wrong}); }), {"cloth 1", "springs.shear"}));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::remake_test

@@ -8,7 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/slope_scene.h"
 
-namespace percale::test {
+namespace percale::test::scene_changes_test {
 namespace {
 
 Fabric soft_fabric() {
@@ -326,4 +326,4 @@ TEST_CASE("Cloth falls when what it lies on is removed, and what presses on is t
     scene.run(2);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::scene_changes_test

@@ -8,7 +8,7 @@
 #include "tests/support/forces/membrane_cases.h"
 #include "tests/support/plane_scenes.h"
 
-namespace percale::test {
+namespace percale::test::checked_terms_test {
 namespace {
 
 World disturbed_world(const Fabric& fabric, StepSettings settings = {}) {
@@ -157,4 +157,4 @@ TEST_CASE("A step whose derivatives do not fit fails with the state kept, and sa
     CHECK(same_bits(world.state.cloth.positions, before.positions));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::checked_terms_test

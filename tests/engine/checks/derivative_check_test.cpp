@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::derivative_check_test {
 namespace {
 
 constexpr double dt = 0.01;
@@ -131,4 +131,4 @@ TEST_CASE("What a term does not claim is not checked") {
     CHECK_FALSE(checked({term}).has_value());
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::derivative_check_test

@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::contact_law_test {
 namespace {
 
 constexpr double h = 0.005, dt = 1.0 / 120.0, rate = 60.0;
@@ -123,4 +123,4 @@ TEST_CASE("A row is followed back by how much farther the cloth moved than the o
     CHECK((here - (cloth - dt * rate * touching.flows[0].shift)).norm() < 1e-18);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::contact_law_test

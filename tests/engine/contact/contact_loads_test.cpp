@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/contact_rows.h"
 
-namespace percale::test {
+namespace percale::test::contact_loads_test {
 namespace {
 
 struct Rows {
@@ -95,4 +95,4 @@ TEST_CASE("Friction that acts on vertices is that of their touches") {
     CHECK((loads[0].friction - Vec3(-3, 0, 0)).norm() < 1e-14);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::contact_loads_test

@@ -3,7 +3,7 @@
 #include "engine/solve/direction.h"
 #include "tests/support/plane_scenes.h"
 
-namespace percale::test {
+namespace percale::test::foreseen_rows_test {
 namespace {
 
 constexpr double thickness = 0.005;  // m, of the sheet
@@ -103,4 +103,4 @@ TEST_CASE("The limit of iterations counts directions that were found anew") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::foreseen_rows_test

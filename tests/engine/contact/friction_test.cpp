@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::friction_test {
 namespace {
 
 Rotation turned(const Vec3& axis, double angle) {
@@ -165,4 +165,4 @@ TEST_CASE("What friction between cloths holds is found again by row, and goes no
     CHECK(rub_of(next, rows, 0, normal, end).slip.norm() == 0.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::friction_test

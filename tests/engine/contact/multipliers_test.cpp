@@ -2,7 +2,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::multipliers_test {
 
 TEST_CASE("Contact forces are found again by row, unknown rows have none") {
     ContactMultipliers multipliers;
@@ -151,4 +151,4 @@ TEST_CASE("Between cloths a force stays with its row") {
     CHECK(multipliers.of(other).normal == 2.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::multipliers_test

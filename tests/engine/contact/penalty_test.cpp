@@ -8,7 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::penalty_test {
 namespace {
 
 constexpr double h = 0.005;
@@ -390,4 +390,4 @@ TEST_CASE("An obstacle that moves makes contact no stiffer than its speed asks f
     CHECK(stiffness_of(1e-7, 0.0) == Approx(0.5 * 0.01 / 1e-4));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::penalty_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::potential_test {
 namespace {
 
 constexpr double h = 0.005, stiffness = 200.0;
@@ -54,4 +54,4 @@ TEST_CASE("The contact potential grows without bound towards the surface") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::potential_test

@@ -8,7 +8,7 @@
 #include "tests/support/laws.h"
 #include "tests/support/plane_scenes.h"
 
-namespace percale::test {
+namespace percale::test::projection_test {
 namespace {
 
 constexpr double h = 0.005;  // the sheet's thickness
@@ -289,4 +289,4 @@ TEST_CASE("The threshold between sticking and sliding of projected cloth is the 
     check_law("slope of 1 : 2, projection: error of the friction coefficient at which it sticks", std::abs(sticks - 0.5), 1e-3);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::projection_test

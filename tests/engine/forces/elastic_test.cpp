@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::elastic_test {
 namespace {
 
 Fabric sewn_fabric() {
@@ -81,4 +81,4 @@ TEST_CASE("Cloth of raw springs has no loss of shapes") {
     CHECK(shape_loss(compute, model, {start, end, end, {}}, space) == 0.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::elastic_test

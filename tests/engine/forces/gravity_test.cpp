@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::gravity_test {
 
 TEST_CASE("Gravity is mass times acceleration and replaces what was there") {
     Random random(1);
@@ -39,4 +39,4 @@ TEST_CASE("Gravity's energy is zero at the origin and m g h above it") {
           Approx(9.81 * 8.0).epsilon(1e-15));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::gravity_test

@@ -7,7 +7,7 @@
 #include "tests/support/bent_cloth.h"
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::hinge_bending_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0;
@@ -135,4 +135,4 @@ TEST_CASE("The matrix of flat hinges is the exact one, positive semidefinite and
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::hinge_bending_test

@@ -8,7 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/forces/membrane_cases.h"
 
-namespace percale::test {
+namespace percale::test::membrane_springs_test {
 namespace {
 
 /// A grid of unequal cells as a free mesh: no grid, no regular triangles.
@@ -213,4 +213,4 @@ TEST_CASE("All instruction sets and any number of threads give the same bits") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::membrane_springs_test

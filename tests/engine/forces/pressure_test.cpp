@@ -8,7 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::pressure_test {
 namespace {
 
 Fabric filled(std::optional<double> pressure, std::optional<double> gas_volume) {
@@ -195,4 +195,4 @@ TEST_CASE("Only a closed mesh with its normals outward is filled, by one of the 
     CHECK(refusal(ball, filled({}, 0.0)).find("gas_volume = 0 m^3 is outside") != std::string::npos);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::pressure_test

@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::forces_sewing_test {
 namespace {
 
 /// Two sheets, 0.2 m apart, sewn along one side vertex to point; a share of the way is left.
@@ -146,4 +146,4 @@ TEST_CASE("saved states of other welds are others, whatever those hold with") {
     CHECK(hash_of(other) != hash_of(model));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::forces_sewing_test

@@ -8,7 +8,7 @@
 
 // Springs of a grid lie in bands; the same network in slices is what they must agree with.
 
-namespace percale::test {
+namespace percale::test::spring_bands_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0;
@@ -255,4 +255,4 @@ TEST_CASE("Terms of another grid leave nothing behind, even where they take as m
     CHECK(same_bits(product(compute, wide, reused, x).y, product(compute, wide, fresh, x).y));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::spring_bands_test

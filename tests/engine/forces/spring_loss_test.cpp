@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::spring_loss_test {
 namespace {
 
 constexpr double dt = 0.01;
@@ -91,4 +91,4 @@ TEST_CASE("The power that damping takes is that of its forces") {
     CHECK(-moving.given(moving.start, DampingForm::velocity) == Approx(power).epsilon(1e-12));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::spring_loss_test

@@ -7,7 +7,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/forces/spring_jacobians.h"
 
-namespace percale::test {
+namespace percale::test::springs_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0;
@@ -339,4 +339,4 @@ TEST_CASE("A spring longer than a billion billion metres has blown up") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::springs_test

@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::strain_limit_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0;
@@ -116,4 +116,4 @@ TEST_CASE("Limits have the same bits in every instruction set") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::strain_limit_test

@@ -4,7 +4,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::total_force_test {
 namespace {
 
 /// A crumpled moving sheet and its step springs.
@@ -64,4 +64,4 @@ TEST_CASE("Evaluating twice gives the same bits") {
     CHECK(once.potential == twice.potential);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::total_force_test

@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::wind_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0, density = 1.2;
@@ -115,4 +115,4 @@ TEST_CASE("Drag is minus the derivative of its potential by velocity, and its bl
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::wind_test

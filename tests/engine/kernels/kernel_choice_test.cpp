@@ -5,7 +5,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::kernel_choice_test {
 namespace {
 
 constexpr InstructionSet all_sets[] = {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512};
@@ -40,4 +40,4 @@ TEST_CASE("A machine with a wider set has the narrower ones") {
     if (kernels_for(InstructionSet::avx512)) CHECK(kernels_for(InstructionSet::avx2));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::kernel_choice_test

@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/forces/kernel_cases.h"
 
-namespace percale::test {
+namespace percale::test::kernel_table_test {
 namespace {
 
 // Products
@@ -394,4 +394,4 @@ TEST_CASE("The dense product is Eigen's, and of the same bits in every instructi
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::kernel_table_test

@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/dense_system.h"
 
-namespace percale::test {
+namespace percale::test::block_matrix_test {
 
 TEST_CASE("The matrix product is that of the assembled dense matrix on the free rows, 0 on the others") {
     for (const int vertices : {2, 8, 13, 40, 90}) {
@@ -133,4 +133,4 @@ TEST_CASE("A row between cloths enters the product exactly and the diagonal as a
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::block_matrix_test

@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/forces/spring_graphs.h"
 
-namespace percale::test {
+namespace percale::test::coarsening_test {
 namespace {
 
 /// Whether each pair is at least a share of the strongest pair at one of its ends.
@@ -226,4 +226,4 @@ TEST_CASE("Where the sheet lies and how large it is changes no weight") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::coarsening_test

@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/dense_system.h"
 
-namespace percale::test {
+namespace percale::test::conjugate_gradient_test {
 namespace {
 
 double energy_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& x) { return std::sqrt(x.dot(a * x)); }
@@ -138,4 +138,4 @@ TEST_CASE("A second solve in the same work space has the same bits") {
     CHECK(same_bits(first, second));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::conjugate_gradient_test

@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/dense_system.h"
 
-namespace percale::test {
+namespace percale::test::direct_solver_test {
 namespace {
 
 void check_against_dense(DirectSolver& solver, RandomSystem& system) {
@@ -69,4 +69,4 @@ TEST_CASE("With every vertex prescribed there is nothing to solve") {
     CHECK(to_dense(x, 10) == start);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::direct_solver_test

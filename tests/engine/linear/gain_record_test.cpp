@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::gain_record_test {
 namespace {
 
 /// After how many of these gains a solve stops; 0: never.
@@ -69,4 +69,4 @@ TEST_CASE("Net limits bound the sum of the residuals over their vertices") {
 
 TEST_CASE("Nothing is said of less than a window") { CHECK(stop_after(10, {.absolute_gain = 1e9}, falling(0.5, 30)) == 10); }
 
-}  // namespace percale::test
+}  // namespace percale::test::gain_record_test

@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/forces/spring_graphs.h"
 
-namespace percale::test {
+namespace percale::test::hierarchy_test {
 namespace {
 
 /// A block a pair, positive semidefinite.
@@ -183,4 +183,4 @@ TEST_CASE("The same graph gives the same hierarchy") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::hierarchy_test

@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/forces/sheet_system.h"
 
-namespace percale::test {
+namespace percale::test::linear_solver_test {
 namespace {
 
 constexpr LinearSolver all_choices[] = {LinearSolver::automatic, LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct};
@@ -320,4 +320,4 @@ TEST_CASE("Where enclosed blocks leave no positive definite matrix, the answer s
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::linear_solver_test

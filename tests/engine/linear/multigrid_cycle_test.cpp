@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/forces/sheet_system.h"
 
-namespace percale::test {
+namespace percale::test::multigrid_cycle_test {
 namespace {
 
 /// Rows of three vertices, of which many share some, and of one.
@@ -85,4 +85,4 @@ TEST_CASE("Cycles, products and solves have the same bits for any number of thre
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::multigrid_cycle_test

@@ -7,7 +7,7 @@
 #include "tests/support/dense_system.h"
 #include "tests/support/forces/sheet_system.h"
 
-namespace percale::test {
+namespace percale::test::multigrid_solve_test {
 namespace {
 
 struct Solved {
@@ -304,4 +304,4 @@ TEST_CASE("A net limit keeps both solvers going until the sum of the residuals i
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::multigrid_solve_test

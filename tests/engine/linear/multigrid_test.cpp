@@ -9,7 +9,7 @@
 #include "tests/support/dense_system.h"
 #include "tests/support/forces/sheet_system.h"
 
-namespace percale::test {
+namespace percale::test::multigrid_test {
 namespace {
 
 Vectors cycle(Multigrid& multigrid, const Vectors& r) {
@@ -335,4 +335,4 @@ TEST_CASE("Coarser levels that are kept leave cycles as symmetric and definite a
     for (int i = 0; i < later.count(); ++i) CHECK((later.matrix.free[i] > 0.0 || z.at(i) == Vec3::Zero()));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::multigrid_test

@@ -8,7 +8,7 @@
 #include "tests/support/dense_system.h"
 #include "tests/support/forces/membrane_cases.h"
 
-namespace percale::test {
+namespace percale::test::patch_system_test {
 namespace {
 
 std::vector<int> free_ones_of(const BlockMatrix& matrix, std::vector<int> vertices) {
@@ -112,4 +112,4 @@ TEST_CASE("A solve ends at the share that is asked for, and at once where nothin
     CHECK(patch.solve(from_dense(Eigen::VectorXd::Zero(180)), 0.1, x) == 0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::patch_system_test

@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::lumped_mass_test {
 namespace {
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
@@ -72,4 +72,4 @@ TEST_CASE("Masses of a grid follow its rest shape") {
     CHECK(sum(lumped_masses(grid, 0.2)) == Approx(9.0 * before).epsilon(1e-13));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::lumped_mass_test

@@ -4,7 +4,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::mesh_check_test {
 namespace {
 
 TriangleMesh two_triangles() {
@@ -104,4 +104,4 @@ TEST_CASE("A grid that lost vertices is refused") {
     CHECK(mentions(refusal(mesh), {"shirt", "6", "4"}));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::mesh_check_test

@@ -4,7 +4,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::pose_test {
 
 TEST_CASE("A pose scales, then rotates, then translates") {
     Random random(1);
@@ -68,4 +68,4 @@ TEST_CASE("Between two poses a body goes straight and turns evenly, by the short
     CHECK(angle_between(still, interpolate({.rotation = still}, {.rotation = still}, 0.5).rotation) < 1e-7);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::pose_test

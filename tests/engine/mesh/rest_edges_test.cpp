@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::rest_edges_test {
 namespace {
 
 using Corners = std::vector<std::array<Vec3, 3>>;
@@ -107,4 +107,4 @@ TEST_CASE("Without a rest shape corners are those of the mesh") {
     CHECK(rest_corners(mesh, {}, 1) == std::array<Vec3, 3>{mesh.vertices[0], mesh.vertices[2], mesh.vertices[3]});
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::rest_edges_test

@@ -8,7 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::shapes_test {
 namespace {
 
 double signed_volume(const TriangleMesh& mesh) {
@@ -181,4 +181,4 @@ TEST_CASE("Shapes refuse impossible sizes and name the value") {
     CHECK(mentions(scene_error([] { make_plane(0.0); }), {"make_plane", "0.0"}));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::shapes_test

@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::strain_test {
 namespace {
 
 Rotation turn_about(const Vec3& axis, double angle) {
@@ -108,4 +108,4 @@ TEST_CASE("Strains of another number of positions are refused") {
     CHECK_THROWS_AS(triangle_strains(grid, {}, std::vector<Vec3>(5, Vec3::Zero())), SceneError);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::strain_test

@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::topology_test {
 namespace {
 
 /// Edge -> opposite vertices, by looking at every triangle for every edge.
@@ -74,4 +74,4 @@ TEST_CASE("Every shape but the plane encloses a volume") {
                       "plane: edge (0, 2) belongs to one triangle: the mesh is open there; why");
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::topology_test

@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::vertex_normals_test {
 namespace {
 
 std::vector<Vec3> normals_of(const TriangleMesh& mesh, const VertexOrder& order = {}) {
@@ -84,4 +84,4 @@ TEST_CASE("Normals are in the user's order, of the one cloth that is asked for")
     CHECK(normals == expected);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::vertex_normals_test

@@ -8,7 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::vertex_order_test {
 namespace {
 
 constexpr std::size_t stretch = 256;
@@ -113,4 +113,4 @@ TEST_CASE("The order in memory follows from the mesh, not from its numbers") {
     CHECK(one.springs.rest_length == other.springs.rest_length);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::vertex_order_test

@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::adjacency_test {
 namespace {
 
 struct Entry {
@@ -211,4 +211,4 @@ TEST_CASE("Packed points are the vectors, with nothing beside them") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::adjacency_test

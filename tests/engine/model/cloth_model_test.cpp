@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::cloth_model_test {
 
 TEST_CASE("Two cloths make one system in which nothing joins them") {
     const TriangleMesh grid = make_grid(1.0, 1.0, 4, 3), ball = make_sphere(0.2, 1);
@@ -93,4 +93,4 @@ TEST_CASE("Points are the positions again") {
     CHECK(state.points == places);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::cloth_model_test

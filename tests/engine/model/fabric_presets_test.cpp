@@ -8,7 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/forces/membrane_cases.h"
 
-namespace percale::test {
+namespace percale::test::fabric_presets_test {
 
 TEST_CASE("Presets have names of their own, allowed numbers, positive definite moduli and a source") {
     std::set<std::string_view> names;
@@ -51,4 +51,4 @@ TEST_CASE("Made isotropic, a preset keeps mass, bending, and its shear stiffness
     CHECK(isotropic(sheet_fabric()).springs.structural == sheet_fabric().springs.structural);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::fabric_presets_test

@@ -4,7 +4,7 @@
 #include "tests/support/bent_cloth.h"
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::hinges_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -185,4 +185,4 @@ TEST_CASE("A fold beside a pinned triangle or segment is twice as stiff, others 
     for (const Hinge& hinge : model.hinges.all) CHECK(hinge.clamp == 1.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::hinges_test

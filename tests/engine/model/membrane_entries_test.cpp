@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/forces/membrane_cases.h"
 
-namespace percale::test {
+namespace percale::test::membrane_entries_test {
 
 TEST_CASE("Every edge is seen from both ends with the same numbers, near and far exchanged") {
     const ClothModel model = cloth_model(make_grid(0.5, 0.3, 6, 4), woven_fabric());
@@ -53,4 +53,4 @@ TEST_CASE("Springs of cloth without moduli keep their layout beside a membrane-l
     CHECK(cloth_model(make_grid(1.0, 1.0, 9, 9), woven_fabric()).adjacency.bands.count == 0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::membrane_entries_test

@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/forces/membrane_cases.h"
 
-namespace percale::test {
+namespace percale::test::membrane_test {
 namespace {
 
 using Corners = std::array<Eigen::Vector2d, 3>;
@@ -154,4 +154,4 @@ TEST_CASE("damping_time times what an edge resists with alone is its damping, sp
     for (const double damping : network_of(one_triangle(0.1), fabric, triangles).damping) CHECK(damping == 0.3);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::membrane_test

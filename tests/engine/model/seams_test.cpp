@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::seams_test {
 namespace {
 
 struct Sewn {
@@ -95,4 +95,4 @@ TEST_CASE("A new rest length reaches every place where the spring is read, in ba
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::seams_test

@@ -5,7 +5,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/random.h"
 
-namespace percale::test {
+namespace percale::test::sewn_points_test {
 
 TEST_CASE("The pairs of a sewn point store what its gap stores, and their forces are its") {
     Random random(3);
@@ -118,4 +118,4 @@ TEST_CASE("A strain limit of an edge whose ends are sewn together holds nothing 
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::sewn_points_test

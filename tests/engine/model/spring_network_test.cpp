@@ -10,7 +10,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::spring_network_test {
 namespace {
 
 using Spring = std::tuple<int, int, SpringKind>;
@@ -164,4 +164,4 @@ TEST_CASE("Renumbered springs join the same places with the same constants, sort
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::spring_network_test

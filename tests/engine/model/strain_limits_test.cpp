@@ -4,7 +4,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::strain_limits_test {
 namespace {
 
 Fabric limited_fabric(double strain) {
@@ -95,4 +95,4 @@ TEST_CASE("Holds are copied and put back, as kernels see them, too") {
     CHECK(model.limits.edges[3].hold == 7.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::strain_limits_test

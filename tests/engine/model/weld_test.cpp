@@ -2,7 +2,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::weld_test {
 
 TEST_CASE("welds take up a share of k times the gap, no more than k times the widest, and say what their energy grows by") {
     Vectors x;
@@ -20,4 +20,4 @@ TEST_CASE("welds take up a share of k times the gap, no more than k times the wi
     CHECK(work == Approx(weld_energy(welds, x) - before));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::weld_test

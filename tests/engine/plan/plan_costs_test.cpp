@@ -8,7 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::plan_costs_test {
 namespace {
 
 /// Bytes that the program holds; 0 where the allocator does not say (sanitizers bring their own).
@@ -82,4 +82,4 @@ TEST_CASE("The predicted cost is that of the scheme, of fewer iterations where f
     CHECK(evaluations({}, {.cloth_vertices = 100, .pinned_vertices = 100}) == 0.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::plan_costs_test

@@ -5,7 +5,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::planning_test {
 namespace {
 
 World sheet_world(const Fabric& fabric = sheet_fabric(), const StepSettings& settings = {}) {
@@ -191,4 +191,4 @@ TEST_CASE("A plan made again from what a saved state keeps of it is the same in 
     check(plane, [&](int n) { plane.scene.script.obstacles[0].end.translation = Vec3(0, 0, n < 2 ? 1e-3 * n : 1e-3); });
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::planning_test

@@ -9,7 +9,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::scheme_choice_test {
 namespace {
 
 World sheet(const StepSettings& settings, int side = 9, double stiffer = 1.0) {
@@ -163,4 +163,4 @@ TEST_CASE("Slivers of cloth of moduli are warned of where the solver is iterativ
     CHECK(warned(0.005, free_fabric(), LinearSolver::multigrid).empty());
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::scheme_choice_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::step_plan_test {
 namespace {
 
 constexpr ScriptedChanges nothing_moves;
@@ -216,4 +216,4 @@ TEST_CASE("Of cloth of given moduli what it is not made of is listed") {
     CHECK(skips({}, facts, "triangle springs of sheet"));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::step_plan_test

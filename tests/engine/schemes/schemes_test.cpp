@@ -9,7 +9,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::schemes_test {
 namespace {
 
 constexpr double k = 40.0, m1 = 0.2, m2 = 0.3, rest = 1.0;
@@ -144,4 +144,4 @@ TEST_CASE("Each scheme is stable up to where the table says and not beyond", "[l
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::schemes_test

@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::stability_test {
 namespace {
 
 double limit(Scheme scheme, double omega, double zeta) {
@@ -55,4 +55,4 @@ TEST_CASE("Implicit schemes are stable at every step") {
         CHECK(std::isinf(limit(scheme, 1e6, 0.0)));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::stability_test

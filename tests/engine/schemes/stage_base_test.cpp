@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::stage_base_test {
 namespace {
 
 const Vec3 p0(0.1, -0.2, 0.3), p1(1.0, 2.0, -1.0), p2(-0.5, 4.0, 2.0);
@@ -72,4 +72,4 @@ TEST_CASE("Prescribed vertices reach their targets at a steady speed in any stag
     CHECK((base.positions.at(0) + base.h * steady - targets.at(0)).norm() < 1e-14);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::stage_base_test

@@ -4,7 +4,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/contact_rows.h"
 
-namespace percale::test {
+namespace percale::test::body_states_test {
 namespace {
 
 /// Three cloths of two masses each, the last two of which a seam joins.
@@ -63,4 +63,4 @@ TEST_CASE("Bodies that a row joins are released, others are not") {
     CHECK(settled_after(row_between(1, 4, -1)) == std::array{false, false});
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::body_states_test

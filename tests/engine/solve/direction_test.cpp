@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::direction_test {
 namespace {
 
 /// A crumpled sheet at the first point of a stage.
@@ -89,4 +89,4 @@ TEST_CASE("Block Jacobi gives no estimate of the next change") {
     CHECK_FALSE(estimate_direction(*point.equations));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::direction_test

@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::explicit_update_test {
 namespace {
 
 /// A taut string of stretched springs between two fixed ends, displaced sideways: no spring ever goes slack.
@@ -105,4 +105,4 @@ TEST_CASE("Symplectic Euler is v += dt f(x, v)/m, then x += dt v") {
     CHECK(largest_difference(v, to_points(scene.state.velocities, 11)) < 1e-11);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::explicit_update_test

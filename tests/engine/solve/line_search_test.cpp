@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::test {
+namespace percale::test::line_search_test {
 namespace {
 
 /// A quadratic along the line: objective a/2 (t - t0)^2.
@@ -79,4 +79,4 @@ TEST_CASE("Shortening goes to the zero of a linear slope, within limits") {
     CHECK(shorten({.start_objective = 0, .start_slope = -1.0, .objective = 0, .slope = -2.0}) == 0.5);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::line_search_test

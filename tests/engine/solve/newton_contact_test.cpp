@@ -5,7 +5,7 @@
 #include "tests/support/laws.h"
 #include "tests/support/plane_scenes.h"
 
-namespace percale::test {
+namespace percale::test::newton_contact_test {
 namespace {
 
 constexpr double h = 0.005;  // the sheet's thickness
@@ -156,4 +156,4 @@ TEST_CASE("Without gravity a sheet that trembles in the air makes no solve longe
     CHECK(iterations(true) <= 2 * alone);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::newton_contact_test

@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::newton_stop_test {
 namespace {
 
 /// Two masses, the second of which may be held.
@@ -89,4 +89,4 @@ TEST_CASE("Linear solves are as exact as Newton's share asks, and no looser than
     CHECK(accuracy(1.0, true) == Approx(0.05));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::newton_stop_test

@@ -9,7 +9,7 @@
 #include "tests/support/dense_backward_euler.h"
 #include "tests/support/dense_system.h"
 
-namespace percale::test {
+namespace percale::test::newton_test {
 namespace {
 
 /// A sheet that starts crumpled and moving, hung from two corners.
@@ -204,4 +204,4 @@ TEST_CASE("Prescribed vertices arrive exactly and pull the rest along") {
     CHECK((scene.state.velocities.at(0) - 60.0 * Vec3(0.01, 0.02, -0.01)).norm() < 1e-12);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::newton_test

@@ -7,7 +7,7 @@
 #include "tests/support/one_stage.h"
 #include "tests/support/plane_scenes.h"
 
-namespace percale::test {
+namespace percale::test::patches_test {
 namespace {
 
 constexpr double h = 0.005;  // the sheet's thickness
@@ -125,4 +125,4 @@ TEST_CASE("Solves look for patches from their ninth iteration on, shorter ones n
     CHECK(looked);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::patches_test

@@ -4,7 +4,7 @@
 #include "tests/support/one_stage.h"
 #include "tests/support/plane_scenes.h"
 
-namespace percale::test {
+namespace percale::test::stage_equations_test {
 namespace {
 
 SolverScene moving_sheet() {
@@ -97,4 +97,4 @@ TEST_CASE("Blocks of single vertices stand before those of contact and belong to
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::stage_equations_test

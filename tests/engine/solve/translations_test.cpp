@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::translations_test {
 namespace {
 
 /// Bodies of two masses each, of 1 and 2, 3 and 4 kg and so on, and a residual.
@@ -116,4 +116,4 @@ TEST_CASE("In wind no translation is known") {
     CHECK(same_bits(bodies.direction, before));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::translations_test

@@ -4,7 +4,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/plane_scenes.h"
 
-namespace percale::test {
+namespace percale::test::advance_test {
 namespace {
 
 World moving_sheet(Scheme scheme, bool over_plane) {
@@ -62,4 +62,4 @@ TEST_CASE("A span that is not solved says why") {
     CHECK(advance(blocked, world.state, world.work, end).end == SpanEnd::blocked);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::advance_test

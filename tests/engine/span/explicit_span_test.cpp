@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::explicit_span_test {
 
 TEST_CASE("The error of adaptive explicit steps is the true one of their two halves, nearly") {
     for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::midpoint, Scheme::rk4}) {
@@ -21,4 +21,4 @@ TEST_CASE("The error of adaptive explicit steps is the true one of their two hal
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::explicit_span_test

@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::impacts_test {
 namespace {
 
 constexpr double dt = 0.01;
@@ -183,4 +183,4 @@ TEST_CASE("Settling gives an obstacle what it takes from the cloth, where somebo
     CHECK(between.impulses[0].linear == Vec3::Zero());
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::impacts_test

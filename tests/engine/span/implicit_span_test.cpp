@@ -7,7 +7,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_scenes.h"
 
-namespace percale::test {
+namespace percale::test::implicit_span_test {
 namespace {
 
 constexpr std::array implicit_schemes = {Scheme::backward_euler, Scheme::implicit_midpoint, Scheme::trapezoid, Scheme::bdf2,
@@ -171,4 +171,4 @@ TEST_CASE("The error that adaptive steps estimate is near the true one") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::implicit_span_test

@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::ledger_stages_test {
 namespace {
 
 /// Springs thrown about, of which one end is carried along.
@@ -108,4 +108,4 @@ TEST_CASE("Implicit midpoint and trapezoid take nothing from a linear oscillator
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::ledger_stages_test

@@ -7,7 +7,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::ledger_test {
 namespace {
 
 StepSettings settings_of(Scheme scheme) {
@@ -121,4 +121,4 @@ TEST_CASE("A failed step has no flows") {
     for (const auto entry : ledger_entries) CHECK(report.energy.*entry == 0.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::ledger_test

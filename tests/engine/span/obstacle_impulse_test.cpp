@@ -4,7 +4,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/contact_rows.h"
 
-namespace percale::test {
+namespace percale::test::obstacle_impulse_test {
 namespace {
 
 /// Three vertices, two of them pressed by obstacles 0 and 1, the last by cloth.
@@ -40,4 +40,4 @@ TEST_CASE("Where nobody asks for impulses nothing is added") {
     CHECK(none.empty());
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::obstacle_impulse_test

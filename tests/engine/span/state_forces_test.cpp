@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::state_forces_test {
 
 TEST_CASE("Accelerations are f/m, and 0 where vertices are held") {
     World world = mass_on_spring({.scheme = Scheme::rk4});
@@ -49,4 +49,4 @@ TEST_CASE("The work of a moving pin is what the energy gained, to the order of t
     CHECK(coarse / fine > 3.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::state_forces_test

@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::step_control_test {
 namespace {
 
 struct Covered {
@@ -102,4 +102,4 @@ TEST_CASE("The size of an error is the worst cloth's mean by mass, held vertices
     CHECK(mean_size(world.scene, error) == Approx(std::sqrt(0.1 * 9.0 / 0.4)));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::step_control_test

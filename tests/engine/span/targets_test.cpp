@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::targets_test {
 namespace {
 
 World sheet_world() {
@@ -63,4 +63,4 @@ TEST_CASE("The work of a closing seam on cloth that stays is what it stores") {
     CHECK(seam_work(span, world.state, world.state.cloth) == Approx(0.5 * 50.0 * shortened * shortened));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::targets_test

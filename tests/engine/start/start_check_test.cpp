@@ -6,7 +6,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::start_check_test {
 namespace {
 
 /// Finds what it was told to find.
@@ -97,4 +97,4 @@ TEST_CASE("Without a way out the start is refused with the reason") {
         std::string(Scene(fault).refusal().what()).ends_with(", and no way out was found; move the cloth or the obstacle apart"));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::start_check_test

@@ -8,9 +8,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::start_repair_test {
 namespace {
 
 /// Lifts vertices below the plane y = 0 to `height`, the others not.
@@ -118,3 +116,5 @@ TEST_CASE("A clear start needs no repair") {
     CHECK(start.simulation.start_repair().empty());
     CHECK(start.simulation.state_hash() == before);
 }
+
+}  // namespace percale::test::start_repair_test

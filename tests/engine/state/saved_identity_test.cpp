@@ -4,7 +4,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::saved_identity_test {
 
 TEST_CASE("worlds of other cloth, layers or settings are told apart, worlds in other states are not") {
     const auto world = [](double mass) {
@@ -28,4 +28,4 @@ TEST_CASE("worlds of other cloth, layers or settings are told apart, worlds in o
     CHECK(identity_of(other).obstacles != one.obstacles);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::saved_identity_test

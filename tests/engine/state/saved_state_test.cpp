@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::saved_state_test {
 
 enum class Colour { red, green, blue };
 
@@ -137,4 +137,4 @@ TEST_CASE("A seal tells its content from that of another kind or version and fro
     CHECK(mentions(fault(test_seal, longer), {"cut off or not all of it"}));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::saved_state_test

@@ -14,7 +14,7 @@
 #include "tests/support/plane_detector.h"
 #include "tests/support/resumable.h"
 
-namespace percale::test {
+namespace percale::test::saved_world_test {
 namespace {
 
 constexpr std::array places = {1, 9, 20};
@@ -375,4 +375,4 @@ TEST_CASE("a seam of points that was made in the midst of a run goes on closing 
           std::string::npos);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::saved_world_test

@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::failure_test {
 namespace {
 
 /// Nine vertices, the fifth pinned and not where it should be, near two obstacles that push against each other.
@@ -104,4 +104,4 @@ TEST_CASE("Of what is not finite nothing is named") {
     CHECK(stuck.report.blocking_name.empty());
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::failure_test

@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::kinetic_damping_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0;
@@ -156,4 +156,4 @@ TEST_CASE("Resumed between two steps, kinetic damping stops cloth in the same on
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::kinetic_damping_test

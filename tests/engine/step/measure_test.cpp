@@ -8,7 +8,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::measure_test {
 namespace {
 
 World moving_pair() {
@@ -90,4 +90,4 @@ TEST_CASE("Contacts are counted and hashed, and the hash follows their distances
     CHECK(hash() != first.contact_hash);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::measure_test

@@ -4,7 +4,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::motion_test {
 namespace {
 
 World sheet_world() {
@@ -95,4 +95,4 @@ TEST_CASE("Parts go by turns of 15 degrees, and by 20 thicknesses beside cloth t
     CHECK(parts_to({.translation = Vec3(0.0, 0.199, 0.0)}).count == 1);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::motion_test

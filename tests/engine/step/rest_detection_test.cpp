@@ -8,7 +8,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::rest_detection_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0;
@@ -208,4 +208,4 @@ TEST_CASE("As long as one of two cloths is awake both are solved") {
     CHECK(report.largest_speed > 9.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::rest_detection_test

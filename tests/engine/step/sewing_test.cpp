@@ -3,7 +3,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::step_sewing_test {
 
 TEST_CASE("A stitch joins a vertex to itself at either end of its edge, or to it alone") {
     CHECK(joins_itself({3, 3, 3}));
@@ -61,4 +61,4 @@ TEST_CASE(
     CHECK(world.scene.model.welds[0].hold == held);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::step_sewing_test

@@ -4,7 +4,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_scenes.h"
 
-namespace percale::test {
+namespace percale::test::solve_step_test {
 namespace {
 
 World sheet_world(const StepSettings& settings, double height = 0.0) {
@@ -173,4 +173,4 @@ TEST_CASE("A seam closes while every vertex is pinned") {
     CHECK(simulation.energy().elastic == Approx(0.5 * 100.0 * 0.25).epsilon(1e-12));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::solve_step_test

@@ -7,7 +7,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::step_parts_test {
 namespace {
 
 /// A sheet at rest on a plane, one corner held above it.
@@ -195,4 +195,4 @@ TEST_CASE("A step that takes more Newton iterations than work_limit fails and le
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::step_parts_test

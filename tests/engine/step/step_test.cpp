@@ -6,7 +6,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::step_test {
 namespace {
 
 World sheet_world(const StepSettings& settings) {
@@ -75,4 +75,4 @@ TEST_CASE("A failed step leaves state, time and obstacles untouched and the next
     CHECK(step(world).ok());
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::step_test

@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::teleport_test {
 
 TEST_CASE("Friction lets go of what does not come along") {
     World world = make_world(cloth_model(make_grid(1.0, 1.0, 3, 3), sheet_fabric()), make_grid(1.0, 1.0, 3, 3).vertices, {});
@@ -28,4 +28,4 @@ TEST_CASE("Friction lets go of what does not come along") {
     CHECK(world.state.cloth.grips.empty());
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::teleport_test

@@ -4,7 +4,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::world_test {
 namespace {
 
 World sheet_world(const StepSettings& settings) {
@@ -49,4 +49,4 @@ TEST_CASE("Schemes that take no contact are refused where there is some") {
     CHECK(mentions(scene_error([&] { check_scheme(world.scene); }), {"projection", "tr_bdf2"}));
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::world_test

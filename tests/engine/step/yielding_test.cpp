@@ -5,7 +5,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-namespace percale::test {
+namespace percale::test::yielding_test {
 
 TEST_CASE("The mesh of what yields knows vertices at one place, and its mean edge") {
     // Two triangles of edges 3, 4 and 5 that do not share vertices 1 and 4, at one place.
@@ -34,4 +34,4 @@ TEST_CASE("A detector of rigid obstacles refuses one that yields by name") {
     CHECK_THROWS_AS(simulation.add_obstacle(make_plane(1.0), {}, {.yields = true}), SceneError);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::yielding_test

@@ -12,7 +12,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::thread_pool_test {
 namespace {
 
 const Fabric sheet{.area_density = 0.2, .springs = {.structural = 1000.0, .shear = 500.0, .bend = 10.0}, .spring_damping = 0.1};
@@ -195,4 +195,4 @@ TEST_CASE("a simulation has the same bits for any number of threads") {
     for (const int threads : {0, 2, 4}) CHECK(hanging_sheet(threads, 12) == alone);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::thread_pool_test

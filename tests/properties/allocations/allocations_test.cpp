@@ -48,7 +48,7 @@ int posix_memalign(void** result, std::size_t alignment, std::size_t size) {
 }
 }
 
-namespace percale::test {
+namespace percale::test::allocations_test {
 namespace {
 
 constexpr double sheet_size = 0.5;  // m
@@ -168,4 +168,4 @@ TEST_CASE("Steps allocate nothing after the first ones") {
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::allocations_test

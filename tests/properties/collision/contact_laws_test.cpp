@@ -7,9 +7,7 @@
 #include "tests/support/collision/contact_laws.h"
 #include "tests/support/laws.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::contact_laws_test {
 namespace {
 
 constexpr double h = 0.005, g = 9.81;
@@ -283,3 +281,5 @@ TEST_CASE("What vertices hold on to is part of the state") {
     CHECK((mean(a.positions(cloth)) - mean(x)).norm() < 1e-3 * h);
     CHECK((mean(b.positions(cloth)) - mean(x)).norm() > 1e-3 * h);
 }
+
+}  // namespace percale::test::contact_laws_test

@@ -7,7 +7,7 @@
 #include "tests/support/laws.h"
 
 // The energy ledger on meshes, whose contacts change from step to step.
-namespace percale::test {
+namespace percale::test::contact_ledger_test {
 namespace {
 
 constexpr double h = 0.005;
@@ -126,4 +126,4 @@ TEST_CASE("Adaptive steps on a ball that moves gain no energy but the ball's wor
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::contact_ledger_test

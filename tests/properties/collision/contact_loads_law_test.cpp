@@ -7,9 +7,9 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
 
+namespace percale::test::contact_loads_law_test {
+
 // What cloth presses its obstacles with, against the exact balance of forces.
-using namespace percale;
-using namespace percale::test;
 
 namespace {
 
@@ -185,3 +185,5 @@ TEST_CASE("Contact forces are known again in a resumed run, and unknown where cl
     CHECK(simulation.force_on({0}) == Vec3::Zero());
     CHECK_THROWS_AS(simulation.force_on({1}), SceneError);
 }
+
+}  // namespace percale::test::contact_loads_law_test

@@ -6,7 +6,7 @@
 #include "tests/support/collision/steps.h"
 
 // Obstacles whose every vertex goes its own way.
-namespace percale::test {
+namespace percale::test::deforming_body_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0;
@@ -240,4 +240,4 @@ TEST_CASE("Shapes that cannot be are refused by name") {
     CHECK(simulation.step().ok());  // all is as before
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::deforming_body_test

@@ -14,7 +14,7 @@
 #include "tests/support/laws.h"
 
 // Obstacles whose every vertex moves, against exact answers.
-namespace percale::test {
+namespace percale::test::deforming_laws_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0, h = 0.005, g = 9.81, area_density = 0.2;
@@ -424,4 +424,4 @@ TEST_CASE("A refused start is good once the body has another shape, and cloth th
     CHECK_THROWS_AS(simulation.step(), StartError);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::deforming_laws_test

@@ -16,7 +16,7 @@
 
 // Scenes drawn at random: obstacles whose every vertex moves, in twists, bends, swells and waves, under one or two sheets. The
 // exact certificate of each step is the judge. PERCALE_DEFORMING_SCENES says how many (200), PERCALE_DEFORMING_FIRST the first.
-namespace percale::test {
+namespace percale::test::deforming_scenes_test {
 namespace {
 
 /// Numbers from a seed that are the same with every standard library.
@@ -336,4 +336,4 @@ TEST_CASE("Random scenes with bodies that deform: nothing crosses, and what stop
     CHECK(tally.steps >= 11 * tally.scenes);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::deforming_scenes_test

@@ -5,7 +5,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::degenerate_states_test {
 namespace {
 
 /// One way of stepping.
@@ -315,4 +315,4 @@ TEST_CASE(
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::degenerate_states_test

@@ -7,9 +7,9 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
 
+namespace percale::test::impulse_law_test {
+
 // What cloth gives obstacles in a step, against the momentum that it lost.
-using namespace percale;
-using namespace percale::test;
 
 namespace {
 
@@ -171,3 +171,5 @@ TEST_CASE("Cloth that sleeps goes on giving its weight, by obstacles that come a
     };
     CHECK(rest(true) == rest(false));
 }
+
+}  // namespace percale::test::impulse_law_test

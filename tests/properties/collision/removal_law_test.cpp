@@ -6,9 +6,9 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
 
+namespace percale::test::removal_law_test {
+
 // Bodies that are removed, and fabrics that change, between steps of whole scenes with mesh obstacles and layers of cloth.
-using namespace percale;
-using namespace percale::test;
 
 namespace {
 
@@ -191,3 +191,5 @@ TEST_CASE("A body is put back: cloth that was reset in contact falls as it did a
         CHECK(used.force_on({0}) == fresh.force_on({0}));
     }
 }
+
+}  // namespace percale::test::removal_law_test

@@ -6,9 +6,7 @@
 #include "tests/support/collision/backends.h"
 #include "tests/support/laws.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::restitution_test {
 namespace {
 
 constexpr double g = 9.81, h = 0.005;
@@ -107,3 +105,5 @@ TEST_CASE("An obstacle's restitution is a share") {
         CHECK_THROWS_AS(simulation.add_obstacle(make_plane(1.0), {}, {.restitution = restitution}), SceneError);
     }
 }
+
+}  // namespace percale::test::restitution_test

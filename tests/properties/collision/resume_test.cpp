@@ -8,7 +8,7 @@
 #include "tests/support/resumable.h"
 
 // Runs with obstacles and cloth against cloth, saved on their way and resumed, on every tree.
-namespace percale::test {
+namespace percale::test::resume_test {
 namespace {
 
 Fabric towel(bool self_contact = false) {
@@ -127,4 +127,4 @@ TEST_CASE("Cloth that was moved out of an obstacle before the start says so wher
     CHECK(second.start_repair()[0].obstacle_name == "block");
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::resume_test

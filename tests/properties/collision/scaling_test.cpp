@@ -8,7 +8,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"
 
-namespace percale::test {
+namespace percale::test::scaling_test {
 namespace {
 
 /// What is varied; the scene itself is always a free mesh or grid over a ball, or hung from two vertices.
@@ -180,4 +180,4 @@ TEST_CASE("A scene in millimetres, turned or renumbered moves the same: to 1e-9 
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::scaling_test

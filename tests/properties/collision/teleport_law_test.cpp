@@ -7,7 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-namespace percale::test {
+namespace percale::test::teleport_law_test {
 namespace {
 
 /// A towel that slides down a slope, held at a corner, beside a floor far below; a point of its edge is sewn to its other side.
@@ -76,4 +76,4 @@ TEST_CASE("A teleport clears velocities where that is wanted, and turns them whe
     CHECK(scene.simulation.largest_speed() == 0.0);
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::teleport_law_test

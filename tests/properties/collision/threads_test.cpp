@@ -4,9 +4,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
 
-using namespace percale;
-using namespace percale::test;
-
+namespace percale::test::threads_test {
 namespace {
 
 /// States and contacts of a sheet that falls on a ball, step by step.
@@ -40,3 +38,5 @@ TEST_CASE("Cloth in contact has the same bits for any number of threads", "[slow
     }
     CHECK(fall(penalty, true, 4) == fall(penalty, true, 1));
 }
+
+}  // namespace percale::test::threads_test

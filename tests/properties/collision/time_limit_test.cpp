@@ -7,9 +7,9 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
 
+namespace percale::test::time_limit_test {
+
 // Steps that a host's time limit ends before they are solved.
-using namespace percale;
-using namespace percale::test;
 
 namespace {
 
@@ -138,3 +138,5 @@ TEST_CASE("A time limit that is not reached, or was taken back, changes no bit")
     CHECK(taken_back.simulation.state_hash() == none.simulation.state_hash());
     for (const double wrong : {-1.0, 1e-7, 1e7, std::nan("")}) CHECK_THROWS_AS(none.simulation.set_time_limit(wrong), SceneError);
 }
+
+}  // namespace percale::test::time_limit_test

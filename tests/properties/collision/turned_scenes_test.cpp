@@ -11,7 +11,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"
 
-namespace percale::test {
+namespace percale::test::turned_scenes_test {
 namespace {
 
 using Matrix = Eigen::Matrix3d;
@@ -136,4 +136,4 @@ TEST_CASE("Turned or numbered otherwise a scene leaves the plain one no faster i
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::turned_scenes_test

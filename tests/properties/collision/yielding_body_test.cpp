@@ -6,7 +6,7 @@
 #include "tests/support/collision/steps.h"
 
 // Obstacles that give way to cloth where they leave it no room.
-namespace percale::test {
+namespace percale::test::yielding_body_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0, radius = 0.2, thickness = 0.005;
@@ -225,4 +225,4 @@ TEST_CASE("Dents of a pinch that lasts stay as they are, in every bit, and one b
     }
 }
 
-}  // namespace percale::test
+}  // namespace percale::test::yielding_body_test

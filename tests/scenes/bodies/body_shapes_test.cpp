@@ -12,10 +12,7 @@
 #include "tests/scenes/watched_run.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::body_shapes_test {
 namespace {
 
 /// A ball that moves along x by 0.1 m a frame, ten frames a second.
@@ -169,3 +166,5 @@ intersections = 0
     for (std::size_t k = 0; k < left.states.size(); ++k)
         CHECK(resumes_as(plain, left, k, watch(scene, {.from = &left.states[k]})));
 }
+
+}  // namespace percale::scenes::test::body_shapes_test

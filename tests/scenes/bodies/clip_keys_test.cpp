@@ -8,7 +8,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
+namespace percale::scenes::test::clip_keys_test {
 
 TEST_CASE("A node's transform is linear between its keys, its rotation at a constant rate, and constant outside") {
     aiNodeAnim channel;  // its destructor frees the keys
@@ -53,3 +53,5 @@ TEST_CASE("Weights of morph targets are linear between keys, and without keys th
     REQUIRE(own_morph_weights(mesh).size() == 1);
     CHECK(own_morph_weights(mesh)[0] == std::pair{0u, 0.5});
 }
+
+}  // namespace percale::scenes::test::clip_keys_test

@@ -12,10 +12,7 @@
 #include "tests/scenes/watched_run.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::mesh_sequence_test {
 namespace {
 
 /// A ball that swells and sinks, written as frames.
@@ -169,3 +166,5 @@ TEST_CASE("A run on frames is resumed in every bit, and goes on until the last f
     const RunResult result = run_scene(built, {});
     CHECK(result.totals.simulated_s > 0.4);
 }
+
+}  // namespace percale::scenes::test::mesh_sequence_test

@@ -8,10 +8,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::point_cache_test {
 namespace {
 
 struct Cached {
@@ -134,3 +131,5 @@ TEST_CASE("A cache that does not fit its mesh, ends early or holds no numbers is
     PointCache cache(given.scene, given.obstacle);
     CHECK(message_of([&] { cache.at(1.0); }).find("sample 1: vertex 0: coordinate y") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::point_cache_test

@@ -2,9 +2,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::shape_source_test {
 namespace {
 
 /// One vertex, at 10 k in sample k; counts what is loaded.
@@ -41,3 +39,5 @@ TEST_CASE("A sample is loaded once while time goes on, and equal times are those
     for (int step = 0; step <= 80; ++step) CHECK(shapes.at(0.05 * step)[0].x() == Approx(step));
     CHECK(shapes.loads == 9);
 }
+
+}  // namespace percale::scenes::test::shape_source_test

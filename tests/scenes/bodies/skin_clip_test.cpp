@@ -8,10 +8,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::skin_clip_test {
 namespace {
 
 struct Bar {
@@ -127,3 +124,5 @@ TEST_CASE("Clips that there are not are refused with those that there are, and s
     given.obstacle.mesh = "none.glb";
     CHECK(given.refusal("bend").find("no such file") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::skin_clip_test

@@ -2,7 +2,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
+namespace percale::scenes::test::bytes_test {
 
 TEST_CASE("numbers lie in files with their lowest byte first, or their highest, whatever the machine") {
     std::string bytes;
@@ -25,3 +25,5 @@ TEST_CASE("real numbers are those of IEEE 754: 1 is 3f800000, -2.5 is c0040000 0
     append_float(bytes, 0.1);
     CHECK(float_at(bytes.data()) == 0.1f);
 }
+
+}  // namespace percale::scenes::test::bytes_test

@@ -4,8 +4,7 @@
 #include "scenes/common/bytes.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
+namespace percale::scenes::test::glb_test {
 
 TEST_CASE("a GLB file begins with its header and the JSON chunk, padded to four bytes") {
     const std::string start = glb_start("{\"a\":1}", 8);
@@ -23,3 +22,5 @@ TEST_CASE("what a header of 32 bits cannot tell of is refused") {
     CHECK_NOTHROW(glb_start("{}", most_glb_bytes - 35));
     CHECK_THROWS_AS(glb_start("{}", most_glb_bytes - 27), SceneError);
 }
+
+}  // namespace percale::scenes::test::glb_test

@@ -7,8 +7,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-
+namespace percale::scenes::test::nearest_name_test {
 namespace {
 
 // The definition itself, without a table.
@@ -80,3 +79,5 @@ TEST_CASE("a suggestion names the nearest and lists what is valid") {
     CHECK(did_you_mean("non", names) == "; did you mean 'none'?");
     CHECK(did_you_mean("gif", names).empty());
 }
+
+}  // namespace percale::scenes::test::nearest_name_test

@@ -10,8 +10,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using percale::scenes::own_files;
-
+namespace percale::scenes::test::own_program_test {
 namespace {
 
 /// Where the loaded library of mathematics lies.
@@ -62,3 +61,5 @@ TEST_CASE("the files of a program are its own and the libraries of the project t
     dlclose(loaded);
     CHECK(own_files() == before);
 }
+
+}  // namespace percale::scenes::test::own_program_test

@@ -3,8 +3,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
+namespace percale::scenes::test::scene_file_error_test {
 
 TEST_CASE("a place is file, line and column, without what is unknown") {
     CHECK(place_text({.file = "a.toml", .line = 3, .column = 7}) == "a.toml:3:7");
@@ -38,3 +37,5 @@ TEST_CASE("what is wrong with a named thing gets a place, and what is not wrong 
     CHECK(error_of([&] { at_place(place, "", [] { throw SceneError("torn"); }); }) == "a.toml:3:7: torn");
     CHECK_THROWS_AS(at_place(place, "", [] { throw std::runtime_error("not the scene"); }), std::runtime_error);
 }
+
+}  // namespace percale::scenes::test::scene_file_error_test

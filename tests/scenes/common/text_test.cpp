@@ -7,7 +7,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
+namespace percale::scenes::test::text_test {
 
 TEST_CASE("number texts are short") {
     CHECK(number_text(0.3) == "0.3");
@@ -80,3 +80,5 @@ TEST_CASE("a number with a decimal comma or a unit is told how it is written") {
     CHECK(number_advice(std::string(1000000, '1') + "mm").empty());
     for (const char* text : {"", "soft", "1,2,3", "a,b", "[1, 2]"}) CHECK(number_advice(text).empty());
 }
+
+}  // namespace percale::scenes::test::text_test

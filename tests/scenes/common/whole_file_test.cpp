@@ -6,9 +6,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
+namespace percale::scenes::test::whole_file_test {
 
 TEST_CASE("a file is read as bytes and as a text, whatever they are") {
     const TestFolder folder;
@@ -154,3 +152,5 @@ TEST_CASE("bytes come back from a durable file") {
     CHECK(folder.file_count() == 1);
     CHECK_THROWS_WITH(read_bytes(folder.path("b")), Catch::Contains("b: cannot be read: No such file"));
 }
+
+}  // namespace percale::scenes::test::whole_file_test

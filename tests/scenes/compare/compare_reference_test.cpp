@@ -9,7 +9,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes {
+namespace percale::scenes::compare_reference_test {
 
 using namespace test;
 
@@ -67,4 +67,4 @@ TEST_CASE("With an obstacle the reference is implicit and says how well it is kn
     CHECK(reference.uncertainty.rms < 1e-2);
 }
 
-}  // namespace percale::scenes
+}  // namespace percale::scenes::compare_reference_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::scenes {
+namespace percale::scenes::compare_report_test {
 namespace {
 
 ComparedRun finished_run(const Variant& variant, double error, double cpu_s) {
@@ -109,4 +109,4 @@ TEST_CASE("The diagram has a line a scheme, with what finished, no error below t
     CHECK(plot.y_label.find(", m") != std::string::npos);
 }
 
-}  // namespace percale::scenes
+}  // namespace percale::scenes::compare_report_test

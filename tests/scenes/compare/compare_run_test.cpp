@@ -7,7 +7,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes {
+namespace percale::scenes::compare_run_test {
 namespace {
 
 using namespace test;
@@ -91,4 +91,4 @@ TEST_CASE("Distances between two ends are those of the definition, and 0 from an
     CHECK(both.rms == apart.rms);
 }
 
-}  // namespace percale::scenes
+}  // namespace percale::scenes::compare_run_test

@@ -9,7 +9,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes {
+namespace percale::scenes::compare_test {
 
 using namespace test;
 
@@ -93,4 +93,4 @@ TEST_CASE("The reference is told when it is made, before any run") {
     CHECK(told == 1);
 }
 
-}  // namespace percale::scenes
+}  // namespace percale::scenes::compare_test

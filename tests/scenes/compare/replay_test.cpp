@@ -5,10 +5,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::replay_test {
 namespace {
 
 std::vector<StepHashes> some_steps(int count) {
@@ -70,3 +67,5 @@ TEST_CASE("what is no table of steps, or has no state hashes, is refused with it
     folder.write("steps.csv", header + step_table_line({}, std::nullopt) + "\n");
     CHECK_THROWS_WITH(read_step_hashes(file), Catch::Contains("--replay-hash"));
 }
+
+}  // namespace percale::scenes::test::replay_test

@@ -6,10 +6,7 @@
 #include "tests/scenes/faulty_meshes.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::doctor_mesh_test {
 namespace {
 
 ExaminedMesh examined(MeshRole role, const TriangleMesh& mesh) {
@@ -259,3 +256,5 @@ TEST_CASE("a cloth and an obstacle of different units, and cloth too coarse, are
     REQUIRE(fine.size() == 1);
     CHECK(fine[0].severity == Severity::note);
 }
+
+}  // namespace percale::scenes::test::doctor_mesh_test

@@ -4,8 +4,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-
+namespace percale::scenes::test::doctor_report_test {
 namespace {
 
 Diagnosis sick() {
@@ -56,3 +55,5 @@ TEST_CASE("diagnoses as JSON say the same") {
     CHECK(json[0].at("findings").at(1).at("as").is_null());
     CHECK(json[1].at("findings").empty());
 }
+
+}  // namespace percale::scenes::test::doctor_report_test

@@ -12,10 +12,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::doctor_scene_test {
 namespace {
 
 using Overrides = std::vector<Override>;
@@ -349,3 +346,5 @@ TEST_CASE("meshes that look swapped are told of once") {
     const auto told = [](const Finding& finding) { return finding.what.find("were their meshes swapped?") != std::string::npos; };
     CHECK(std::count_if(found.begin(), found.end(), told) == 1);
 }
+
+}  // namespace percale::scenes::test::doctor_scene_test

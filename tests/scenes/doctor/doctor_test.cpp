@@ -7,9 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
+namespace percale::scenes::test::doctor_test {
 
 TEST_CASE("a mesh file is looked at as cloth and as obstacle, or as what it is said to be") {
     const TestFolder folder;
@@ -68,3 +66,5 @@ TEST_CASE("a file whose name ends in .toml is a scene, with its overrides") {
     CHECK(diagnose(file).has("free_fall"));
     CHECK_FALSE(diagnose(file, {.overrides = {{"gravity", "[0, 0, 0]"}}}).has("free_fall"));
 }
+
+}  // namespace percale::scenes::test::doctor_test

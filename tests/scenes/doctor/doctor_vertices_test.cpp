@@ -4,10 +4,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::doctor_vertices_test {
 namespace {
 
 const char* const two_cloths = R"(duration = 1.0
@@ -57,3 +54,5 @@ TEST_CASE("vertices that no cloth has are found in every pin and every event") {
     CHECK(missing_vertices(scene, std::span(both).first(1)).size() == 1);
     CHECK(missing_vertices(scene, std::span(both).first(0)).empty());
 }
+
+}  // namespace percale::scenes::test::doctor_vertices_test

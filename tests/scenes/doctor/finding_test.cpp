@@ -3,8 +3,7 @@
 #include "scenes/common/scene_file_error.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
+namespace percale::scenes::test::finding_test {
 
 TEST_CASE("a refusal is a finding at the place of its error") {
     const SceneFileError error({.file = "a.toml", .line = 3, .column = 5}, "gravity: too large");
@@ -39,3 +38,5 @@ TEST_CASE("severities and uses of a mesh have words of their own") {
     CHECK(std::string(role_word(MeshRole::cloth)) == "cloth");
     CHECK(std::string(role_word(MeshRole::obstacle)) == "obstacle");
 }
+
+}  // namespace percale::scenes::test::finding_test

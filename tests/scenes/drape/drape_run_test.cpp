@@ -6,7 +6,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::drape_run_test {
 namespace {
 
 DrapeOptions sheet_and_block(const TestFolder& folder) {
@@ -74,4 +74,4 @@ TEST_CASE("sewing times leave time to settle, the first is what the options say"
     CHECK(sewing_times(options) == std::vector<double>{1.0, 0.6});
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::drape_run_test

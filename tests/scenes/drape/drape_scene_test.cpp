@@ -10,7 +10,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::drape_scene_test {
 namespace {
 
 /// A sheet above a tall box, each point written as `own` says.
@@ -180,4 +180,4 @@ TEST_CASE("garment and body may be objects of one file") {
     CHECK(message_of([&] { build_scene(drape_scene(options).scene); }).find("did you mean 'stand'?") != std::string::npos);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::drape_scene_test

@@ -6,7 +6,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::drape_verdict_test {
 namespace {
 
 /// A wide ring of two panels around a thin post on a foot.
@@ -93,4 +93,4 @@ TEST_CASE(
     }
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::drape_verdict_test

@@ -7,10 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::checkpoint_test {
 namespace {
 
 Scene scene_with(std::vector<Override> overrides = {}) {
@@ -101,3 +98,5 @@ TEST_CASE("a checkpoint of another run is refused with the settings that differ,
     CHECK(refusal(checkpoint, {}, false).find("it was made with --certify-steps") != std::string::npos);
     CHECK(refusal(checkpoint, {}, true, true).find("it was made without --replay-hash") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::checkpoint_test

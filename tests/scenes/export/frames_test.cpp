@@ -8,10 +8,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::frames_test {
 namespace {
 
 ClothSpec cloth(const std::string& name) {
@@ -155,3 +152,5 @@ TEST_CASE("a record names the files of a format that certify reads, with fields 
     CHECK(record_of({"pc2"}, {}).cloths == std::vector<std::string>{"frames/sheet.pc2"});
     CHECK(record_of({"none"}, {}).cloths.empty());
 }
+
+}  // namespace percale::scenes::test::frames_test

@@ -2,8 +2,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-
+namespace percale::scenes::test::junit_test {
 namespace {
 
 ExpectationResult expectation(const std::string& measure, bool passed) {
@@ -81,3 +80,5 @@ TEST_CASE("no scenes make an empty but whole document") {
     const std::string text = junit_text({});
     CHECK(text.find("<testsuites>\n</testsuites>\n") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::junit_test

@@ -9,12 +9,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::falling_sheet;
-using percale::scenes::test::sheet_on_box;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::kept_run_test {
 namespace {
 
 const std::string with_meshes = R"(
@@ -276,3 +271,5 @@ TEST_CASE("a program is told by its version and the checksum of its files") {
     CHECK(first.size() == std::string(PERCALE_VERSION).size() + 17);
     CHECK(program_checksum() == first);
 }
+
+}  // namespace percale::scenes::test::kept_run_test

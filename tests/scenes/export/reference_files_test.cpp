@@ -7,11 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::falling_sheet;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::reference_files_test {
 namespace {
 
 /// Runs without reading the files, and writes them.
@@ -51,3 +47,5 @@ TEST_CASE("what cannot be written is refused before anything is") {
     refused("[[expect]]\nat = 0.05\nmatches = { file = \"good.obj\", within = 1 }\n", "good.obj is named twice");
     refused("[[expect]]\nat = 7\nmatches = { file = \"end.obj\", within = 1 }\n", "the run did not reach 7 s");
 }
+
+}  // namespace percale::scenes::test::reference_files_test

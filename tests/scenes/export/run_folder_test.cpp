@@ -11,10 +11,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::run_folder_test {
 namespace {
 
 void run_into(const std::string& path, const std::vector<Override>& overrides = {}, bool with_state_hash = false) {
@@ -351,3 +348,5 @@ TEST_CASE("a word that no format has is refused with those that there are") {
     CHECK_NOTHROW(RunFolder(folder.path(), scene, false, two_formats()));
     CHECK(folder.file_count() == 0);
 }
+
+}  // namespace percale::scenes::test::run_folder_test

@@ -11,9 +11,7 @@
 #include "tests/scenes/watched_run.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
+namespace percale::scenes::test::run_report_test {
 using nlohmann::ordered_json;
 
 namespace {
@@ -374,3 +372,5 @@ TEST_CASE("a run that finishes with a tight garment says so, and cloth that is p
     CHECK(warnings(grid, body).empty());
     CHECK(warnings(mesh, shape).empty());
 }
+
+}  // namespace percale::scenes::test::run_report_test

@@ -5,8 +5,7 @@
 #include "percale/options.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
+namespace percale::scenes::test::run_settings_test {
 using nlohmann::ordered_json;
 
 namespace {
@@ -146,3 +145,5 @@ TEST_CASE("what differs between two settings is told with both values, three at 
     CHECK(std::count(text.begin(), text.end(), ';') == 3);
     CHECK(text.ends_with("; and more"));
 }
+
+}  // namespace percale::scenes::test::run_settings_test

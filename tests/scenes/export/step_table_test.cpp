@@ -7,10 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::step_table_test {
 namespace {
 
 std::vector<std::string> cells(const std::string& line) {
@@ -98,3 +95,5 @@ TEST_CASE("a step table has one line a step and is there only when finished") {
     CHECK(lines[0] == step_table_header());
     CHECK(lines[2] == step_table_line(example(), 2));
 }
+
+}  // namespace percale::scenes::test::step_table_test

@@ -3,9 +3,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::field_table_test {
 namespace {
 
 struct Square {
@@ -131,3 +129,5 @@ TEST_CASE("faults of a list go to the list of faults, one an item, and the other
     REQUIRE(read.list.size() == 1);
     CHECK(read.list[0].count == 2);
 }
+
+}  // namespace percale::scenes::test::field_table_test

@@ -2,9 +2,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::option_fields_test {
 namespace {
 
 FieldTable<Fabric> table() {
@@ -52,3 +50,5 @@ TEST_CASE("the word auto sets what is automatic and leaves the number") {
     settings.newton_tolerance.reset();
     CHECK_FALSE(read_spec(spec_node(steps, settings), steps).newton_tolerance.has_value());
 }
+
+}  // namespace percale::scenes::test::option_fields_test

@@ -2,7 +2,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
+namespace percale::scenes::test::scene_keys_test {
 
 TEST_CASE("what a value must be is told in words, with its count or its choices") {
     CHECK(kind_text({.path = "x", .kind = KeyKind::number}) == "a number");
@@ -22,3 +22,5 @@ TEST_CASE("ranges are written with both ends and the unit") {
     key.lowest = -std::numeric_limits<double>::infinity();
     CHECK(range_text(key) == "<= 10 m");
 }
+
+}  // namespace percale::scenes::test::scene_keys_test

@@ -3,8 +3,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-
+namespace percale::scenes::test::toml_document_test {
 namespace {
 
 const SourcePlace command_line = {.file = "--set key"};
@@ -125,3 +124,5 @@ TEST_CASE("descriptions say kind and value") {
     CHECK(described(*d.find("f")) == "a date or time");
     CHECK(described(*d.find("g")) == "a table");
 }
+
+}  // namespace percale::scenes::test::toml_document_test

@@ -7,8 +7,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-
+namespace percale::scenes::test::toml_text_test {
 namespace {
 
 TomlNode value(const std::string& text) { return parse_toml_value(text, {.file = "t"}); }
@@ -69,3 +68,5 @@ TEST_CASE("lists and tables written as TOML are inline and the same") {
 TEST_CASE("a date, whose value no node holds, cannot be written") {
     CHECK_THROWS_AS(toml_text(value("1979-05-27")), percale::SceneError);
 }
+
+}  // namespace percale::scenes::test::toml_text_test

@@ -5,8 +5,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
+namespace percale::scenes::test::toml_values_test {
 
 TEST_CASE("a dotted key finds a value inside tables, and nothing where one is missing") {
     const TomlNode document = parse_toml("a = { b = { c = 3 } }\n", "t");
@@ -88,3 +87,5 @@ TEST_CASE("of several keys exactly one must be there") {
     CHECK(error_of([&] { only_key(none, {"a", "b"}, "thing"); }).ends_with("thing must have exactly one of a, b; it has none"));
     CHECK(error_of([&] { only_key(both, {"a", "b"}, "thing"); }).ends_with("thing must have exactly one of a, b; it has a, b"));
 }
+
+}  // namespace percale::scenes::test::toml_values_test

@@ -3,9 +3,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::body_tables_test {
 namespace {
 
 ClothSpec cloth(const std::string& text) {
@@ -135,3 +133,5 @@ TEST_CASE("a selection of vertices is written as it is read") {
     CHECK(std::get<VertexBox>(again(VertexBox{Vec3::Zero(), Vec3::Ones(), "ball"})).to == "ball");
     CHECK(std::holds_alternative<VertexBoundary>(again(VertexBoundary{})));
 }
+
+}  // namespace percale::scenes::test::body_tables_test

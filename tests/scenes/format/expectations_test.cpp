@@ -7,8 +7,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-
+namespace percale::scenes::test::expectations_test {
 namespace {
 
 const double infinity = std::numeric_limits<double>::infinity();
@@ -108,3 +107,5 @@ TEST_CASE("of a run whose every step is certified no pair and no depth is expect
     CHECK(verdicts(0.0, 1e-9) == std::vector<bool>{true, true, false});
     CHECK_FALSE(judge(expected, {}).at(1).passed);
 }
+
+}  // namespace percale::scenes::test::expectations_test

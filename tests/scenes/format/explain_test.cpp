@@ -7,8 +7,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-
+namespace percale::scenes::test::explain_test {
 namespace {
 
 std::string explained(const std::string& topic = "") {
@@ -101,3 +100,5 @@ TEST_CASE("the tables of keys have a row for every key that is no heading") {
     }
     CHECK(rows + headings == scene_keys().size());
 }
+
+}  // namespace percale::scenes::test::explain_test

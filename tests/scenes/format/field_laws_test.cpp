@@ -9,10 +9,10 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
+namespace percale::scenes::test::field_laws_test {
+
 // Laws of the tables of fields, for every key that there is: nothing here names one of them but where it means more than its
 // value.
-using namespace percale;
-using namespace percale::scenes;
 using nlohmann::ordered_json;
 using test::GeneratedScene;
 
@@ -307,3 +307,5 @@ TEST_CASE("a required key is missed in its table, for every one") {
         CHECK(missed);
     }
 }
+
+}  // namespace percale::scenes::test::field_laws_test

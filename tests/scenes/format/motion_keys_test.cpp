@@ -5,9 +5,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::motion_keys_test {
 namespace {
 
 Scene scene_with(const std::string& keys) {
@@ -58,3 +56,5 @@ TEST_CASE("Frames of a shape, frames below 0 and no frames a second are refused"
     CHECK(message_of([] { scene_with("mesh = \"%d.obj\"\nframes = [-1, 1]\n"); }).find("frames") != std::string::npos);
     CHECK(message_of([] { scene_with("mesh = \"%d.obj\"\nframes = [0, 1]\nfps = 0.0\n"); }).find("fps") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::motion_keys_test

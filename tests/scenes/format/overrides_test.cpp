@@ -3,8 +3,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-
+namespace percale::scenes::test::overrides_test {
 namespace {
 
 TomlNode changed(const std::string& key, const std::string& value, const std::string& text = small_scene()) {
@@ -98,3 +97,5 @@ TEST_CASE("an option that stands for a key is named as it was typed") {
 }
 
 TEST_CASE("a bad value is told with the key") { CHECK(fault("duration", "").starts_with("--set duration: ")); }
+
+}  // namespace percale::scenes::test::overrides_test

@@ -6,10 +6,9 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
+namespace percale::scenes::test::rest_check_test {
+
 // Which scenes with duration = "rest" are refused, by build_scene.
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
 
 namespace {
 
@@ -56,3 +55,5 @@ TEST_CASE("what is to happen has to be over before the longest duration") {
     CHECK(refusal(sheet_on_box(), {until_rest, motion}).find(": obstacle 'box': motion goes on until 25 s") != std::string::npos);
     CHECK(refusal(seam).empty());
 }
+
+}  // namespace percale::scenes::test::rest_check_test

@@ -6,9 +6,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::scene_check_test {
 namespace {
 
 std::string fault(const std::string& text) {
@@ -257,3 +255,5 @@ TEST_CASE("a rotation in degrees, and one of three numbers, are told what a quat
     CHECK(fault_after("pose = { rotation = [0, 90, 0] }\n").find("not a list of 3" + advice) != std::string::npos);
     CHECK(fault_after("pose = { translation = [0, 9e99, 0] }\n").find("quaternion") == std::string::npos);
 }
+
+}  // namespace percale::scenes::test::scene_check_test

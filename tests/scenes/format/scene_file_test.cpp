@@ -7,9 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::scene_file_test {
 namespace {
 
 Scene scene_with(const std::string& before, const std::string& after = "") {
@@ -303,3 +301,5 @@ TEST_CASE("a document that was not read from a text is a scene as its text is") 
     CHECK(from_document.fabrics.at("sheet").springs.shear == from_text.fabrics.at("sheet").springs.shear);
     CHECK(error_of([&] { scene_of_document(TomlNode(), "t"); }) == fault(""));
 }
+
+}  // namespace percale::scenes::test::scene_file_test

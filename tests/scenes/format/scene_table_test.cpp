@@ -10,9 +10,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::scene_table_test {
 namespace {
 
 bool is_table(const SceneKey& key) {
@@ -132,3 +130,5 @@ TEST_CASE("every measure may be expected") {
     }
     CHECK(find_scene_key("expect.matches.file") != nullptr);
 }
+
+}  // namespace percale::scenes::test::scene_table_test

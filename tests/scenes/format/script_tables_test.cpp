@@ -8,11 +8,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::message_of;
-using percale::scenes::test::sheet_on_box;
-
+namespace percale::scenes::test::script_tables_test {
 namespace {
 
 const double infinity = std::numeric_limits<double>::infinity();
@@ -148,3 +144,5 @@ TEST_CASE("expectations keep the order of the file and know their places") {
     CHECK(list[1].measure == "intersections");
     CHECK(list[1].place.line == 2);
 }
+
+}  // namespace percale::scenes::test::script_tables_test

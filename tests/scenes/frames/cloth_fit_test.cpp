@@ -5,9 +5,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::cloth_fit_test {
 namespace {
 
 /// A grid of 2 x 2 cells, each of 0.01 m^2, and what it became.
@@ -85,3 +83,5 @@ TEST_CASE("a spread tells the ends, the middle and what 95 of 100 values do not 
     CHECK(spread.largest == 100.0);
     CHECK(spread_of({3.0}).median == 3.0);
 }
+
+}  // namespace percale::scenes::test::cloth_fit_test

@@ -6,10 +6,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::frame_folder_test {
 namespace {
 
 void put(FrameFolder& folder, const std::string& name, const std::string& text) {
@@ -158,3 +155,5 @@ TEST_CASE("files that are not there or too short are refused by name") {
     CHECK_THROWS_WITH(files.go_on(folder.path("left"), {"frames/none.txt", 0}, false), Catch::Contains("left/frames/none.txt"));
     CHECK_THROWS_WITH(files.copy(folder.path("left"), "frames/none.txt"), Catch::Contains("cannot be copied to"));
 }
+
+}  // namespace percale::scenes::test::frame_folder_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
+namespace percale::scenes::test::frame_formats_test {
 
 TEST_CASE("every format has a word, a sentence, an ending of its own and a size, and makes an encoder that knows its files") {
     std::set<std::string> words = {no_frames}, endings;
@@ -35,3 +35,5 @@ TEST_CASE("the words of scene files are none and those of the formats, each expl
     for (std::size_t i = 1; i < words.size(); ++i) CHECK(words[i] == frame_formats()[i - 1].word);
     for (const std::string& word : words) CHECK(frame_words_meaning().find(word + ": ") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::frame_formats_test

@@ -5,10 +5,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::GlbReader;
-using percale::scenes::test::TestFolder;
+namespace percale::scenes::test::glb_frames_test {
 
 TEST_CASE("a run is one GLB file, made at its end from what grew beside it, by whichever encoder wrote which frame") {
     const TestFolder folder;
@@ -42,3 +39,5 @@ TEST_CASE("a run is one GLB file, made at its end from what grew beside it, by w
     CHECK(encoder->is_made_at_end("frames/scene.glb"));
     CHECK_FALSE(encoder->is_made_at_end("frames/scene.glb.samples"));
 }
+
+}  // namespace percale::scenes::test::glb_frames_test

@@ -7,11 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::GlbReader;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::morph_glb_test {
 namespace {
 
 TriangleMesh sheet_at(int frame) {
@@ -112,3 +108,5 @@ TEST_CASE("normals of vertices are of length 1, those of triangles by their area
     CHECK((normals[0] - Vec3(3, 1, 0).normalized()).norm() < 1e-15);
     CHECK(normals[4].norm() == 0.0);
 }
+
+}  // namespace percale::scenes::test::morph_glb_test

@@ -4,10 +4,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::numbered_frames_test {
 namespace {
 
 std::unique_ptr<FrameEncoder> counted_vertices(const FrameCast& cast) {
@@ -51,3 +48,5 @@ TEST_CASE("the number of a frame is read from a file's name, whatever else stand
         CHECK(encoder->first_frame_of(name) == -1);
     }
 }
+
+}  // namespace percale::scenes::test::numbered_frames_test

@@ -8,10 +8,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::obj_frames_test {
 namespace {
 
 /// The coordinates of two squares and how they are joined, as an OBJ file may say it.
@@ -64,3 +61,5 @@ TEST_CASE("a frame as OBJ reads back with the same bits") {
     CHECK(mesh.triangles == cloths[0].triangles);
     CHECK(encoder->first_frame_of(written.cloths[0]) == 7);
 }
+
+}  // namespace percale::scenes::test::obj_frames_test

@@ -7,10 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::obj_layout_test {
 namespace {
 
 TriangleMesh read(const std::string& text) {
@@ -86,3 +83,5 @@ TEST_CASE("what a comment says of how a face is cut has to be right") {
     CHECK_THROWS_WITH(read("#percale corners 0 1 2\n" + quad), Catch::Contains("text:1: no face stands above it"));
     CHECK_THROWS_WITH(read(quad + "#percale corners 0 1 2 0 2 3 0 1 2 0 1 2 0 1 2 0 1 2\n"), Catch::Contains("triangles, not"));
 }
+
+}  // namespace percale::scenes::test::obj_layout_test

@@ -7,9 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
+namespace percale::scenes::test::ply_frames_test {
 
 TEST_CASE("a frame as PLY reads back with the same bits and names the fields of its cloth") {
     const TestFolder folder;
@@ -30,3 +28,5 @@ TEST_CASE("a frame as PLY reads back with the same bits and names the fields of 
     CHECK(folder.read(written.cloths[0]).find("property float distance") != std::string::npos);
     CHECK(folder.read(written.obstacles[0]).find("property float") == std::string::npos);
 }
+
+}  // namespace percale::scenes::test::ply_frames_test

@@ -6,10 +6,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::point_cache_frames_test {
 namespace {
 
 TriangleMesh shifted(const TriangleMesh& mesh, double shift) {
@@ -103,3 +100,5 @@ TEST_CASE("an encoder knows its files by name") {
     CHECK_FALSE(encoder->is_made_at_end("frames/sheet.mesh.obj"));
     CHECK_FALSE(pc2_frames().make(cast)->is_made_at_end("frames/sheet.pc2"));
 }
+
+}  // namespace percale::scenes::test::point_cache_frames_test

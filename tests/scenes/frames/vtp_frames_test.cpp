@@ -7,10 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::vtp_frames_test {
 namespace {
 
 /// The bytes of an array by its name, as its element says where they are.
@@ -75,3 +72,5 @@ TEST_CASE("the collection lists every mesh of every frame with its time, an obst
     CHECK(encoder->first_frame_of("frames/a<b_00004.vtp") == 4);
     CHECK(encoder->is_made_at_end("frames/scene.pvd"));
 }
+
+}  // namespace percale::scenes::test::vtp_frames_test

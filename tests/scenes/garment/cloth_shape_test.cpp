@@ -8,9 +8,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::cloth_shape_test {
 namespace {
 
 // A square of 10 cm, upright; its vt lie in a unit of 20 cm, the second triangle apart from the first and turned by half.
@@ -132,3 +130,5 @@ TEST_CASE("a relative path starts at the scene file's folder, an absolute one st
     scene.file = "scene.toml";
     CHECK(path_beside(scene, "a.obj") == "a.obj");
 }
+
+}  // namespace percale::scenes::test::cloth_shape_test

@@ -5,9 +5,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::cloth_warnings_test {
 namespace {
 
 std::vector<std::string> warnings_of(const std::string& fabric, const std::string& second_grid = "") {
@@ -37,3 +35,5 @@ TEST_CASE("two cloths in one place are warned of where they do not meet") {
     CHECK(warnings_of("thickness = 0.005", apart).empty());
     CHECK(warnings_of("thickness = 0.005\nself_contact = true", near).empty());
 }
+
+}  // namespace percale::scenes::test::cloth_warnings_test

@@ -8,9 +8,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::meeting_warnings_test {
 namespace {
 
 /// A scene of a small sheet 1 m above and `beside` a block, both from files, with more of the scene behind the sheet.
@@ -85,3 +83,5 @@ TEST_CASE("a mesh of a cloth that is closed and one of an obstacle that is not a
     CHECK(warnings("block", "block").empty());
     CHECK(warnings("block", "sheet", "gas_volume = 0.008\n").empty());
 }
+
+}  // namespace percale::scenes::test::meeting_warnings_test

@@ -6,9 +6,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::seam_stitches_test {
 namespace {
 
 constexpr const char* head =
@@ -61,3 +59,5 @@ TEST_CASE("stitches are counted through the vertices of all cloth that is not le
     const std::vector<int> first = {0, -1, 10};
     CHECK(joined_stitches(seams, first) == std::vector<Stitch>{{1, 12, 13, 0.5}, {10, 11, 11}});
 }
+
+}  // namespace percale::scenes::test::seam_stitches_test

@@ -6,9 +6,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::vertex_selection_test {
 namespace {
 
 std::vector<int> selected(const VertexSelection& selection, const TriangleMesh& mesh) {
@@ -95,3 +93,5 @@ TEST_CASE("the boundary of a grid is its rim") {
 TEST_CASE("a closed mesh has no boundary to pin") {
     CHECK(fault(VertexBoundary{}, make_sphere(1.0, 1)) == "vertices of cloth 'flag': the mesh is closed and has no boundary");
 }
+
+}  // namespace percale::scenes::test::vertex_selection_test

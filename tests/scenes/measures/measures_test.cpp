@@ -6,9 +6,7 @@
 #include "format/expectations.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::measures_test {
 namespace {
 
 FrameCheck frame_check(int pairs, double depth, double distance) {
@@ -262,3 +260,5 @@ TEST_CASE("steps in which obstacles give way are one pinch as long as they pause
           "'arm' and 'leg' pinched cloth; what yields (on_pinch) was dented, by up to 0.01 m, from 0.9 s to 1.3 s");
     CHECK(pinch_text(pinches[1], scene).find("'trunk' pinched cloth") == 0);
 }
+
+}  // namespace percale::scenes::test::measures_test

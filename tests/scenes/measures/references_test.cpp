@@ -9,10 +9,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::falling_sheet;
-using percale::scenes::test::TestFolder;
+namespace percale::scenes::test::references_test {
 
 TEST_CASE("each expectation has the vertices of its own file, others have none") {
     const TestFolder folder;
@@ -55,3 +52,5 @@ TEST_CASE("each `matches` is held against its own file") {
     CHECK(*verdicts[1].value == Approx(1.0).epsilon(1e-2));
     CHECK(verdicts[1].passed);
 }
+
+}  // namespace percale::scenes::test::references_test

@@ -8,11 +8,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::falling_sheet;
-using percale::scenes::test::sheet_on_box;
-
+namespace percale::scenes::test::timed_measures_test {
 namespace {
 
 struct Judged {
@@ -156,3 +152,5 @@ TEST_CASE("a strain that is too large is told with its cloth and its time") {
     CHECK(judged.verdicts[0].text.find(": failed (cloth 'heavy' at 0.") != std::string::npos);
     CHECK(judged.verdicts[1].text.ends_with(": passed"));
 }
+
+}  // namespace percale::scenes::test::timed_measures_test

@@ -10,10 +10,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::mesh_facts_test {
 namespace {
 
 /// Triangles with distinct corners between few vertices at random places, some of them the same.
@@ -210,3 +207,5 @@ TEST_CASE("rims that are near each other are those that every pair of vertices s
     CHECK(near(both(free_sheet(), free_sheet()), 0.05).empty());  // in one place is another finding
     CHECK(near(both(free_sheet(), shifted(free_sheet(), {0, 2e-4, 0})), 1e-3).size() == 48);  // all of both rims
 }
+
+}  // namespace percale::scenes::test::mesh_facts_test

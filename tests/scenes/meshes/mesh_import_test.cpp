@@ -8,11 +8,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::message_of;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::mesh_import_test {
 namespace {
 
 std::string refusal(const TestFolder& folder, const std::string& name, const std::string& content) {
@@ -273,3 +269,5 @@ TEST_CASE("a mesh with its fields is that without them, and only PLY has any") {
     import_mesh_with_fields(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), fields);
     CHECK(fields.empty());
 }
+
+}  // namespace percale::scenes::test::mesh_import_test

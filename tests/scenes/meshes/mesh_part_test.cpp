@@ -9,7 +9,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::mesh_part_test {
 namespace {
 
 // A body with its skin in two groups, eyes as an object of their own, and a face before any name.
@@ -62,4 +62,4 @@ TEST_CASE("vertices that no triangle has are left out") {
     CHECK(mesh.triangles == std::vector<Triangle>{{2, 0, 1}, {1, 0, 2}});
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::mesh_part_test

@@ -10,11 +10,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::message_of;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::obj_file_test {
 namespace {
 
 TriangleMesh parse(const std::string& text) {
@@ -179,3 +175,5 @@ TEST_CASE("a frame of 4225 vertices is written in milliseconds") {
     INFO(best << " ms");
     CHECK(best < 100.0);  // 2 ms unhurried; sanitizers and busy machines are slower
 }
+
+}  // namespace percale::scenes::test::obj_file_test

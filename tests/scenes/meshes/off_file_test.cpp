@@ -5,10 +5,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::message_of;
-
+namespace percale::scenes::test::off_file_test {
 namespace {
 
 TriangleMesh parse(const std::string& text) {
@@ -91,3 +88,5 @@ TEST_CASE("other files and other dimensions are refused by name") {
     CHECK(refusal("nOFF\n4\n3 1 0\n") == "mesh.off:1: \"nOFF\": only three-dimensional OFF files are read");
     CHECK(refusal("OFF BINARY\n") == "mesh.off:1: binary OFF files are not read");
 }
+
+}  // namespace percale::scenes::test::off_file_test

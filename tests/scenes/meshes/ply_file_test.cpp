@@ -8,10 +8,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::message_of;
-
+namespace percale::scenes::test::ply_file_test {
 namespace {
 
 TriangleMesh parse(const std::string& text) {
@@ -300,3 +297,5 @@ TEST_CASE("a PLY cut off anywhere is refused or, behind its last number, whole")
         CHECK(parse(text).triangles.size() == 1);
     }
 }
+
+}  // namespace percale::scenes::test::ply_file_test

@@ -9,10 +9,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::ply_output_test {
 namespace {
 
 TriangleMesh odd_sphere() {
@@ -90,3 +87,5 @@ TEST_CASE("fields of vertices read back as the floats that were written, what is
     }
     CHECK(std::isinf(fields[0].values[3]));
 }
+
+}  // namespace percale::scenes::test::ply_output_test

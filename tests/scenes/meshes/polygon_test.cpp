@@ -11,7 +11,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/random.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::polygon_test {
 namespace {
 
 /// An L; its fan from the fourth corner on, which is the one at the inner angle, is right, others are not.
@@ -124,4 +124,4 @@ TEST_CASE("every format divides a concave face alike, texture coordinates with i
     }
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::polygon_test

@@ -8,9 +8,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
+namespace percale::scenes::test::scene_import_test {
 
 TEST_CASE("An imported scene knows where each vertex comes from, and its clips by name or number") {
     const TestFolder folder;
@@ -65,3 +63,5 @@ TEST_CASE("A part that there is not and a coordinate without a number are refuse
               check_finite({0.0, std::numeric_limits<double>::infinity(), 0.0}, 7, "a.fbx");
           }) == "a.fbx: vertex 7: coordinate y is not finite");
 }
+
+}  // namespace percale::scenes::test::scene_import_test

@@ -4,7 +4,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::stitch_file_test {
 namespace {
 
 std::string file_of(const TestFolder& folder, const std::string& text) {
@@ -47,4 +47,4 @@ TEST_CASE("what is no stitch is told with its line") {
     CHECK(message_of([&] { read_obj_stitches(folder.path("not_there.obj")); }).find("cannot be read") != std::string::npos);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::stitch_file_test

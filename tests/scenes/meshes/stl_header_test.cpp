@@ -6,10 +6,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-using percale::scenes::test::message_of;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::stl_header_test {
 namespace {
 
 std::string refusal_of(const std::string& content) {
@@ -45,3 +42,5 @@ TEST_CASE("a text STL has no counts") {
 TEST_CASE("an STL file that is gone is refused with the system's reason") {
     CHECK(message_of([] { check_stl_header("no such.stl"); }) == "no such.stl: cannot be read: No such file or directory");
 }
+
+}  // namespace percale::scenes::test::stl_header_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::frame_choice_test {
 
 TEST_CASE("All frames are shown where they fit to the byte") {
     const FrameChoice choice = choose_frames(5, -1, 100, 10, 150);
@@ -55,4 +55,4 @@ TEST_CASE("Where not even the first and the last frame fit none is shown") {
     CHECK(choose_frames(100, -1, 50, 25, 100).shown == std::vector<int>{0, 99});
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::frame_choice_test

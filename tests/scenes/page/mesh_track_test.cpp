@@ -7,7 +7,7 @@
 #include "tests/scenes/page/packed_numbers.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::mesh_track_test {
 
 namespace {
 
@@ -103,4 +103,4 @@ TEST_CASE("Edges without length and vertices without triangles change by nothing
     CHECK(change[3] == 0.0);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::mesh_track_test

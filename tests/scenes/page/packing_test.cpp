@@ -8,7 +8,7 @@
 #include "tests/scenes/page/packed_numbers.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::packing_test {
 
 TEST_CASE("Base64 is that of the examples of RFC 4648") {
     const std::vector<std::pair<std::string, std::string>> examples = {{"", ""},
@@ -61,4 +61,4 @@ TEST_CASE("Values that are all equal are packed as their lowest") {
     CHECK(packed(0.25, range) == 0);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::packing_test

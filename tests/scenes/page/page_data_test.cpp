@@ -5,7 +5,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::page_data_test {
 
 using nlohmann::json;
 
@@ -72,4 +72,4 @@ TEST_CASE("The data of a page holds the report without files and stitches, and n
     CHECK(blobs[2].text == "AAAA");
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::page_data_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::page_text_test {
 
 namespace {
 
@@ -38,4 +38,4 @@ TEST_CASE("A place without a part and a part without a place are errors of the p
     CHECK_THROWS_AS(filled("{{x", {{"x", ""}}), std::logic_error);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::page_text_test

@@ -8,7 +8,7 @@
 #include "tests/scenes/page/written_run.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::playback_test {
 
 namespace {
 
@@ -142,4 +142,4 @@ TEST_CASE("Frames that are missing, broken, of other formats or of other meshes 
           folder.path() + "/report.json: frame 2 lists 0 cloths and 1 obstacle, frame 0 1 and 1");
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::playback_test

@@ -8,15 +8,16 @@
 #include "tests/scenes/page/written_run.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::run_page_test {
 
 namespace {
 
 /// Whether this build has pages; a test without them says so.
 bool has_pages() {
     if (!three_library().empty()) return true;
-    WARN("skipped: this build has no three.js (libjs-three)");
+    percale::test::skip("this build has no three.js (libjs-three)");
     return false;
 }
 
@@ -149,4 +150,4 @@ TEST_CASE("A build without three.js says so, and one with it has the revision th
     }
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::run_page_test

@@ -6,7 +6,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::step_series_test {
 
 namespace {
 
@@ -79,4 +79,4 @@ TEST_CASE("A table that is missing or broken is refused with file and line") {
     CHECK(refusal(header + step_line(0.1, 1, "")) == "steps.csv:2: '' is not a number");
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::step_series_test

@@ -6,7 +6,7 @@
 #include "tests/scenes/pattern/garments.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::delaunay_test {
 namespace {
 
 /// Opposite corners of every inner side.
@@ -76,4 +76,4 @@ TEST_CASE("polygons with many points on one line are triangulated without flat t
     CHECK_THROWS_AS(Delaunay(std::vector<Point2>{{0, 0}, {1, 1}}), SceneError);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::delaunay_test

@@ -7,7 +7,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::edge_stations_test {
 namespace {
 
 /// Two edges of 10 and 20 cm against one of 30.4 cm, and against two of 11 and 19.2.
@@ -110,4 +110,4 @@ TEST_CASE("an edge in two seams, and edges far shorter than asked, are refused")
           }).find("seam 'two': edge 0 of panel 'a' is in another seam, too") != std::string::npos);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::edge_stations_test

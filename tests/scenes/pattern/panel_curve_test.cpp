@@ -3,7 +3,7 @@
 #include "tests/scenes/pattern/garments.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::panel_curve_test {
 namespace {
 
 Panel one_edge(EdgeCurve curve, std::vector<Point2> control) {
@@ -69,4 +69,4 @@ TEST_CASE("points at equal shares are equally far apart along the curve, and the
     }
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::panel_curve_test

@@ -7,7 +7,7 @@
 #include "tests/scenes/pattern/garments.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::panel_mesh_test {
 namespace {
 
 constexpr double to_degrees = 180.0 / std::numbers::pi;
@@ -80,4 +80,4 @@ TEST_CASE("edges are about as long as asked, and the same outline gives the same
     CHECK(mesh.triangles == again.triangles);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::panel_mesh_test

@@ -4,7 +4,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::pattern_check_test {
 namespace {
 
 std::string fault(const Pattern& pattern) {
@@ -44,4 +44,4 @@ TEST_CASE("each thing that cannot be sewn has an error of its own") {
               .find("panel 'b' lies where panel 'a' lies") != std::string::npos);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::pattern_check_test

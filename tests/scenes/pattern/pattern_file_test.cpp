@@ -10,7 +10,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::pattern_file_test {
 
 TEST_CASE("a pattern is read by the ending of its name, and checked") {
     const TestFolder folder;
@@ -46,4 +46,4 @@ TEST_CASE("every shipped pattern starts clear of itself and of the mannequin, it
     CHECK(patterns >= 3);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::pattern_file_test

@@ -7,7 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::pattern_json_test {
 namespace {
 
 Pattern pattern_of(const std::string& text) {
@@ -80,4 +80,4 @@ TEST_CASE("what is no pattern is told with its panel or stitch") {
     CHECK(error_of([] { read_pattern_json("not_there.json"); }).find("cannot be read") != std::string::npos);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::pattern_json_test

@@ -8,7 +8,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::pattern_mesh_test {
 namespace {
 
 double area_of_triangles(const PatternMesh& garment, bool flat) {
@@ -93,4 +93,4 @@ TEST_CASE("edge lengths that make no mesh are refused") {
     CHECK(error_of([&] { mesh_pattern(pattern, 1e-4); }).find("more than 2 million vertices") != std::string::npos);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::pattern_mesh_test

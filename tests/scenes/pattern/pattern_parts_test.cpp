@@ -3,7 +3,7 @@
 #include "tests/scenes/pattern/garments.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::pattern_parts_test {
 
 TEST_CASE("turns go about x first, then y, then z") {
     const auto turn = [](double x, double y, double z, const Vec3& point) {
@@ -94,4 +94,4 @@ TEST_CASE("panels in one plane move apart to the side that they face, a wrapped 
     for (const double x : {-0.3, -0.1, 0.2}) CHECK((placed_point(tube.panels[0], {x, 0.5}) - axis).norm() == Approx(0.12));
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::pattern_parts_test

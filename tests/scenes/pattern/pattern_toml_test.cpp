@@ -5,7 +5,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::pattern_toml_test {
 namespace {
 
 std::string fault(const std::string& text) {
@@ -76,4 +76,4 @@ TEST_CASE("a scene file is not taken for a pattern") {
     CHECK(fault(small_scene()) == "t: is a scene file, not a sewing pattern: percale run takes it");
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::pattern_toml_test

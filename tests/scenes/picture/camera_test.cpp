@@ -5,10 +5,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::message_of;
-
+namespace percale::scenes::test::camera_test {
 namespace {
 
 std::vector<Vec3> cloud(unsigned seed) {
@@ -104,3 +101,5 @@ TEST_CASE("an aim that cannot be is refused with its value") {
     CHECK(message_of([] { ViewFit({NAN, 0.0}, 10, 10); }).find("azimuth") != std::string::npos);
     CHECK(message_of([] { ViewFit({}, 10, 10).camera(); }).find("nothing is shown") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::camera_test

@@ -2,7 +2,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
+namespace percale::scenes::test::colour_bar_test {
 
 TEST_CASE("the numbers at a bar are multiples of its step, each where its value is") {
     const std::vector<BarNumber> numbers = bar_numbers({-0.4, 0.4, 0.2});
@@ -43,3 +43,5 @@ TEST_CASE("the bar has the colours of its values, high above low, inside its str
         for (std::size_t k = 0; k < 3; ++k) CHECK(seen[k] == Approx(expected[k]).margin(3.0));
     }
 }
+
+}  // namespace percale::scenes::test::colour_bar_test

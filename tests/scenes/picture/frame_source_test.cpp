@@ -7,12 +7,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::message_of;
-using percale::scenes::test::moved;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::frame_source_test {
 namespace {
 
 /// A run of three frames, with a body that rests: a report that lists what is there.
@@ -117,3 +112,5 @@ TEST_CASE("meshes are one frame, of which closed ones are bodies unless there ar
     CHECK(message_of([&] { FrameSource::of_meshes({folder.path("absent.off")}, {}); }).find("absent.off: no such file") !=
           std::string::npos);
 }
+
+}  // namespace percale::scenes::test::frame_source_test

@@ -6,12 +6,7 @@
 #include "tests/scenes/picture/png_reader.h"
 #include "tests/scenes/picture/shown_shapes.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::draws;
-using percale::scenes::test::moved;
-using percale::scenes::test::shown;
-
+namespace percale::scenes::test::light_test {
 namespace {
 
 Camera front_camera() {
@@ -90,3 +85,5 @@ TEST_CASE("what is lit more is brighter, never beyond white, and shadows darken 
     CHECK(lights.ground_shadow({0.0f, 0.0f}) > lights.ground_shadow({1.0f, 0.0f}));
     CHECK(lights.ground_shadow({0.0f, 0.0f}) <= 1.0f);
 }
+
+}  // namespace percale::scenes::test::light_test

@@ -7,14 +7,7 @@
 #include "tests/scenes/picture/png_reader.h"
 #include "tests/scenes/picture/shown_shapes.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::draws;
-using percale::scenes::test::message_of;
-using percale::scenes::test::moved;
-using percale::scenes::test::shown;
-using percale::scenes::test::upright;
-
+namespace percale::scenes::test::painter_test {
 namespace {
 
 Camera camera_for(const ShownFrame& frame, const CameraAim& aim, int width, int height) {
@@ -161,3 +154,5 @@ TEST_CASE("a background that is none is refused, the studio's is lighter above")
     CHECK(background_colour(Background::studio, 0.0)[1] > background_colour(Background::studio, 1.0)[1]);
     CHECK(background_colour(Background::white, 0.7) == Colour::Ones());
 }
+
+}  // namespace percale::scenes::test::painter_test

@@ -7,12 +7,7 @@
 #include "tests/scenes/picture/shown_shapes.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::message_of;
-using percale::scenes::test::moved;
-using percale::scenes::test::shown;
-
+namespace percale::scenes::test::picture_field_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -89,3 +84,5 @@ TEST_CASE("a range that is asked for is kept and tells what lies beyond, and a w
     CHECK(message_of([] { spread_of_values({1.0}).range(0.0, infinity); }).find("two finite ends") != std::string::npos);
     CHECK(message_of([] { spread_of_values({infinity, NAN}).range(); }).find("no cloth") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::picture_field_test

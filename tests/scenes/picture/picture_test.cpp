@@ -8,14 +8,7 @@
 #include "tests/scenes/picture/shown_shapes.h"
 #include "tests/scenes/test_folder.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::draws;
-using percale::scenes::test::message_of;
-using percale::scenes::test::moved;
-using percale::scenes::test::shown;
-using percale::scenes::test::TestFolder;
-
+namespace percale::scenes::test::picture_test {
 namespace {
 
 FrameSource sheet_source(const TestFolder& folder, const ShownChoice& choice = {}) {
@@ -126,3 +119,5 @@ TEST_CASE("a movie is one picture a frame, numbered, and all or nothing") {
     CHECK_FALSE(folder.holds("broken/frame_00000.png"));
     CHECK_FALSE(folder.holds("broken/frame_00001.png"));
 }
+
+}  // namespace percale::scenes::test::picture_test

@@ -11,13 +11,14 @@
 
 #include "report/image.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 
 namespace percale::scenes::test {
 
 /// Whether this build draws; says that the test is skipped where it does not.
 inline bool draws() {
     if (pictures_missing().empty()) return true;
-    WARN("skipped: " << pictures_missing());
+    percale::test::skip(pictures_missing());
     return false;
 }
 

@@ -6,12 +6,7 @@
 #include "tests/scenes/picture/png_reader.h"
 #include "tests/scenes/picture/shown_shapes.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::draws;
-using percale::scenes::test::moved;
-using percale::scenes::test::shown;
-
+namespace percale::scenes::test::ray_tree_test {
 namespace {
 
 /// Distance along a ray to a triangle by Cramer's rule; infinite where it passes by.
@@ -78,3 +73,5 @@ TEST_CASE("a build without Embree says what it lacks") {
     if (pictures_missing().empty()) return;
     CHECK(percale::scenes::test::message_of([] { RayTree({}); }).find("libembree-dev") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::ray_tree_test

@@ -3,10 +3,7 @@
 #include "tests/scenes/picture/png_reader.h"
 #include "tests/scenes/picture/shown_shapes.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::draws;
-using percale::scenes::test::shown;
+namespace percale::scenes::test::surfaces_test {
 
 TEST_CASE("normals are smooth on a sphere and keep the edges of a box") {
     const TriangleMesh sphere = make_sphere(2.0, 3), box = make_box(Vec3(1, 2, 3));
@@ -71,3 +68,5 @@ TEST_CASE("rays to lights start outside of a sphere of flat triangles, not under
     }
     CHECK(inside > 0);  // triangles do lie under it
 }
+
+}  // namespace percale::scenes::test::surfaces_test

@@ -6,8 +6,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::program::test;
+namespace percale::program::test::certify_test {
 using percale::scenes::test::falling_sheet;
 using percale::scenes::test::sheet_on_box;
 
@@ -187,3 +186,5 @@ TEST_CASE("a folder is certified by the pairs of cloths that its report lists, a
     folder.write("out/report.json", report.dump());
     CHECK(refused(run_program({"certify", "out"}, folder.path()), "contact of no cloth"));
 }
+
+}  // namespace percale::program::test::certify_test

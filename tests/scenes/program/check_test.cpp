@@ -4,7 +4,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::check_test {
 using percale::scenes::test::falling_sheet;
 using percale::scenes::test::sheet_on_box;
 
@@ -282,3 +282,5 @@ TEST_CASE("what check --resume cannot keep is refused before anything is run") {
     CHECK(wrong.out.find("a_b.toml: finished") != std::string::npos);
     CHECK_FALSE(folder.holds("kept/absent"));
 }
+
+}  // namespace percale::program::test::check_test

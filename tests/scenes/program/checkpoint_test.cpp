@@ -4,8 +4,9 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
+namespace percale::program::test::checkpoint_test {
+
 // Runs of the program that are left on their way and resumed.
-using namespace percale::program::test;
 using percale::scenes::test::falling_sheet;
 using percale::scenes::test::sheet_on_box;
 
@@ -194,3 +195,5 @@ TEST_CASE("checkpoints of other runs, damaged ones and wrong intervals are refus
     CHECK(refused(run_box(folder, {"--resume", file}), "steps.csv: cannot be read: No such file"));
     CHECK(folder.holds("out/report.json"));
 }
+
+}  // namespace percale::program::test::checkpoint_test

@@ -1,7 +1,7 @@
 #include "tests/scenes/program/run_program.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::command_line_test {
 
 TEST_CASE("the program says its version and its commands") {
     const ProgramRun version = run_program({"--version"});
@@ -76,3 +76,5 @@ TEST_CASE("output that cannot be written is an error") {
     CHECK(WEXITSTATUS(std::system(call.c_str())) == 2);
     CHECK(folder.read("error") == "percale: the standard output cannot be written\n");
 }
+
+}  // namespace percale::program::test::command_line_test

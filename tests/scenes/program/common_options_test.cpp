@@ -4,7 +4,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::common_options_test {
 using percale::scenes::test::falling_sheet;
 
 namespace {
@@ -67,3 +67,5 @@ TEST_CASE("the option --quiet leaves both channels empty when all is well") {
     CHECK(run.out.empty());
     CHECK(run.error.empty());
 }
+
+}  // namespace percale::program::test::common_options_test

@@ -4,7 +4,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::compare_test {
 using percale::scenes::test::falling_sheet;
 using percale::scenes::test::sheet_on_box;
 
@@ -87,3 +87,5 @@ TEST_CASE("compare compares a scene with an obstacle, explicit schemes refused i
     CHECK(run.out.find("refused: ") != std::string::npos);
     CHECK(run.out.find("finished") != std::string::npos);
 }
+
+}  // namespace percale::program::test::compare_test

@@ -5,7 +5,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::doctor_test {
 using namespace percale::scenes::test;
 
 namespace {
@@ -82,3 +82,5 @@ TEST_CASE("doctor refuses files that are not there and options that make no sens
     CHECK(refused(run_program({"doctor"}, folder.path()), "FILE"));
     CHECK(refused(run_program({"doctor", "triangle.obj", "--as", "hat"}, folder.path()), "hat"));
 }
+
+}  // namespace percale::program::test::doctor_test

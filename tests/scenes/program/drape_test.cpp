@@ -9,9 +9,7 @@
 #include "tests/scenes/program/run_program.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::program::test;
-
+namespace percale::program::test::drape_test {
 namespace {
 
 /// A small sheet 2 cm above a block that it overhangs on all sides, in units of 1/scale metres.
@@ -306,3 +304,5 @@ TEST_CASE("what is wrong within a pattern is told with its place, and the file o
     CHECK(run.error.find("cloth.toml", 20) == std::string::npos);
     CHECK(line_count(run.error) == 1);
 }
+
+}  // namespace percale::program::test::drape_test

@@ -4,7 +4,7 @@
 #include "tests/scenes/program/run_program.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::explain_test {
 
 TEST_CASE("explain lists all keys, or one topic") {
     const ProgramRun all = run_program({"explain"});
@@ -29,3 +29,5 @@ TEST_CASE("the file of scene keys is what explain prints as Markdown") {
     CHECK(all.out.find("\n| `time_step` | a number or \"auto\"") != std::string::npos);
     CHECK(refused(run_program({"explain", "step", "--markdown"}), "--markdown"));
 }
+
+}  // namespace percale::program::test::explain_test

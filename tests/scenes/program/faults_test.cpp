@@ -6,8 +6,9 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
+namespace percale::program::test::faults_test {
+
 // What happens where the system does not do what it is asked: the table of faults in scenes/export/README.md.
-using namespace percale::program::test;
 using percale::scenes::test::falling_sheet;
 using percale::scenes::test::sheet_on_box;
 
@@ -138,3 +139,5 @@ TEST_CASE("what a killed run leaves is recognised and removed by the next run in
     CHECK(folder.read("out/notes.part") == "mine");
     CHECK(folder.file_count() == 1 + 2 + frames + 3);
 }
+
+}  // namespace percale::program::test::faults_test

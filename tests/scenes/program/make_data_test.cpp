@@ -3,8 +3,7 @@
 #include "tests/scenes/program/run_program.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
-
+namespace percale::program::test::make_data_test {
 namespace {
 
 int exit_code_of(const TestFolder& folder, const std::string& arguments) {
@@ -39,3 +38,5 @@ TEST_CASE("percale_make_data refuses wrong use and a folder that cannot be made"
     CHECK(folder.read("error").find("percale_make_data: ") == 0);
     CHECK(line_count(folder.read("error")) == 1);
 }
+
+}  // namespace percale::program::test::make_data_test

@@ -3,8 +3,7 @@
 #include "tests/scenes/picture/shown_shapes.h"
 #include "tests/scenes/program/run_program.h"
 
-using namespace percale;
-using namespace percale::program::test;
+namespace percale::program::test::picture_test {
 using percale::scenes::test::draws;
 using percale::scenes::test::PngPixels;
 using percale::scenes::test::read_png;
@@ -191,3 +190,5 @@ TEST_CASE("a build without Embree says that it has no pictures") {
     const TestFolder folder;
     CHECK(refused(picture(folder, small), "this build has no pictures: libembree-dev or libstb-dev was not found"));
 }
+
+}  // namespace percale::program::test::picture_test

@@ -5,7 +5,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::plan_test {
 using percale::scenes::test::sheet_on_box;
 
 TEST_CASE("plan prints the plan of a scene and writes nothing") {
@@ -43,3 +43,5 @@ TEST_CASE("plan refuses what run refuses") {
     CHECK(refused(run_program({"plan", "sheet.toml", "--set", "step.skip=maybe"}, folder.path()), "true or false"));
     CHECK(refused(run_program({"plan", "sheet.toml", "--set", "step.skpi=true"}, folder.path()), "skip"));
 }
+
+}  // namespace percale::program::test::plan_test

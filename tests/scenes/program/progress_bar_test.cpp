@@ -11,7 +11,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::progress_bar_test {
 using percale::scenes::test::falling_sheet;
 
 namespace {
@@ -105,3 +105,5 @@ TEST_CASE("a short run without a terminal shows no progress") {
     CHECK(run.out.find("ETA") == std::string::npos);
     CHECK(line_count(run.out) == 2);
 }
+
+}  // namespace percale::program::test::progress_bar_test

@@ -2,7 +2,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::replay_test {
 using percale::scenes::test::sheet_on_box;
 
 namespace {
@@ -44,3 +44,5 @@ TEST_CASE("replay refuses what holds no hashes") {
     CHECK(refused(run_program({"replay", "absent", "a"}, folder.path()), "absent: cannot be read"));
     CHECK(refused(run_program({"replay", "a"}, folder.path()), "OTHER"));
 }
+
+}  // namespace percale::program::test::replay_test

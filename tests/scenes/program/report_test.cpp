@@ -4,8 +4,9 @@
 #include "tests/scenes/program/run_program.h"
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::report_test {
 using percale::scenes::test::sheet_on_box;
 
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// Whether this build has pages; a test without them says so.
 bool can_report() {
     if (!percale::scenes::three_library().empty()) return true;
-    WARN("skipped: this build has no three.js (libjs-three)");
+    percale::test::skip("this build has no three.js (libjs-three)");
     return false;
 }
 
@@ -95,3 +96,5 @@ TEST_CASE("a build without three.js refuses report and run --report before anyth
     CHECK(refused(run_program({"run", "box.toml", "-o", "out", "--report"}, folder.path()), "libjs-three"));
     CHECK(folder.file_count() == 1);
 }
+
+}  // namespace percale::program::test::report_test

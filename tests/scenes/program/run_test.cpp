@@ -6,7 +6,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::run_test {
 using percale::scenes::test::falling_sheet;
 using percale::scenes::test::sheet_on_box;
 
@@ -217,3 +217,5 @@ TEST_CASE(
     const std::string picture = folder.read("no_start.obj");
     CHECK(std::count(picture.begin(), picture.end(), 'f') == 50);
 }
+
+}  // namespace percale::program::test::run_test

@@ -3,8 +3,7 @@
 #include "tests/scenes/program/run_program.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::program::test;
+namespace percale::program::test::sew_test {
 
 TEST_CASE("a pattern is sewn into a mesh, which a scene drapes with its seams closed") {
     const TestFolder folder;
@@ -42,3 +41,5 @@ TEST_CASE("a pattern that cannot be sewn leaves nothing behind") {
     CHECK(refused(run_program({"sew", "none.toml", "-o", "out.obj"}, folder.path()), "none.toml: cannot be read"));
     CHECK(folder.file_count() == 1);
 }
+
+}  // namespace percale::program::test::sew_test

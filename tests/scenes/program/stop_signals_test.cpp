@@ -12,7 +12,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::stop_signals_test {
 using percale::scenes::test::falling_sheet;
 
 namespace {
@@ -66,3 +66,5 @@ TEST_CASE("two signals at once are one, on several threads too") {
     CHECK(run->end(SIGTERM) == 130);
     CHECK(nlohmann::json::parse(folder.read("out/report.json")).at("status") == "stopped");
 }
+
+}  // namespace percale::program::test::stop_signals_test

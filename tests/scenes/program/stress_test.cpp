@@ -2,7 +2,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::stress_test {
 using percale::scenes::test::falling_sheet;
 using percale::scenes::test::sheet_on_box;
 
@@ -65,3 +65,5 @@ TEST_CASE("stress refuses words and numbers that mean nothing and leaves nothing
     CHECK(refused(run_program({"stress", "--cell", "7", "--schemes", "rk4"}, folder.path()), "--cell"));
     CHECK(folder.file_count() == 1);
 }
+
+}  // namespace percale::program::test::stress_test

@@ -2,7 +2,7 @@
 #include "tests/scenes/sweep/study_files.h"
 #include "tests/support/catch.h"
 
-using namespace percale::program::test;
+namespace percale::program::test::sweep_test {
 using percale::scenes::test::write_study;
 
 TEST_CASE("sweep makes all runs and one table, and does what is left when it is called again") {
@@ -36,3 +36,5 @@ TEST_CASE("runs that are not as expected are exit code 1, wrong words exit code 
     write_study(folder, "\"duration\" = [0.1, 0.6]\n");
     CHECK(refused(run_program({"sweep", "study.toml", "-o", "out"}, folder.path()), "holds another study"));
 }
+
+}  // namespace percale::program::test::sweep_test

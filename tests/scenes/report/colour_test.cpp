@@ -3,7 +3,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
+namespace percale::scenes::test::colour_test {
 
 TEST_CASE("colours keep their bytes through linear light, and linear light follows the curve of sRGB") {
     for (int k = 0; k < 256; ++k) {
@@ -40,3 +40,5 @@ TEST_CASE("the rising ramp gets ever lighter, the diverging one is lightest in i
     CHECK(ramp_colour(-1.0, false) == ramp_colour(0.0, false));
     CHECK(ramp_colour(2.0, true) == ramp_colour(1.0, true));
 }
+
+}  // namespace percale::scenes::test::colour_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::csv_test {
 
 TEST_CASE("Numbers of a table read back to nine digits, and what is not finite is empty") {
     CHECK(std::stod(csv_number(1.0 / 3.0)) == Approx(1.0 / 3.0).epsilon(1e-9));
@@ -31,4 +31,4 @@ TEST_CASE("A column is found by its whole name, or not at all") {
     CHECK_FALSE(csv_column(header, "state").has_value());
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::csv_test

@@ -5,9 +5,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-using percale::scenes::test::message_of;
-using percale::scenes::test::TestFolder;
+namespace percale::scenes::test::image_test {
 
 TEST_CASE("colours blend over what is there by their cover, and nothing happens outside") {
     Image image(2, 2);
@@ -63,3 +61,5 @@ TEST_CASE("a PNG that cannot be written names the file and leaves nothing") {
     CHECK(message_of([&] { write_png(file, Image(2, 2)); }).find("absent/a.png: cannot be written: ") != std::string::npos);
     CHECK(folder.file_count() == 0);
 }
+
+}  // namespace percale::scenes::test::image_test

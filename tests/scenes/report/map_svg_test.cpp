@@ -2,7 +2,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::map_svg_test {
 
 namespace {
 
@@ -51,4 +51,4 @@ TEST_CASE("A map without panels is a document, too") {
     CHECK(map_svg(empty).rfind("</svg>\n") != std::string::npos);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::map_svg_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::scenes {
+namespace percale::scenes::plot_svg_test {
 namespace {
 
 Plot two_lines() {
@@ -116,4 +116,4 @@ TEST_CASE("What has no place on a logarithmic axis is left out") {
     CHECK(plot_svg(plot) == before);
 }
 
-}  // namespace percale::scenes
+}  // namespace percale::scenes::plot_svg_test

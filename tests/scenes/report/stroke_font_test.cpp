@@ -2,8 +2,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale::scenes;
-
+namespace percale::scenes::test::stroke_font_test {
 namespace {
 
 /// How dark places of a letter are, on a grid of its capital: (0, 0) upper left, (4, 6) lower right of a digit.
@@ -71,3 +70,5 @@ TEST_CASE("text beyond an image is cut off") {
     draw_text(image, "far too long", {-30.0, 5.0, 40.0, {0, 0, 0}});
     CHECK((image.rgba.size() == 800));
 }
+
+}  // namespace percale::scenes::test::stroke_font_test

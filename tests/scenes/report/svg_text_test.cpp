@@ -2,7 +2,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::svg_text_test {
 
 TEST_CASE("Text in a picture cannot break its markup") {
     CHECK(svg_escaped("a < b & c > \"d\"\x01") == "a &lt; b &amp; c &gt; &quot;d&quot;?");
@@ -15,4 +15,4 @@ TEST_CASE("Lines have their ends in pixels with one digit") {
           "<line x1=\"0.0\" y1=\"1.2\" x2=\"2.0\" y2=\"3.0\" stroke=\"red\"/>\n");
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::svg_text_test

@@ -7,9 +7,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::attached_pins_test {
 namespace {
 
 /// A flag whose first column is held by a turned, scaled ball that moves and spins.
@@ -59,3 +57,5 @@ TEST_CASE("a pin on an obstacle that bends goes along with its nearest triangle,
         CHECK((place_at(pin, scene, swollen, 0.0) - (start + 0.1 * out)).norm() < 0.01);
     }
 }
+
+}  // namespace percale::scenes::test::attached_pins_test

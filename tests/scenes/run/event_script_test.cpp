@@ -4,9 +4,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::event_script_test {
 namespace {
 
 // Two cloths: 'flag' (5 by 4 vertices, vertex 0 pinned) and 'towel' (3 by 3).
@@ -75,3 +73,5 @@ TEST_CASE("a scene made in memory may name a cloth that is not there, and is tol
     const std::vector<TriangleMesh> meshes = {make_grid(0.4, 0.3, 5, 4), make_grid(1, 1, 3, 3)};
     CHECK(error_of([&] { script_events(scene, meshes); }) == "event: no cloth 'curtain'");
 }
+
+}  // namespace percale::scenes::test::event_script_test

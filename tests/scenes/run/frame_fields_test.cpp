@@ -5,9 +5,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::frame_fields_test {
 namespace {
 
 BuiltScene on_box(const std::string& fields) {
@@ -58,3 +56,5 @@ TEST_CASE("shapes are placed where the simulation has them") {
     CHECK(cloths[0].vertices == lifted);
     CHECK(obstacles[0].vertices[0] == built.obstacle_meshes[0].vertices[0] - Vec3(0, 0.25, 0));
 }
+
+}  // namespace percale::scenes::test::frame_fields_test

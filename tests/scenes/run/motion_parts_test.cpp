@@ -8,9 +8,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/random.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::motion_parts_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -82,7 +80,7 @@ TEST_CASE("parts are never without number") {
 }
 
 TEST_CASE("the poses of random motions never turn or move by more than the amount said") {
-    test::Random random(71);
+    percale::test::Random random(71);
     for (int trial = 0; trial < 200; ++trial) {
         ObstacleSpec obstacle;
         obstacle.pose = random.pose(1.0);
@@ -101,3 +99,5 @@ TEST_CASE("the poses of random motions never turn or move by more than the amoun
         if (obstacle.motion.empty() && amount.angle < pi) CHECK(amount.angle == Approx(turn(start, end)).margin(1e-6));
     }
 }
+
+}  // namespace percale::scenes::test::motion_parts_test

@@ -6,10 +6,7 @@
 #include "tests/scenes/run/rotation_difference.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::difference;
-
+namespace percale::scenes::test::obstacle_motion_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -120,3 +117,5 @@ TEST_CASE("an obstacle moves if it has several keyframes or turns") {
     turning.spin->turns_per_s = 0.0;
     CHECK_FALSE(obstacle_moves(turning));
 }
+
+}  // namespace percale::scenes::test::obstacle_motion_test

@@ -8,10 +8,9 @@
 #include "tests/scenes/watched_run.h"
 #include "tests/support/catch.h"
 
+namespace percale::scenes::test::rest_scene_test {
+
 // Scenes with duration = "rest".
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
 
 namespace {
 
@@ -255,3 +254,5 @@ TEST_CASE("a scene that ends at rest is resumed in the same bits, from its last 
         }
     }
 }
+
+}  // namespace percale::scenes::test::rest_scene_test

@@ -4,10 +4,9 @@
 #include "tests/scenes/watched_run.h"
 #include "tests/support/catch.h"
 
+namespace percale::scenes::test::resume_scene_test {
+
 // Runs of scenes that are left on their way and resumed with the scene built anew.
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
 
 namespace {
 
@@ -130,3 +129,5 @@ TEST_CASE("a state of another scene is refused by the name of its file before an
                       Catch::StartsWith("a.percale: saved state: it is of other cloth"));
     CHECK_FALSE(begun);
 }
+
+}  // namespace percale::scenes::test::resume_scene_test

@@ -13,10 +13,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::run_scene_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -448,3 +445,5 @@ TEST_CASE("panels that start through each other are sewn without contact, which 
     CHECK_FALSE(before.empty());
     CHECK(self_intersections(recorded.frames.back().cloths[0]).empty());
 }
+
+}  // namespace percale::scenes::test::run_scene_test

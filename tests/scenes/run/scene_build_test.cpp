@@ -10,9 +10,7 @@
 #include "tests/scenes/test_folder.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::scene_build_test {
 namespace {
 
 BuiltScene built(const std::string& text) { return build_scene(parse_scene(text, "t")); }
@@ -400,3 +398,5 @@ TEST_CASE("panels that wait beside others being sewn add no iterations", "[slow]
     // The T-shirt's panels float until the trousers are on.
     CHECK(iterations("outfit.toml") <= 1.2 * iterations("trousers.toml"));
 }
+
+}  // namespace percale::scenes::test::scene_build_test

@@ -8,10 +8,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::scene_plan_test {
 namespace {
 
 BuiltScene built(const std::string& text, const std::vector<Override>& overrides = {}) {
@@ -152,3 +149,5 @@ TEST_CASE("text and JSON say the same") {
     for (const char* skip : {"motion", "work", "energy", "matrix", "contact"})
         CHECK(all.find(std::string("\n  ") + skip) == std::string::npos);
 }
+
+}  // namespace percale::scenes::test::scene_plan_test

@@ -6,8 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
 
-using namespace percale;
-using namespace percale::scenes;
+namespace percale::scenes::test::start_fault_test {
 
 TEST_CASE("the triangles concerned are those that cross and those with a corner inside, with corners of their own") {
     const std::vector<TriangleMesh> cloths{make_grid(1, 1, 9, 9), percale::test::moved(make_grid(1, 1, 3, 3), {0, 5, 0})};
@@ -42,3 +41,5 @@ TEST_CASE("a refused start holds its place and the triangles concerned") {
     CHECK(built.simulation.start_repair()[0].vertices_moved == 36);
     CHECK(built.simulation.start_repair()[0].largest_move == Approx(0.015).margin(0.01));
 }
+
+}  // namespace percale::scenes::test::start_fault_test

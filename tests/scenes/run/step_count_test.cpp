@@ -2,8 +2,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
+namespace percale::scenes::test::step_count_test {
 
 TEST_CASE("a duration that is a multiple of the step up to rounding takes only full steps") {
     CHECK(count_steps(2.0, 1.0 / 60.0).steps == 120);
@@ -25,3 +24,5 @@ TEST_CASE("otherwise the last step is what is left") {
     CHECK(count_steps(0.004, 0.01).steps == 1);
     CHECK(count_steps(0.004, 0.01).last_dt == Approx(0.004));
 }
+
+}  // namespace percale::scenes::test::step_count_test

@@ -4,9 +4,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::step_lengths_test {
 namespace {
 
 Scene lasting(double duration, double time_step) {
@@ -57,3 +55,5 @@ TEST_CASE("a run that is gone on with counts from where it was") {
     lengths.next(0.7);
     CHECK(lengths.made() == 8);
 }
+
+}  // namespace percale::scenes::test::step_lengths_test

@@ -7,10 +7,7 @@
 #include "tests/scenes/scene_texts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::difference;
-
+namespace percale::scenes::test::timeline_test {
 namespace {
 
 constexpr double dt = 0.01;
@@ -219,3 +216,5 @@ TEST_CASE("the state of another scene's script is refused") {
     CHECK_THROWS_AS(timeline.go_on_from(built, {.next_event = 0, .moving_pins = {{.cloth = 1, .vertex = 0}}}), SceneError);
     CHECK_NOTHROW(timeline.go_on_from(built, {.next_event = 1, .moving_pins = {{.cloth = 0, .vertex = 8}}}));
 }
+
+}  // namespace percale::scenes::test::timeline_test

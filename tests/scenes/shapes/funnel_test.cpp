@@ -7,10 +7,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::funnel_test {
 namespace {
 
 /// Area of a regular polygon whose corners lie on the unit circle.
@@ -62,3 +59,5 @@ TEST_CASE("a funnel that cannot be made is refused with the field and its range"
     CHECK(refusal(&Funnel::edge_length, std::nan("")).find("funnel: edge_length") == 0);
     CHECK(refusal(&Funnel::segments_around, 2).find("funnel: segments_around") == 0);
 }
+
+}  // namespace percale::scenes::test::funnel_test

@@ -6,9 +6,7 @@
 #include "scenes/shapes/mannequin.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::mannequin_motion_test {
 namespace {
 
 const Rig& rig() {
@@ -214,3 +212,5 @@ TEST_CASE("the wave goes on smoothly: no more than 7 cm in 1/60 s, the elbow by 
     CHECK(fastest < 0.07);
     CHECK(sharpest < 66.0);
 }
+
+}  // namespace percale::scenes::test::mannequin_motion_test

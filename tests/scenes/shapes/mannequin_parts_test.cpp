@@ -4,9 +4,7 @@
 
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::mannequin_parts_test {
 namespace {
 
 /// Distance to the hull of two spheres: the least over the spheres between, which grow evenly from the first to the second.
@@ -69,3 +67,5 @@ TEST_CASE("joined parts are no farther than each of them, and both sides are the
     CHECK(core_distance({0.0, 1.2, 0.0}) < 0.0);
     CHECK(core_distance({0.45, 1.1, 0.0}) > 0.2);  // the arm is no part of it
 }
+
+}  // namespace percale::scenes::test::mannequin_parts_test

@@ -9,10 +9,7 @@
 #include "tests/scenes/mesh_laws.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::mannequin_rig_test {
 namespace {
 
 const Rig& rig() {
@@ -223,3 +220,5 @@ TEST_CASE("bent by 65 degrees, elbows and knees keep the body's volume to 2 %") 
     INFO("volume " << volume(rig().mesh) << " m^3, bent " << volume(bent));
     CHECK(volume(bent) == Approx(volume(rig().mesh)).epsilon(0.02));
 }
+
+}  // namespace percale::scenes::test::mannequin_rig_test

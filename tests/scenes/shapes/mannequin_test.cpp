@@ -8,10 +8,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::mannequin_test {
 namespace {
 
 std::tuple<Vec3, Vec3> bounds(const TriangleMesh& mesh) {
@@ -139,3 +136,5 @@ TEST_CASE("a spacing that would lose the hands or fill the memory is refused") {
     for (const double spacing : {0.0, -0.01, 0.0079, 0.0201, 1.0, std::nan("")})
         CHECK(message_of([&] { make_mannequin(spacing); }).find("allowed are 0.008 ... 0.02") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::mannequin_test

@@ -5,10 +5,7 @@
 #include "tests/scenes/mesh_laws.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::mesh_relax_test {
 namespace {
 
 /// A flat grid whose inner vertices are shaken by up to a share of its cells.
@@ -145,3 +142,5 @@ TEST_CASE("the boundary of a grid is its rim, a sphere has none") {
     const std::vector<bool> none = boundary_vertices(make_sphere(1.0, 1));
     CHECK(std::count(none.begin(), none.end(), true) == 0);
 }
+
+}  // namespace percale::scenes::test::mesh_relax_test

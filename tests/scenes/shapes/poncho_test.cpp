@@ -9,10 +9,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::poncho_test {
 namespace {
 
 double exact_area(const PonchoShape& s) {
@@ -126,3 +123,5 @@ TEST_CASE("a poncho that cannot be cut is refused with the field and its range")
     CHECK(refusal(&PonchoShape::hole_width, 1.1).find("poncho: hole_width") == 0);
     CHECK(refusal(&PonchoShape::hole_depth, 0.01).find("poncho: hole_depth") == 0);
 }
+
+}  // namespace percale::scenes::test::poncho_test

@@ -6,9 +6,7 @@
 #include "scenes/meshes/mesh_facts.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-
+namespace percale::scenes::test::primitives_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -65,3 +63,5 @@ TEST_CASE("a plane is a horizontal square at height 0") {
 }
 
 TEST_CASE("no shape has no mesh") { CHECK_THROWS_WITH(shape_mesh({}), Catch::Contains("needs a mesh or a shape")); }
+
+}  // namespace percale::scenes::test::primitives_test

@@ -12,10 +12,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::rigged_glb_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -303,3 +300,5 @@ TEST_CASE("between its keys a clip is within millimetres of the motion, and the 
     CHECK(wave_error < 3e-3);
     CHECK(below > -1.5e-3);
 }
+
+}  // namespace percale::scenes::test::rigged_glb_test

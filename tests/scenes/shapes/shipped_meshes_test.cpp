@@ -8,10 +8,7 @@
 #include "tests/scenes/mesh_laws.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::shipped_meshes_test {
 namespace {
 
 const std::string folder = PERCALE_DATA_DIR "/meshes/";
@@ -70,3 +67,5 @@ TEST_CASE("the mannequin with joints has the vertices and triangles of the one w
         CHECK(volume(read) == Approx(volume(alone)).epsilon(1e-6));
     }
 }
+
+}  // namespace percale::scenes::test::shipped_meshes_test

@@ -5,9 +5,7 @@
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
+namespace percale::scenes::test::spikes_test {
 
 TEST_CASE("a bed of spikes is closed, outward and as large as its plate and pyramids") {
     SpikeBed single, dense;
@@ -53,3 +51,5 @@ TEST_CASE("a bed that cannot be made is refused with the field and its range") {
     CHECK(refusal(&SpikeBed::thickness, 0.0).find("spikes: thickness") == 0);
     CHECK(refusal(&SpikeBed::width, std::nan("")).find("spikes: width") == 0);
 }
+
+}  // namespace percale::scenes::test::spikes_test

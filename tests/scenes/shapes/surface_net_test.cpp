@@ -5,10 +5,7 @@
 #include "tests/scenes/mesh_laws.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using namespace percale::scenes::test;
-
+namespace percale::scenes::test::surface_net_test {
 namespace {
 
 double sphere(const Vec3& x) { return x.norm() - 1.0; }
@@ -83,3 +80,5 @@ TEST_CASE("fields that pinch between lattice nodes still give a manifold") {
         CHECK(volume(mesh) > 0.0);
     }
 }
+
+}  // namespace percale::scenes::test::surface_net_test

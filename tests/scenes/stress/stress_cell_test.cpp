@@ -5,7 +5,7 @@
 #include "percale/error.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::stress_cell_test {
 
 namespace {
 
@@ -67,4 +67,4 @@ TEST_CASE("Contact in a form that the scheme does not take is refused") {
     CHECK_THROWS_AS(make_case({.scheme = Scheme::tr_bdf2, .contact = StressContact::projection}), SceneError);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::stress_cell_test

@@ -6,7 +6,7 @@
 #include "scenes/stress/stress.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::stress_matrix_test {
 
 TEST_CASE("The default matrix has 2000 cells or more and covers every range that it is said to cover") {
     const std::vector<StressCell> cells = stress_matrix();
@@ -50,4 +50,4 @@ TEST_CASE("All nine schemes have the same sweeps, and contact those that take it
     }
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::stress_matrix_test

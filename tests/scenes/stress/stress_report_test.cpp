@@ -5,7 +5,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::stress_report_test {
 
 namespace {
 
@@ -67,4 +67,4 @@ TEST_CASE("The map has a panel a scheme, and the theoretical limit where a schem
     CHECK(map.legend.size() == 5);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::stress_report_test

@@ -5,7 +5,7 @@
 #include "tests/scenes/small_scenes.h"
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::stress_test {
 
 TEST_CASE("Cells are run in their order, and again give the same figures") {
     const std::vector<StressCell> cells = {{.scheme = Scheme::rk4, .time_step = 1e-4, .stiffness = 1.0},
@@ -66,4 +66,4 @@ TEST_CASE("A scene whose gravity changes is refused at the event") {
     CHECK_THROWS_AS(stress_scene(source_of(text), {}, {}), SceneError);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::stress_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 
-namespace percale::scenes::test {
+namespace percale::scenes::test::stress_watch_test {
 
 namespace {
 
@@ -106,4 +106,4 @@ TEST_CASE("The bound is nothing for backward Euler, and the oscillator's for sym
     CHECK(gain_bound(Scheme::symplectic_euler, 2.0, 1.0) == 1.0);
 }
 
-}  // namespace percale::scenes::test
+}  // namespace percale::scenes::test::stress_watch_test

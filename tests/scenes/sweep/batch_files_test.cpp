@@ -6,10 +6,7 @@
 #include "tests/scenes/sweep/study_files.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-using percale::scenes::test::write_study;
+namespace percale::scenes::test::batch_files_test {
 
 TEST_CASE("a word reaches the program behind a shell as it was") {
     const TestFolder folder;
@@ -50,3 +47,5 @@ TEST_CASE("a Slurm array has at most 1,000 tasks, which do all runs, the last ta
         REQUIRE(std::system(("SLURM_ARRAY_TASK_ID=" + std::string(task) + " sh " + shell_word(script)).c_str()) == 0);
     CHECK(folder.read("asked") == "0-2\n3-5\n2499-2499\n");
 }
+
+}  // namespace percale::scenes::test::batch_files_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/catch.h"
 
-using percale::scenes::Draws;
+namespace percale::scenes::test::draws_test {
 
 TEST_CASE("a seed gives the same numbers everywhere: the engine's tenth thousandth is laid down, shares are its upper bits") {
     std::mt19937_64 engine;  // seed 5489; its 10,000th value is in the C++ standard
@@ -45,3 +45,5 @@ TEST_CASE("normal numbers have their mean and deviation, and two thirds lie with
     CHECK(std::sqrt(squares / count) == Approx(2.0).epsilon(0.03));
     CHECK(within / static_cast<double>(count) == Approx(0.6827).margin(0.014));
 }
+
+}  // namespace percale::scenes::test::draws_test

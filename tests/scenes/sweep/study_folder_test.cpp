@@ -4,10 +4,7 @@
 #include "tests/scenes/sweep/study_files.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-using percale::scenes::test::write_study;
+namespace percale::scenes::test::study_folder_test {
 
 TEST_CASE("a folder takes up its own study and refuses another") {
     const TestFolder folder;
@@ -41,3 +38,5 @@ TEST_CASE("a run is done once its report is whole, failed or not, but not where 
     CHECK(runs.complaint_of(3) == "percale: no space");
     CHECK(runs.complaint_of(0).empty());
 }
+
+}  // namespace percale::scenes::test::study_folder_test

@@ -5,11 +5,7 @@
 #include "tests/scenes/sweep/study_files.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-using percale::scenes::test::write_study;
-
+namespace percale::scenes::test::study_table_test {
 namespace {
 
 void report(const TestFolder& folder, int run, const std::string& text) {
@@ -44,3 +40,5 @@ TEST_CASE("a study's tables have a line a run: values, status, measures, expecta
     CHECK(tables.svg.find("largest_strain over step.time_step") != std::string::npos);
     CHECK(tables.svg.find("step.scheme = rk4") != std::string::npos);
 }
+
+}  // namespace percale::scenes::test::study_table_test

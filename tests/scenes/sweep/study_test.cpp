@@ -9,11 +9,7 @@
 #include "tests/scenes/sweep/study_files.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-using percale::scenes::test::write_study;
-
+namespace percale::scenes::test::study_test {
 namespace {
 
 std::string refused(const TestFolder& folder, const std::string& vary, const std::string& top = "") {
@@ -119,3 +115,5 @@ TEST_CASE("a study is stored with the settings of its scene and comes back") {
     CHECK_THROWS_WITH(stored_study(folder.write("bad.json", "{\"keys\": 3}")),
                       Catch::Contains("bad.json: is not what percale sweep has written"));
 }
+
+}  // namespace percale::scenes::test::study_test

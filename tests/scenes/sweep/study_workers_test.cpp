@@ -7,11 +7,7 @@
 #include "tests/scenes/sweep/study_files.h"
 #include "tests/support/catch.h"
 
-using namespace percale;
-using namespace percale::scenes;
-using percale::scenes::test::TestFolder;
-using percale::scenes::test::write_study;
-
+namespace percale::scenes::test::study_workers_test {
 namespace {
 
 struct Worked {
@@ -78,3 +74,5 @@ TEST_CASE("a program that cannot be started leaves all runs with their exit code
     CHECK(worked.ends[0].exit_code == 127);
     CHECK(worked.left.size() == 1);
 }
+
+}  // namespace percale::scenes::test::study_workers_test

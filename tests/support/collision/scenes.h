@@ -10,7 +10,7 @@
 // A sheet and obstacles that detectors are tried on.
 namespace percale::test {
 
-inline constexpr double thickness = 0.03;
+inline constexpr double sheet_thickness = 0.03;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 enum class Scene { ball, box, spiky, two, single_triangle, plane };
@@ -51,7 +51,7 @@ inline void set_poses(Steps& steps, bool moving, Random& random) {
 inline Steps make_steps(Scene scene, const TriangleMesh& cloth, const Backend& backend) {
     Steps steps{.cloth = cloth, .obstacles = {}, .detector = nullptr};
     for (TriangleMesh& mesh : meshes(scene)) steps.obstacles.push_back({.mesh = mesh, .start = {}, .end = {}});
-    steps.start(backend.make_detector(), thickness);
+    steps.start(backend.make_detector(), sheet_thickness);
     return steps;
 }
 
