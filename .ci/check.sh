@@ -83,6 +83,8 @@ stage_layers() {
     python3 .ci/layers_test.py
     python3 .ci/perf_gate_test.py
     python3 .ci/quick_test.py
+    python3 .ci/read_alone_test.py
+    python3 .ci/plant_faults.py --check
 }
 
 # The README's two commands, as a newcomer would type them, in a copy of the checkout in a path with a space: the release build by g++

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""Plants faults in a copy of HEAD, one at a time, and runs the stage of check.sh that has to find it: .ci/plant_faults.py [FAULT...];
+--check only says whether the text that each fault changes is there.
+
+A fault is one change of one file. Its stage runs twice: as the project is, where it has to pass, and with the fault, where it has to
+fail, with the text that it is known by in what it prints. The copy lies in build/ci-faults and is kept; with ccache a fault costs
+what it changes. Prints a table; exit code 1 if a fault was not found or a stage fails without one. Hours for all of them.
+"""
+import argparse
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+COPY = ROOT / 'build' / 'ci-faults'
+RELEASE_COPY = COPY / 'build' / 'ci-release' / 'a path with a space'
+TAKES_RELEASE = ('consumer', 'perf')  # stages that take the build of the stage release
+
+
+@dataclass
+class Fault:
+    name: str
+    stage: str
+    path: str
+    old: str
+    new: str
+    shows: str  # a text that the failing stage prints
+
+
+FAULTS = [
+    Fault('layer violation', 'layers', 'engine/mesh/vertex_normals.cpp',
+          '#include "tolerances.h"\n', '#include "solve/newton.h"\n#include "tolerances.h"\n', 'engine/mesh/vertex_normals.cpp'),
+    Fault('missing include', 'alone', 'collision/geometry/time_of_impact.cpp',
+          '#include "geometry/triangle_distance.h"\n', '', 'time_of_impact.cpp'),
+    Fault('broken README line', 'release', 'README.md',
+          'poncho_on_mannequin.toml -o build/poncho --report', 'poncho_on_mannequin.toml -o build/poncho --reports', '--reports'),
+    Fault('wrong message', 'release', 'scenes/meshes/off_file.cpp',
+          '"no vertices: the file is empty"', '"no vertexes: the file is empty"', 'off_file_test'),
+    Fault('crossing', 'release', 'collision/geometry/time_of_impact.cpp',
+          'return length(0) + std::max({length(1), length(2), length(3)});', 'return 0.4 * length(0);', 'tests failed'),
+    Fault('broken scene', 'release', 'data/scenes/hang.toml',
+          'largest_strain = { below = 0.12 }', 'largest_strain = { below = 0.0012 }', 'scene: hang'),
+    Fault('slow step', 'perf', 'engine/forces/total_force.cpp',
+          'if (term->acts(input)) forces.potential', 'if (Forces copy = forces; term->acts(input)) forces.potential', 'dearer'),
+    Fault('broken consumer', 'consumer', 'engine/cmake/percale_config.cmake.in', '  find_dependency(Eigen3 3.4)\n', '', 'Eigen'),
+    Fault('overflow', 'sanitizers', 'engine/mesh/vertex_normals.cpp',
+          'std::size_t i = 0; i < normals.size(); ++i', 'std::size_t i = 0; i <= normals.size(); ++i', 'AddressSanitizer'),
+    Fault('overflow in a reader of files', 'fuzz', 'scenes/meshes/off_file.cpp',
+          'static_cast<std::size_t>(index) >= vertex_count)', 'static_cast<std::size_t>(index) > vertex_count)', 'AddressSanitizer'),
+    Fault('overflow in a picture', 'sanitizers_night', 'scenes/picture/surfaces.cpp',
+          'around(mesh.vertices.size());', 'around(mesh.vertices.size() - 1);', 'AddressSanitizer'),
+    Fault('data race', 'races', 'collision/lists/candidate_lists.cpp',
+          '        double most = 0.0;\n        for (std::size_t i = first; i < last; ++i) {\n            const Vec3 gone',
+          '        static double most = 0.0;\n        for (std::size_t i = first; i < last; ++i) {\n            const Vec3 gone', 'data race'),
+]
+
+
+def run(command):
+    """(exit code, output, seconds) of a command in the copy."""
+    started = time.monotonic()
+    done = subprocess.run(command, cwd=COPY, text=True, errors='replace', stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, check=False)
+    return done.returncode, done.stdout, time.monotonic() - started
+
+
+def make_copy():
+    """HEAD in COPY, without what was planted before."""
+    if not COPY.exists():
+        subprocess.run(['git', 'clone', '--quiet', ROOT, COPY], check=True)
+    for command in (['fetch', '--quiet', 'origin', 'HEAD'], ['reset', '--quiet', '--hard', 'FETCH_HEAD']):
+        subprocess.run(['git', '-C', COPY, *command], check=True)
+
+
+def passes(stage, known):
+    """Whether a stage passes without a fault; `known` of those that ran before. What it takes runs before it."""
+    for needed in [*(['release'] if stage in TAKES_RELEASE else []), stage]:
+        if needed not in known:
+            code, output, seconds = run(['.ci/check.sh', needed])
+            known[needed] = code == 0
+            print(f'{needed} without a fault: {"passed" if code == 0 else "FAILED"} in {seconds:.0f} s', file=sys.stderr, flush=True)
+            if code != 0:
+                print(output[-3000:], file=sys.stderr)
+    return known[stage]
+
+
+def write(fault, text):
+    """Where the stage takes the build of another one, that is made anew."""
+    (COPY / fault.path).write_text(text)
+    if fault.stage in TAKES_RELEASE:
+        (RELEASE_COPY / fault.path).write_text(text)
+        run(['cmake', '--build', str(RELEASE_COPY / 'build'), '--target', 'percale'])
+
+
+def find(fault):
+    """(whether the stage finds the fault, its output, seconds)."""
+    text = (COPY / fault.path).read_text()
+    if text.count(fault.old) != 1:
+        sys.exit(f'plant_faults: {fault.path} holds what {fault.name} changes {text.count(fault.old)} times')
+    write(fault, text.replace(fault.old, fault.new))
+    try:
+        code, output, seconds = run(['.ci/check.sh', fault.stage])
+    finally:
+        write(fault, text)
+    return code != 0 and fault.shows in output, output, seconds
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.partition('\n')[0])
+    parser.add_argument('faults', nargs='*', metavar='FAULT', help='their names (default: all)')
+    parser.add_argument('--check', action='store_true', help='run nothing')
+    wish = parser.parse_args()
+    if wish.check:
+        gone = [fault.name for fault in FAULTS if (ROOT / fault.path).read_text().count(fault.old) != 1]
+        print(f'plant_faults: {len(FAULTS)} faults' + (f'; their text is not there, or more than once: {", ".join(gone)}' if gone else ''))
+        return 1 if gone else 0
+    unknown = set(wish.faults) - {fault.name for fault in FAULTS}
+    if unknown:
+        parser.error(f'no fault {", ".join(sorted(unknown))} ({", ".join(fault.name for fault in FAULTS)})')
+    make_copy()
+    known, lost = {}, 0
+    print('| fault | in | stage | found | s |\n|---|---|---|---|---|', flush=True)
+    for fault in FAULTS:
+        if wish.faults and fault.name not in wish.faults:
+            continue
+        clean = passes(fault.stage, known)
+        seen, output, seconds = find(fault) if clean else (False, '', 0.0)
+        lost += not seen
+        print(f'| {fault.name} | `{fault.path}` | `{fault.stage}` | {"yes" if seen else "NO"} | {seconds:.0f} |', flush=True)
+        if clean and not seen:
+            print(output[-3000:], file=sys.stderr)
+    return 1 if lost else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,29 @@
+#!/usr/bin/env python3
+"""Proves which sources read_alone.py takes for a change, without reading any."""
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import read_alone
+
+INCLUDES = {'a.cpp': ['a.h'], 'a.h': ['deep.h'], 'b.cpp': ['b.h'], 'b.h': [], 'deep.h': ['b.h'], 'c.cpp': []}
+
+
+class Users(unittest.TestCase):
+    def users(self, *changed):
+        return sorted(read_alone.with_users(changed, {path: [(1, name, name) for name in found] for path, found in INCLUDES.items()}))
+
+    def test_a_source_asks_for_itself(self):
+        self.assertEqual(self.users('c.cpp'), ['c.cpp'])
+
+    def test_a_header_asks_for_whatever_includes_it_by_a_detour(self):
+        self.assertEqual(self.users('deep.h'), ['a.cpp', 'a.h', 'deep.h'])
+        self.assertEqual(self.users('b.h'), ['a.cpp', 'a.h', 'b.cpp', 'b.h', 'deep.h'])
+
+    def test_what_is_no_code_asks_for_itself(self):
+        self.assertEqual(self.users('README.md', 'c.cpp'), ['README.md', 'c.cpp'])
+
+
+if __name__ == '__main__':
+    unittest.main()
