@@ -2,7 +2,7 @@
 # All that a change must pass, in order; stops at the first stage that fails: .ci/check.sh [STAGE...]
 # By day, without arguments: format layers release python perf consumer engine_only alone sanitizers fuzz. `night` stands for the stages
 # one_by_one soak sanitizers_night races fuzz_night, which take longer than a change can wait for; only on demand: packages.
-# Each compiler builds what it tests once, in batches: g++ all, as the README says; clang++ the engine and collision, under sanitizers.
+# Each compiler builds what it tests once, in batches: g++ all, as the README says; clang++ all but the tests of scenes, under sanitizers.
 # That no source leans on its batch is seen by alone, which reads what changed, and by one_by_one, which builds everything.
 # A stage says how long it compiled (within cmake) and ran, and what was dearest. Builds are kept under build/ci-*.
 set -uo pipefail
@@ -19,24 +19,25 @@ export PERCALE_REAL_MESHES=${PERCALE_REAL_MESHES:-$root/build/real_meshes}
 export GIT_CONFIG_COUNT=1 GIT_CONFIG_KEY_0=safe.directory GIT_CONFIG_VALUE_0='*'   # a checkout owned by somebody else, as in containers
 export CMAKE_CXX_COMPILER_LAUNCHER=$root/.ci/timed_compiler CCACHE_BASEDIR=$root
 export PERCALE_COMPILE_TIMES=$root/build/ci-times/compile   # a line a compilation
-waited=$root/build/ci-times/waited                          # a line a call of cmake
+waited=$root/build/ci-times/waited                          # a line a command
 
-# Seconds within cmake, which configures, compiles and installs, count as compiling.
-cmake() {
+# compiling COMMAND...: its seconds count as compiling, as all do within cmake, which configures, compiles and installs.
+compiling() {
     local started=$EPOCHREALTIME status=0
-    command cmake "$@" || status=$?
+    "$@" || status=$?
     echo "$started $EPOCHREALTIME" >>"$waited"
     return $status
 }
+cmake() { compiling command cmake "$@"; }
 
-# compiled: whole seconds within cmake in this stage.
+# compiled: whole seconds of it in this stage.
 compiled() {
     awk '{ sum += $2 - $1 } END { printf "%d", sum }' "$waited"
 }
 
 # dearest TITLE: the ten greatest of the lines SECONDS NAME on standard input, on one line.
 dearest() {
-    sort -rn | head -10 | awk -v title="$1" '{ seconds = $1; $1 = ""; text = text sprintf("%s%s %.0f", NR > 1 ? "," : "", $0, seconds) }
+    sort -rn | awk -v title="$1" 'NR <= 10 { seconds = $1; $1 = ""; text = text sprintf("%s%s %.0f", NR > 1 ? "," : "", $0, seconds) }
         END { if (NR > 0) print "   " title ":" text }'
 }
 
@@ -45,7 +46,7 @@ tell_dearest() {
     sed -E "s|^([0-9.]+) ([0-9.]+) .*/([^/]+/[^/]+/[^/]+)$|\\1 \\2 \\3|" "$PERCALE_COMPILE_TIMES" | sed 's|CMakeFiles/||; s|\.dir/Unity||' |
         awk '{ seconds = $1 + $2; $1 = $2 = ""; print seconds, $0 }' | dearest "dearest to compile, CPU s"
     # ctest's own file: name, runs, seconds.
-    find build -newer build/ci-times/started -name CTestCostData.txt -exec awk '/^---/ { exit } { s = $NF; $NF = $(NF - 1) = ""; print s, $0 }' {} \; |
+    find build -name CTestCostData.txt -exec awk '/^---/ { exit } { s = $NF; $NF = $(NF - 1) = ""; print s, $0 }' {} \; |
         dearest "dearest to run, s"
 }
 
@@ -56,6 +57,19 @@ project_files() {
     else
         find . \( -path './build*' -o -path ./.git -o -name __pycache__ \) -prune -o -type f -printf '%P\0'
     fi
+}
+
+# passed_cases FILE...: how many cases Catch2 says there that passed.
+passed_cases() {
+    sed -n -E 's/^All tests passed .* in ([0-9]+) test cases?.*/\1/p; s/^test cases: +([0-9]+) \| +\1 passed.*/\1/p' "$@" |
+        awk '{ sum += $1 } END { print sum + 0 }'
+}
+
+# known_cases SPEC PROGRAM...: how many cases of test programs it matches. The exit code of a listing is their number.
+known_cases() {
+    local spec=$1 program
+    shift
+    for program in "$@"; do "$program" -# --list-test-names-only "$spec" || true; done | wc -l
 }
 
 # configure FOLDER [CMAKE ARGUMENT...]
@@ -114,12 +128,17 @@ stage_release() {
     find "$release_copy" -name report.json -not -path '*/data/*' -not -path '*/Testing/*' -printf '%h\0' >"$release_copy/../runs"
     [ -s "$release_copy/../runs" ] || { echo "the README's first command left no report.json"; return 1; }
     xargs -0 -n 1 "$release_copy/build/percale" certify <"$release_copy/../runs"
+    local ran known
+    ran=$(passed_cases "$release_copy/build/Testing/Temporary/LastTest.log")
+    known=$(known_cases '~[.]' "$release_copy"/build/percale_*_tests)
+    echo "$ran of $known cases passed"
+    [ "$known" -gt 0 ] && [ "$ran" -eq "$known" ]
     echo "without body scans:"
     for name in collision validation; do
-        PERCALE_REAL_MESHES=$root/build/ci-release/none "$release_copy/build/percale_${name}_tests" '*body scan*,*scanned*' | tail -3
+        PERCALE_REAL_MESHES=$root/build/ci-release/none "$release_copy/build/percale_${name}_tests" '*body scan*' --warn NoTests \
+            >"$release_copy/../without_scans.log" || { cat "$release_copy/../without_scans.log"; return 1; }
+        grep 'not everything was tested' "$release_copy/../without_scans.log"
     done
-    echo "of all test programs: $(sed -n -E 's/^All tests passed .* in ([0-9]+) test cases?.*/\1/p' "$release_copy/build/Testing/Temporary/LastTest.log" |
-        awk '{ sum += $1 } END { print sum }') cases"
 }
 
 # The engine must build where FCL, Bullet and assimp are missing; CMake is told not to find them. Its tests run in the stages release and
@@ -145,7 +164,7 @@ changes_since() {
     local base
     if [ -n "${PERCALE_BASE:-}" ]; then echo "$PERCALE_BASE"; return; fi
     git rev-parse -q --verify HEAD >/dev/null 2>&1 || return 0
-    base=$(git merge-base HEAD refs/remotes/origin/HEAD 2>/dev/null || true)
+    base=$(git merge-base HEAD refs/remotes/origin/HEAD 2>/dev/null || git merge-base HEAD refs/remotes/origin/main 2>/dev/null || true)
     if [ -z "$base" ] || [ "$base" = "$(git rev-parse HEAD)" ]; then
         base=$(git rev-list -1 --before="$(($(git log -1 --format=%ct) - 86400))" HEAD)
     fi
@@ -157,10 +176,10 @@ changes_since() {
 stage_alone() {
     local base
     base=$(changes_since)
-    configure build/ci-alone -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF
+    configure build/ci-alone -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF -DPERCALE_PYTHON=ON
     python3 .ci/read_alone.py "$root" build/ci-alone "$base" >build/ci-alone/commands
     echo "$(tr -d -c '\0' <build/ci-alone/commands | wc -c) sources are read, $([ -z "$base" ] || echo "that or whose headers changed since $base")"
-    xargs -0 -r -P "$jobs" -n 1 bash -c <build/ci-alone/commands
+    compiling xargs -0 -r -P "$jobs" -n 1 bash -c <build/ci-alone/commands
 }
 
 # build_sanitizers TARGET...: clang++, address and undefined-behaviour sanitizers.
@@ -189,63 +208,62 @@ test_files() {
 
 # run_files BUILD LAYER...: a process for each test file; that no case was left out is checked by their number.
 run_files() {
-    local build=$1 layer wanted ran
+    local build=$1 layer wanted ran programs=()
     shift
+    export UBSAN_OPTIONS=print_stacktrace=1
     rm -rf "$build/cases"
     mkdir -p "$build/cases"
     export -f run_file
     for layer in "$@"; do test_files "$layer"; done | xargs -P "$jobs" -n 2 bash -c 'run_file "$0" "$1" "$2"' "$build"
-    # The exit code of a listing is the number of cases.
-    wanted=$(for layer in "$@"; do
-        "$build/percale_${layer}_tests" -# --list-test-names-only "~[law]~[slow]~[.]$(printf '~[#%s]' "${whole_runs[@]}")" || true
-    done | wc -l)
-    ran=$(sed -n -E 's/^All tests passed .* in ([0-9]+) test cases?.*/\1/p; s/^test cases: +([0-9]+) \| +\1 passed.*/\1/p' "$build"/cases/*.log |
-        awk '{ sum += $1 } END { print sum + 0 }')
+    for layer in "$@"; do programs+=("$build/percale_${layer}_tests"); done
+    wanted=$(known_cases "~[law]~[slow]~[.]$(printf '~[#%s]' "${whole_runs[@]}")" "${programs[@]}")
+    ran=$(passed_cases "$build"/cases/*.log)
     dearest "dearest to run, s" <"$build/cases/times"
     echo "$ran of $wanted cases passed"
     [ "$wanted" -gt 0 ] && [ "$ran" -eq "$wanted" ]
 }
 
 # Scenes that go through what the program has: springs and hinges, bodies rigid and bending, cloth on cloth, sewing, pressure, wind.
-sanitized_scenes=(hang six_particles strip_with_hinges tablecloth_on_sphere sheet_folding_on_floor beach_ball skirt poncho_wave flag
+begun_scenes=(hang six_particles strip_with_hinges tablecloth_on_sphere sheet_folding_on_floor beach_ball skirt poncho_wave flag
                   two_sheets_on_spikes)
 
-# The beginning of a scene, with all that the program writes of a run, and its certificate. Expectations are of whole runs: those that
-# fail here are nothing.
-sanitize_scene() {
-    local folder=build/ci-sanitizers/runs/$1
-    build/ci-sanitizers/percale run "data/scenes/$1.toml" -o "$folder" --set duration=0.1 --set expect={} --frames obj,glb,pc2 --quiet >"$folder.log" 2>&1 &&
-        build/ci-sanitizers/percale certify "$folder" >>"$folder.log" 2>&1 || { echo "scene $1:"; tail -40 "$folder.log"; return 1; }
+# begin_scene BUILD THREADS NAME: the beginning of a scene, with all that the program writes of a run, and its certificate. What is expected
+# of the whole run is left out.
+begin_scene() {
+    local folder=$1/runs/$3
+    "$1/percale" run "data/scenes/$3.toml" -o "$folder" --threads "$2" --set duration=0.1 --set expect={} --frames obj,glb,pc2 --quiet \
+        >"$folder.log" 2>&1 && "$1/percale" certify "$folder" >>"$folder.log" 2>&1 || { echo "scene $3:"; tail -40 "$folder.log"; return 1; }
+}
+
+# begin_scenes BUILD THREADS JOBS
+begin_scenes() {
+    rm -rf "$1/runs"
+    mkdir -p "$1/runs"
+    export -f begin_scene
+    printf '%s\n' "${begun_scenes[@]}" | xargs -P "$3" -n 1 bash -c 'begin_scene "$0" "$1" "$2"' "$1" "$2"
 }
 
 # Without whole runs, laws and cases tagged [slow] (seconds in a release build), which go the ways of unit tests many times over.
 stage_sanitizers() {
     build_sanitizers percale_engine_tests percale_collision_tests percale fuzz
-    export UBSAN_OPTIONS=print_stacktrace=1
     run_files build/ci-sanitizers engine collision
-    rm -rf build/ci-sanitizers/runs
-    mkdir -p build/ci-sanitizers/runs
-    export -f sanitize_scene
-    printf '%s\n' "${sanitized_scenes[@]}" | xargs -P "$jobs" -n 1 bash -c 'sanitize_scene "$0"'
+    begin_scenes build/ci-sanitizers 1 "$jobs"
 }
 
 stage_sanitizers_night() {
     build_sanitizers percale_scenes_tests
-    export UBSAN_OPTIONS=print_stacktrace=1
     run_files build/ci-sanitizers scenes
 }
 
-# What threads share, under the thread sanitizer: tests of threads, and a scene of each kind on two.
+# What threads share, under the thread sanitizer: tests of threads, and ten scenes on four of them.
 stage_races() {
-    local scene
+    local layer
     configure build/ci-races --preset tsan -DCMAKE_CXX_COMPILER=clang++
     cmake --build build/ci-races --target percale_engine_tests percale_collision_tests percale
     for layer in engine collision; do
-        build/ci-races/percale_${layer}_tests '*thread*~[law]~[slow]~[.]'
+        build/ci-races/percale_${layer}_tests '~[law]~[.]*thread*' --warn NoTests
     done
-    for scene in "${sanitized_scenes[@]}"; do
-        build/ci-races/percale run "data/scenes/$scene.toml" -o "build/ci-races/runs/$scene" --set duration=0.1 --threads 4 --quiet
-    done
+    begin_scenes build/ci-races 4 1
 }
 
 # fuzz_one NAME: from the corpus and what it finds; what fails is left in build/ci-fuzz-found. Sanitizers make a second about three.
@@ -283,7 +301,7 @@ stage_perf() {
 
 # Everything by clang++ without sanitizers, file by file, programs that measure, too; all tests and laws.
 stage_one_by_one() {
-    configure build/ci-one-by-one -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF -DCMAKE_BUILD_TYPE=Release
+    configure build/ci-one-by-one -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF -DPERCALE_PYTHON=ON -DCMAKE_BUILD_TYPE=Release
     cmake --build build/ci-one-by-one --target all benches
     ctest --test-dir build/ci-one-by-one --no-tests=error
 }
@@ -291,7 +309,7 @@ stage_one_by_one() {
 # Hidden tests: a million steps; every shipped scene whole with every tree.
 stage_soak() {
     [ -x build/ci-one-by-one/percale_validation_tests ] || { echo "build/ci-one-by-one is missing: run the stage one_by_one first"; return 1; }
-    build/ci-one-by-one/percale_validation_tests '[.soak],[.night]'
+    build/ci-one-by-one/percale_validation_tests '[.soak],[.night]' --warn NoTests
 }
 
 stage_fuzz_night() {
@@ -365,8 +383,8 @@ times=()
 for stage in "${selected[@]}"; do
     echo "== $stage"
     started=$SECONDS
-    : >"$PERCALE_COMPILE_TIMES" >"$waited"
-    touch build/ci-times/started
+    truncate -s 0 "$PERCALE_COMPILE_TIMES" "$waited"
+    find build -name CTestCostData.txt -delete
     (set -e; "stage_$stage") </dev/null
     status=$?
     passed="$((SECONDS - started)) s: $(compiled) s compiling, $((SECONDS - started - $(compiled))) s running"

@@ -119,6 +119,14 @@ def project_files(root):
     return sorted(f for f in inside if not re.match(r'(?:build[^/]*|\.git)/|.*__pycache__/', f))
 
 
+def changed_files(root, base):
+    """Files that differ from those of a commit, and new ones."""
+    git = ['git', '-c', 'safe.directory=*', '-C', str(root)]
+    found = [subprocess.run([*git, *command], text=True, check=True, capture_output=True).stdout.splitlines()
+             for command in (['diff', '--name-only', base], ['ls-files', '-o', '--exclude-standard'])]
+    return sorted({path for paths in found for path in paths if path})
+
+
 def read_tree(root):
     tree = Tree(root, project_files(root))
     for path in tree.files:
@@ -398,6 +406,11 @@ def check_texts(tree):
                 tree.complain(path, line_of(text, found.start()), f'{what} ({found.group()})')
 
 
+def outside(namespace, text, commented):
+    """What stands before a namespace's line, and behind the comment that ends it."""
+    return text[:text.find(f'namespace {namespace} {{')] + commented.partition(f'}}  // namespace {namespace}\n')[2]
+
+
 def check_test_namespaces(tree):
     """Test files are compiled in batches and have helpers in common, so the cases of each stand in a namespace that ends in its name."""
     holder = {}
@@ -405,13 +418,13 @@ def check_test_namespaces(tree):
         if not path.endswith('_test.cpp'):
             continue
         stem, text = PurePosixPath(path).stem, uncommented(tree.text.get(path, ''))
-        own = [name for name in OWN_NAMESPACE.findall(text) if name.endswith(stem)]
+        own = [name for name in OWN_NAMESPACE.findall(text) if re.search(rf'(?:::|_){stem}$', name)]
         if len(own) != 1:
             tree.complain(path, 1, f'no namespace of its own (namespace percale::test::{stem})')
         elif holder.setdefault(own[0], path) != path:
             tree.complain(path, 1, f'namespace {own[0]} is that of {holder[own[0]]}, too')
-        elif 'TEST_CASE(' in text[:text.find(f'namespace {own[0]} {{')]:
-            tree.complain(path, 1, f'a case before namespace {own[0]}')
+        elif 'TEST_CASE(' in outside(own[0], text, tree.text[path]):
+            tree.complain(path, 1, f'a case outside namespace {own[0]}')
 
 
 def check_test_size(tree):

@@ -65,7 +65,9 @@ class Rules(unittest.TestCase):
         path = 'tests/engine/model/shapes_test.cpp'
         text = CLEAN[path]
         self.caught(path, text.replace('shapes_test', 'forms_test'), 'no namespace of its own')
-        self.caught(path, text.replace('namespace percale', 'TEST_CASE("first") {}\nnamespace percale', 1), 'a case before')
+        self.caught(path, text.replace('namespace percale', 'TEST_CASE("first") {}\nnamespace percale', 1), 'a case outside')
+        self.caught(path, text + 'TEST_CASE("last") {}\n', 'a case outside')
+        self.caught(path, text.replace('::shapes_test', '::reshapes_test'), 'no namespace of its own')
         self.caught('tests/engine/more/shapes_test.cpp', text, 'is that of tests/engine/model/shapes_test.cpp, too')
         self.assertEqual(violations({'tests/engine/more/shapes_test.cpp': text.replace('::shapes_test', '::more_shapes_test')}), [])
 

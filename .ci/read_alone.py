@@ -40,10 +40,7 @@ def chosen_sources(root, base):
     tree = layers.read_tree(root)
     if not base:
         return set(tree.files)
-    git = ['git', '-c', 'safe.directory=*', '-C', root]
-    listed = [subprocess.run([*git, *command], text=True, check=True, capture_output=True).stdout.splitlines()
-              for command in (['diff', '--name-only', base], ['ls-files', '-o', '--exclude-standard'])]
-    return with_users([path for paths in listed for path in paths], tree.includes)
+    return with_users(layers.changed_files(root, base), tree.includes)
 
 
 def includes_eigen(source, folders, known):

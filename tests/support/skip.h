@@ -6,12 +6,12 @@
 
 namespace percale::test {
 
-/// Cases of this process that wanted what is not there. The test program's last line says how many, which ctest reads (main.cpp).
-inline int skipped_cases = 0;
+/// How often a case of this process wanted what is not there. The test program's last line says it, which ctest reads (main.cpp).
+inline int skips = 0;
 
 /// Says why the rest of a case is not run; the case returns after it.
 inline void skip(const std::string& reason) {
-    ++skipped_cases;
+    ++skips;
     WARN("skipped: " << reason);
 }
 

@@ -2,7 +2,7 @@
 """Checks the laws of a build and writes what they measured as one Markdown table: laws_table.py BUILD [-o FILE].
 
 Every case with the tag [law] appends its rows to the file that the environment variable PERCALE_LAWS names (tests/support/laws.h).
-This program runs those cases through ctest, sorts the rows and writes them with this command as first line. The exit code is that of
+This program runs the test files that have some through ctest, sorts the rows and writes them with this command as first line. The exit code is that of
 ctest; a law outside its limit therefore fails here, too, and its row is in the table. Standard library only.
 """
 import argparse

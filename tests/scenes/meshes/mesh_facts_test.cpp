@@ -171,11 +171,11 @@ TEST_CASE("a mesh joined by place has the triangles that are left, with their nu
 TEST_CASE("watertight is what it is among the facts") {
     for (unsigned seed = 0; seed < 200; ++seed) {
         const TriangleMesh mesh = soup(seed, 5, 1 + static_cast<int>(seed % 8));
-        if (is_watertight(mesh) != mesh_facts(mesh).watertight()) FAIL_CHECK("seed " << seed);
+        if (scenes::is_watertight(mesh) != mesh_facts(mesh).watertight()) FAIL_CHECK("seed " << seed);
     }
-    CHECK(is_watertight(make_sphere(1.0, 2)));
-    CHECK_FALSE(is_watertight(free_sheet()));
-    CHECK_FALSE(is_watertight(turned(both(free_sheet(), make_sphere(1.0, 1)))));
+    CHECK(scenes::is_watertight(make_sphere(1.0, 2)));
+    CHECK_FALSE(scenes::is_watertight(free_sheet()));
+    CHECK_FALSE(scenes::is_watertight(turned(both(free_sheet(), make_sphere(1.0, 1)))));
 }
 
 TEST_CASE("rims that are near each other are those that every pair of vertices says") {
