@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "obstacle/internal_faces.h"
+#include "obstacle/face_sides.h"
 #include "percale/error.h"
 #include "tolerances.h"
 
@@ -202,46 +202,35 @@ bool is_flat(const ObstacleSurface& surface, int edge, std::span<const Vec3> x) 
     return volume * volume <= least * least * lengths && fold(surface, edge, x).flat;
 }
 
-/// For each vertex the first vertex of its connected component of the surface.
-std::vector<int> connected_components(const ObstacleSurface& surface) {
-    std::vector<int> component(surface.vertices.size(), -1), waiting;
-    for (std::size_t seed = 0; seed < component.size(); ++seed) {
-        if (component[seed] < 0) waiting.push_back(static_cast<int>(seed));
-        while (!waiting.empty()) {
-            const int vertex = waiting.back();
-            waiting.pop_back();
-            if (component[vertex] >= 0) continue;
-            component[vertex] = static_cast<int>(seed);
-            const std::span<const int> ring = surface.neighbours(vertex);
-            waiting.insert(waiting.end(), ring.begin(), ring.end());
+/// What both triangles of each edge have; unproven where they differ.
+std::vector<FaceSides> sides_at_edges(const ObstacleSurface& surface, std::span<const FaceSides> sides) {
+    std::vector<FaceSides> at_edge(surface.edges.size());
+    for (std::size_t i = 0; i < at_edge.size(); ++i) at_edge[i] = sides[surface.edges[i].owner];
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        for (const int edge : surface.triangle_edges[i]) {
+            if (sides[i] != at_edge[edge]) at_edge[edge] = FaceSides::unproven;
         }
     }
-    return component;
+    return at_edge;
 }
 
-/// Whether the normals of a closed surface point away from what it encloses, in each of its components: not on those turned
-/// inside out nor around a cavity, where cloth may be behind a normal (inside is where the winding number is not 0).
-bool faces_outwards(const ObstacleSurface& surface) {
-    const std::vector<int> component = connected_components(surface);
-    std::vector<double> volume(surface.vertices.size(), 0.0);  // six times, at the first vertex of each component
-    for (const Triangle& t : surface.triangles) {
-        const int first = component[t[0]];
-        const auto from_first = [&](int v) -> Vec3 { return surface.vertices[v] - surface.vertices[first]; };
-        volume[first] += from_first(t[0]).dot(from_first(t[1]).cross(from_first(t[2])));
-    }
-    for (std::size_t vertex = 0; vertex < component.size(); ++vertex) {
-        if (component[vertex] == static_cast<int>(vertex) && !(volume[vertex] > 0.0)) return false;
-    }
-    return true;
+/// Whether an edge is a valley seen from where the solid is not. What is free of the solid at it is a wedge of less than half a
+/// turn, which no line through it stays in: a cloth edge that comes there ends there, or meets a face first.
+bool is_free_valley(const Fold& fold, FaceSides sides) {
+    return (sides == FaceSides::outward && fold.height > tolerances::flat_fold) ||
+           (sides == FaceSides::inward && fold.height < -tolerances::flat_fold);
 }
 
-void mark_touchable(ObstacleSurface& surface, bool valleys_are_safe) {
+/// `sides` of the triangles of a closed surface; empty of others.
+void mark_touchable(ObstacleSurface& surface, std::span<const FaceSides> sides) {
+    const std::vector<FaceSides> at_edge =
+        sides.empty() ? std::vector(surface.edges.size(), FaceSides::unproven) : sides_at_edges(surface, sides);
     surface.vertex_can_touch.assign(surface.vertices.size(), false);
     for (std::size_t i = 0; i < surface.edges.size(); ++i) {
         SurfaceEdge& edge = surface.edges[i];
         if (surface.opposites(static_cast<int>(i)).size() == 2) {
-            const auto [flat, height] = fold(surface, static_cast<int>(i), surface.vertices);
-            edge.can_touch = !flat && !(valleys_are_safe && height > 0.0);
+            const Fold found = fold(surface, static_cast<int>(i), surface.vertices);
+            edge.can_touch = !found.flat && !is_free_valley(found, at_edge[i]);
         }
         if (!edge.can_touch) continue;
         for (const int vertex : edge.vertex) surface.vertex_can_touch[vertex] = true;
@@ -253,20 +242,22 @@ void connect(ObstacleSurface& surface) {
     connect_vertices(surface);
 }
 
-/// The solid stays the same, so a closed surface still counts as one.
-void drop_internal_faces(ObstacleSurface& surface) {
-    const std::vector<bool> internal = internal_faces(surface.vertices, surface.triangles);
+/// The solid stays the same, so a closed surface still counts as one. Gives the sides of the triangles that are left.
+std::vector<FaceSides> drop_internal_faces(ObstacleSurface& surface) {
+    std::vector<FaceSides> sides = face_sides(surface.vertices, surface.triangles);
     std::vector<Triangle> left;
-    for (std::size_t i = 0; i < internal.size(); ++i) {
-        if (!internal[i]) left.push_back(surface.triangles[i]);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        if (sides[i] != FaceSides::internal) left.push_back(surface.triangles[i]);
     }
-    surface.cleaning.internal_triangles = static_cast<int>(internal.size() - left.size());
-    if (surface.cleaning.internal_triangles == 0) return;
+    surface.cleaning.internal_triangles = static_cast<int>(sides.size() - left.size());
+    if (surface.cleaning.internal_triangles == 0) return sides;
+    std::erase(sides, FaceSides::internal);
     surface.triangles = std::move(left);
     surface.cleaning.triangles = static_cast<int>(surface.triangles.size());
     keep_used_vertices(std::vector<Vec3>(surface.vertices), std::vector<int>(surface.given), surface);
     connect(surface);
     surface.watertight = true;
+    return sides;
 }
 
 }  // namespace
@@ -278,9 +269,7 @@ ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Tri
         surface.vertex_can_touch.assign(surface.vertices.size(), true);
         return surface;
     }
-    const bool valleys_are_safe = surface.watertight && faces_outwards(surface);
-    if (surface.watertight) drop_internal_faces(surface);
-    mark_touchable(surface, valleys_are_safe);
+    mark_touchable(surface, surface.watertight ? drop_internal_faces(surface) : std::vector<FaceSides>());
     return surface;
 }
 

@@ -15,7 +15,8 @@ namespace percale {
 struct SurfaceEdge {
     std::array<int, 2> vertex;
     int owner = -1;  // the first triangle that has it
-    /// Not flat edges, nor valleys of a closed surface that faces outwards: cloth meets the faces there first.
+    /// Not flat edges, nor edges of a closed surface that are valleys where the solid is not (face_sides.h): cloth meets the
+    /// faces there first.
     bool can_touch = true;
 };
 
@@ -45,7 +46,7 @@ struct ObstacleSurface {
 enum class SurfaceShape { rigid, deforming };
 
 /// Merges vertices at the same place, drops triangles without area and repeated ones, and unused vertices. Of a rigid surface
-/// those inside a closed one (internal_faces.h) as well, and edges that cannot touch are marked; of a deforming one nothing is
+/// those inside a closed one (face_sides.h) as well, and edges that cannot touch are marked; of a deforming one nothing is
 /// known yet (mark_flat). Throws SceneError if nothing is left.
 ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                              SurfaceShape shape = SurfaceShape::rigid);

@@ -61,6 +61,15 @@ inline TriangleMesh spiky_ball(double radius, int level, double amplitude, unsig
     return ball;
 }
 
+/// A ball whose vertices are moved anywhere by up to `amplitude` along each axis: closed, goes through itself, and is inside out
+/// in places.
+inline TriangleMesh tangled_ball(double radius, int level, double amplitude, unsigned seed) {
+    TriangleMesh ball = make_sphere(radius, level);
+    Random random(seed);
+    for (Vec3& x : ball.vertices) x += random.point(amplitude);
+    return ball;
+}
+
 /// Unconnected triangles of very different sizes.
 inline TriangleMesh soup(int count, unsigned seed) {
     Random random(seed);

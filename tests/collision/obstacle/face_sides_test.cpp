@@ -1,6 +1,7 @@
-#include "collision/obstacle/internal_faces.h"
+#include "collision/obstacle/face_sides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "collision/certificate/inside_test.h"
@@ -9,12 +10,25 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/off.h"
 #include "tests/support/collision/shapes.h"
+#include "tests/support/random.h"
 #include "tests/support/skip.h"
 
-namespace percale::test::internal_faces_test {
+namespace percale::test::face_sides_test {
 namespace {
 
-std::vector<bool> internal(const TriangleMesh& mesh) { return internal_faces(mesh.vertices, mesh.triangles); }
+std::vector<FaceSides> sides_of(const TriangleMesh& mesh) { return face_sides(mesh.vertices, mesh.triangles); }
+
+std::vector<bool> internal(const TriangleMesh& mesh) {
+    std::vector<bool> result;
+    for (const FaceSides sides : sides_of(mesh)) result.push_back(sides == FaceSides::internal);
+    return result;
+}
+
+std::array<int, 4> counts(const TriangleMesh& mesh) {
+    std::array<int, 4> result{};
+    for (const FaceSides sides : sides_of(mesh)) ++result[static_cast<std::size_t>(sides)];
+    return result;  // unproven, outward, inward, internal
+}
 
 int count(const std::vector<bool>& flags) { return static_cast<int>(std::count(flags.begin(), flags.end(), true)); }
 
@@ -52,6 +66,89 @@ TEST_CASE("of overlapping spheres the faces wholly inside the other go, those th
         if (nearest > radius) CHECK_FALSE(dropped[i]);
     }
     CHECK(count(dropped) > 200);
+}
+
+TEST_CASE("a closed mesh faces outwards, turned inside out inwards, around a cavity inwards") {
+    const TriangleMesh solid = l_solid(), cavity = moved(inside_out(make_box({0.2, 0.2, 0.2})), {0.5, 0.5, 0.5});
+    CHECK(counts(solid) == std::array{0, 20, 0, 0});
+    CHECK(counts(inside_out(solid)) == std::array{0, 0, 20, 0});
+    CHECK(counts(joined(solid, cavity)) == std::array{0, 32, 0, 0});  // the solid of the cavity's walls is behind them
+}
+
+namespace {
+
+/// A closed mesh as the certificate asks for winding numbers.
+struct Asked {
+    std::vector<certificate::Corners> corners;
+    certificate::BoxTree tree;
+
+    explicit Asked(const TriangleMesh& mesh)
+        : corners(certificate::corners_of(mesh)), tree(std::span<const certificate::Corners>(corners)) {}
+    bool solid_at(const Vec3& x) const { return certificate::winding_number(x, corners, tree) != 0; }
+};
+
+Vec3 point_within(const certificate::Corners& t, Random& random) {
+    double a = random.number(0.01, 0.98), b = random.number(0.01, 0.98);
+    if (a + b > 0.99) a = 0.99 - 0.5 * a, b = 0.49 * (1.0 - b);
+    return t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]);
+}
+
+/// At how many of five places on a triangle the solid is not where it is said to be.
+int wrong_places(const Asked& asked, std::size_t triangle, FaceSides said, Random& random) {
+    const certificate::Corners& t = asked.corners[triangle];
+    const Vec3 little = 1e-8 * (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+    int wrong = 0;
+    for (int sample = 0; sample < 5; ++sample) {
+        const Vec3 at = point_within(t, random);
+        const bool before = asked.solid_at(at + little), behind = asked.solid_at(at - little);
+        wrong += before != (said != FaceSides::outward) || behind != (said != FaceSides::inward) ? 1 : 0;
+    }
+    return wrong;
+}
+
+}  // namespace
+
+TEST_CASE("on triangles of which something is proven it holds everywhere") {
+    std::array<int, 4> found{};
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        Random random(seed);
+        const TriangleMesh mesh = tangled_ball(0.3, 1 + static_cast<int>(seed % 3), random.number(0.1, 0.4), seed);
+        const Asked asked(mesh);
+        const std::vector<FaceSides> sides = sides_of(mesh);
+        int wrong = 0;
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            ++found[static_cast<std::size_t>(sides[i])];
+            if (sides[i] != FaceSides::unproven) wrong += wrong_places(asked, i, sides[i], random);
+        }
+        CAPTURE(seed);
+        CHECK(wrong == 0);
+    }
+    const auto [unproven, outward, inward, internal_faces] = found;
+    CHECK(unproven > 1000);
+    CHECK(outward > 1000);
+    CHECK(inward > 50);
+    CHECK(internal_faces > 5);
+}
+
+TEST_CASE("a face that another part touches keeps its place, wherever it is touched") {
+    const TriangleMesh floor = make_box({2, 1, 2});  // its top at y = 0.5
+    TriangleMesh wedge = make_box({0.5, 0.5, 0.5});
+    for (Vec3& x : wedge.vertices) x = Vec3(x.x(), (x.y() + x.z()) / std::sqrt(2.0), (x.z() - x.y()) / std::sqrt(2.0));
+    double lowest = 0.0;
+    for (const Vec3& x : wedge.vertices) lowest = std::min(lowest, x.y());
+    const double at = GENERATE(-0.4, 0.0, 0.1, 1.0 / 3.0);  // a third: through the middle of a triangle of the top
+    const TriangleMesh both = joined(floor, moved(wedge, {at, 0.5 - lowest, at}));
+    const std::vector<FaceSides> sides = sides_of(both);
+    for (const FaceSides face : sides) CHECK((face == FaceSides::outward || face == FaceSides::unproven));
+}
+
+TEST_CASE("neighbours that go through each other's plane along an edge prove nothing") {
+    // Two tetrahedra with one corner in common: an edge of the second lies in the first's top, its faces go up and down from
+    // there.
+    const TriangleMesh slab{
+        .vertices = {{0, 0, 0}, {2, 0, 0}, {0, 0, 2}, {1, -1, 1}, {2, 0, 2}, {-3, 0.5, 3}, {-3, -0.2, 3}},
+        .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}}};
+    CHECK(sides_of(slab)[0] == FaceSides::unproven);
 }
 
 TEST_CASE("boxes that share a face exactly keep it, as their other faces") {
@@ -140,4 +237,4 @@ TEST_CASE("where too many triangles lie side by side the search ends, and all st
     CHECK(cleaning_report(spindle_with_ball(2500)).triangles == 5080);
 }
 
-}  // namespace percale::test::internal_faces_test
+}  // namespace percale::test::face_sides_test

@@ -1,6 +1,7 @@
-#include "obstacle/internal_faces.h"
+#include "obstacle/face_sides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -27,8 +28,18 @@ enum class Meeting : unsigned char { none, touched, crossed };
 
 bool has_corner(const Triangle& t, int vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
 
-bool share_a_vertex(const Triangle& a, const Triangle& b) {
-    return has_corner(b, a[0]) || has_corner(b, a[1]) || has_corner(b, a[2]);
+/// Three at most, without memory of their own.
+struct CommonCorners {
+    std::array<int, 3> vertex{};
+    int count = 0;
+};
+
+CommonCorners common_corners(const Triangle& a, const Triangle& b) {
+    CommonCorners common;
+    for (const int vertex : a) {
+        if (has_corner(b, vertex)) common.vertex[common.count++] = vertex;
+    }
+    return common;
 }
 
 /// Whether all corners of `other` that are not corners of `first`, too, lie clearly on one side of its plane: neighbours that do
@@ -47,12 +58,37 @@ bool clearly_on_one_side(const Solid& solid, int first, int other) {
     return true;
 }
 
+/// Whether a ray lies in the closed sector between the rays a and b from the same point, as far as rounding tells.
+bool in_sector(const Vec3& ray, const Vec3& a, const Vec3& b) {
+    const Vec3 normal = a.cross(b);
+    const double little = tolerances::clear_side * normal.norm() * ray.norm();
+    return std::abs(normal.dot(ray)) <= little && normal.dot(ray.cross(b)) >= -little * b.norm() &&
+           normal.dot(a.cross(ray)) >= -little * a.norm();
+}
+
+/// Rays from corner `vertex` of a triangle to its other two.
+std::array<Vec3, 2> rays_from(const Solid& solid, int triangle, int vertex) {
+    const Triangle& t = solid.triangles[triangle];
+    const int k = t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
+    const Corners& x = solid.corners[triangle];
+    return {x[(k + 1) % 3] - x[k], x[(k + 2) % 3] - x[k]};
+}
+
+/// Of triangles with one corner in common that do not cross: whether they meet elsewhere, too. Both are convex, so they then
+/// share a ray from that corner, and it is along an edge of one of them.
+bool meet_beyond_corner(const Solid& solid, int i, int j, int vertex) {
+    const auto [a, b] = rays_from(solid, i, vertex);
+    const auto [c, d] = rays_from(solid, j, vertex);
+    return in_sector(a, c, d) || in_sector(b, c, d) || in_sector(c, a, b) || in_sector(d, a, b);
+}
+
 Meeting meeting_of(const Solid& solid, int i, int j) {
-    const bool neighbours = share_a_vertex(solid.triangles[i], solid.triangles[j]);
-    if (neighbours && (clearly_on_one_side(solid, i, j) || clearly_on_one_side(solid, j, i))) return Meeting::none;
+    const CommonCorners common = common_corners(solid.triangles[i], solid.triangles[j]);
+    if (common.count > 0 && (clearly_on_one_side(solid, i, j) || clearly_on_one_side(solid, j, i))) return Meeting::none;
     const Overlap overlap = certificate::classify(solid.corners[i], solid.corners[j]);
     if (overlap == Overlap::crossing) return Meeting::crossed;
-    return overlap == Overlap::touching && !neighbours ? Meeting::touched : Meeting::none;
+    if (overlap == Overlap::disjoint || common.count > 1) return Meeting::none;
+    return common.count == 0 || meet_beyond_corner(solid, i, j, common.vertex[0]) ? Meeting::touched : Meeting::none;
 }
 
 /// Nothing where so many triangles lie side by side (a fan of n around one vertex has n^2/2 pairs) that it would take long.
@@ -96,32 +132,33 @@ std::vector<std::array<int, 3>> find_neighbours(std::span<const Triangle> triang
     return neighbours;
 }
 
-/// Whether there is solid beyond the triangle as well as below it. Below it the winding number is one more than beyond.
-bool is_internal(const Solid& solid, int triangle) {
+/// Beyond a triangle, the side its normal points to, the winding number is one less than below it.
+FaceSides sides_of(const Solid& solid, int triangle) {
     const Corners& t = solid.corners[triangle];
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
     const double little = tolerances::beyond_face * (solid.tree.bounds().high - solid.tree.bounds().low).norm();
     const Vec3 beyond = middle + little * (t[1] - t[0]).cross(t[2] - t[0]).normalized();
     const int winding = certificate::winding_number(beyond, solid.corners, solid.tree);
-    return winding != 0 && winding != -1;
+    if (winding == 0) return FaceSides::outward;
+    return winding == -1 ? FaceSides::inward : FaceSides::internal;
 }
 
 double area(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
 
-/// Triangles joined by edges that nothing meets have the same on their outer sides: one of them, the largest, answers for all.
+/// Triangles joined by edges, none of which anything meets, have the same on their two sides: the largest answers for all.
 class Regions {
 public:
     Regions(const Solid& solid, const std::vector<Meeting>& meeting)
         : solid_(solid), meeting_(meeting), neighbours_(find_neighbours(solid.triangles)), seen_(solid.triangles.size()) {}
 
-    std::vector<bool> internal() {
-        std::vector<bool> result(solid_.triangles.size());
+    std::vector<FaceSides> sides() {
+        std::vector<FaceSides> result(solid_.triangles.size(), FaceSides::unproven);
         for (std::size_t i = 0; i < result.size(); ++i) {
-            if (meeting_[i] == Meeting::crossed || seen_[i]) continue;
+            if (meeting_[i] != Meeting::none || seen_[i]) continue;
             const std::vector<int> region = collect(static_cast<int>(i));
             const auto smaller = [&](int a, int b) { return area(solid_.corners[a]) < area(solid_.corners[b]); };
-            const bool inside = is_internal(solid_, *std::max_element(region.begin(), region.end(), smaller));
-            for (const int triangle : region) result[triangle] = inside;
+            const FaceSides sides = sides_of(solid_, *std::max_element(region.begin(), region.end(), smaller));
+            for (const int triangle : region) result[triangle] = sides;
         }
         return result;
     }
@@ -130,7 +167,6 @@ private:
     std::vector<int> collect(int first) {
         std::vector<int> region{first};
         seen_[first] = true;
-        if (meeting_[first] != Meeting::none) return region;
         for (std::size_t k = 0; k < region.size(); ++k) {
             for (const int other : neighbours_[region[k]]) {
                 if (seen_[other] || meeting_[other] != Meeting::none) continue;
@@ -149,13 +185,13 @@ private:
 
 }  // namespace
 
-std::vector<bool> internal_faces(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+std::vector<FaceSides> face_sides(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
     const TriangleMesh mesh{.vertices = {vertices.begin(), vertices.end()}, .triangles = {triangles.begin(), triangles.end()}};
     std::vector<Corners> corners = certificate::corners_of(mesh);
     BoxTree tree{std::span<const Corners>(corners)};
     const Solid solid{triangles, std::move(corners), std::move(tree)};
     const std::optional<std::vector<Meeting>> meeting = find_meetings(solid);
-    return meeting ? Regions(solid, *meeting).internal() : std::vector<bool>(triangles.size(), false);
+    return meeting ? Regions(solid, *meeting).sides() : std::vector<FaceSides>(triangles.size(), FaceSides::unproven);
 }
 
 }  // namespace percale

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "percale/mesh.h"
+
+namespace percale {
+
+/// Where the solid of a closed surface is (winding number not 0, Jacobson et al. 2013), seen from a triangle of it.
+enum class FaceSides : unsigned char {
+    unproven,  // other triangles cross or touch it: not the same everywhere on it, or the search gave up
+    outward,   // behind its normal
+    inward,    // before its normal: the surface is inside out there, or encloses a cavity
+    internal,  // on both sides: where parts of a mesh overlap. Nothing can meet it without crossing others first
+};
+
+/// Of each triangle of a closed surface. All are unproven where more than 200 pairs a triangle and two million would have to be
+/// tested.
+std::vector<FaceSides> face_sides(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+}  // namespace percale
