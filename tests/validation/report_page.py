@@ -23,6 +23,7 @@ SKIPPED = 77
 BROWSERS = ('chromium', 'chromium-browser', 'google-chrome')
 SECONDS = 120                 # that one page may take on a busy machine
 VIRTUAL_MS = 8000             # of the page's own clock
+TRIES = 4                     # on a busy machine that clock may run out before a page is drawn
 WIDE, NARROW = (1280, 900), (390, 844)   # pixels
 WINDOW = (600, 900)           # around the narrow page: windows of Chromium are not as narrow as a phone
 LEAST_COVERED = 0.01          # share of the picture's pixels that meshes cover
@@ -106,8 +107,12 @@ class Browser:
 
     def open(self, page, size, *options):
         """The page as it is at the end, and the lines of the console."""
-        text, console = self.call(page.as_uri() + '#test', size, '--dump-dom', *options)
-        return Body(text), console
+        for _ in range(TRIES):
+            text, console = self.call(page.as_uri() + '#test', size, '--dump-dom', *options)
+            body = Body(text)
+            if 'done' in body.facts or console:
+                break
+        return body, console
 
     def open_framed(self, page, size):
         """The same of a page in a frame, which tells its facts to the page around it."""
