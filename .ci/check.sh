@@ -41,9 +41,9 @@ dearest() {
         END { if (NR > 0) print "   " title ":" text }'
 }
 
-# tell_dearest: of the stage that ran since the file of times was emptied.
+# tell_dearest: of the stage that ran since the file of times was emptied; not what CMake tries out.
 tell_dearest() {
-    sed -E "s|^([0-9.]+) ([0-9.]+) .*/([^/]+/[^/]+/[^/]+)$|\\1 \\2 \\3|" "$PERCALE_COMPILE_TIMES" | sed 's|CMakeFiles/||; s|\.dir/Unity||' |
+    grep -v -E 'CMakeScratch|/Modules/|CompilerId' "$PERCALE_COMPILE_TIMES" | sed -E "s|^([0-9.]+) ([0-9.]+) .*/([^/]+/[^/]+/[^/]+)$|\\1 \\2 \\3|" | sed 's|CMakeFiles/||; s|\.dir/Unity||' |
         awk '{ seconds = $1 + $2; $1 = $2 = ""; print seconds, $0 }' | dearest "dearest to compile, CPU s"
     # ctest's own file: name, runs, seconds.
     find build -name CTestCostData.txt -exec awk '/^---/ { exit } { s = $NF; $NF = $(NF - 1) = ""; print s, $0 }' {} \; |
