@@ -178,7 +178,7 @@ stage_alone() {
     base=$(changes_since)
     configure build/ci-alone -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF -DPERCALE_PYTHON=ON
     python3 .ci/read_alone.py "$root" build/ci-alone "$base" >build/ci-alone/commands
-    echo "$(tr -d -c '\0' <build/ci-alone/commands | wc -c) sources are read, $([ -z "$base" ] || echo "that or whose headers changed since $base")"
+    echo "$(tr -d -c '\0' <build/ci-alone/commands | wc -c) sources are read: ${base:+those that, or whose headers, changed since }${base:-all}"
     compiling xargs -0 -r -P "$jobs" -n 1 bash -c <build/ci-alone/commands
 }
 
@@ -225,7 +225,7 @@ run_files() {
 
 # Scenes that go through what the program has: springs and hinges, bodies rigid and bending, cloth on cloth, sewing, pressure, wind.
 begun_scenes=(hang six_particles strip_with_hinges tablecloth_on_sphere sheet_folding_on_floor beach_ball skirt poncho_wave flag
-                  two_sheets_on_spikes)
+              two_sheets_on_spikes)
 
 # begin_scene BUILD THREADS NAME: the beginning of a scene, with all that the program writes of a run, and its certificate. What is expected
 # of the whole run is left out.

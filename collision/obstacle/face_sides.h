@@ -10,8 +10,8 @@ namespace percale {
 /// Where the solid of a closed surface is (winding number not 0, Jacobson et al. 2013), seen from a triangle of it.
 enum class FaceSides : unsigned char {
     unproven,  // other triangles cross or touch it: not the same everywhere on it, or the search gave up
-    outward,   // behind its normal
-    inward,    // before its normal: the surface is inside out there, or encloses a cavity
+    outward,   // behind its normal, also where it is the wall of a cavity
+    inward,    // before its normal: the surface is inside out there
     internal,  // on both sides: where parts of a mesh overlap. Nothing can meet it without crossing others first
 };
 

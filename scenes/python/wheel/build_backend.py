@@ -77,7 +77,7 @@ def build_package(config_settings=None):
                     f'-DPython3_EXECUTABLE={sys.executable}'], check=True)
     terminal = open_terminal()
     if terminal:
-        print(f'\r\033[Kpercale: compiling in {build}, two minutes on two cores', file=terminal, flush=True)
+        print(f'\r\033[Kpercale: compiling in {build}, which takes minutes', file=terminal, flush=True)
     compile_told(['cmake', '--build', build, '--target', 'percale_python', '--parallel', jobs], terminal)
     stage = build / 'wheel'
     shutil.rmtree(stage, ignore_errors=True)

@@ -68,11 +68,11 @@ TEST_CASE("of overlapping spheres the faces wholly inside the other go, those th
     CHECK(count(dropped) > 200);
 }
 
-TEST_CASE("a closed mesh faces outwards, turned inside out inwards, around a cavity inwards") {
+TEST_CASE("the solid is behind the normals of a closed mesh and of its cavity, before them where it is inside out") {
     const TriangleMesh solid = l_solid(), cavity = moved(inside_out(make_box({0.2, 0.2, 0.2})), {0.5, 0.5, 0.5});
     CHECK(counts(solid) == std::array{0, 20, 0, 0});
     CHECK(counts(inside_out(solid)) == std::array{0, 0, 20, 0});
-    CHECK(counts(joined(solid, cavity)) == std::array{0, 32, 0, 0});  // the solid of the cavity's walls is behind them
+    CHECK(counts(joined(solid, cavity)) == std::array{0, 32, 0, 0});
 }
 
 namespace {
