@@ -9,7 +9,9 @@
 #include "state/saved_world.h"
 #include "step/sewing.h"
 #include "step/yielding.h"
+#include "support/checked_workers.h"
 #include "support/stage_timer.h"
+#include "support/thread_pool.h"
 
 namespace percale {
 
@@ -20,6 +22,11 @@ Simulation::Simulation(const StepSettings& settings, std::unique_ptr<ContactDete
     world.scene.settings = settings;
     world.scene.detector = std::move(detector);
     world.own_workers = workers == nullptr;
+    if (workers && dynamic_cast<ThreadPool*>(workers.get()) == nullptr) {
+        const auto checked = std::make_shared<CheckedWorkers>(std::move(workers));
+        world.host = checked;
+        workers = checked;
+    }
     world.workers = std::move(workers);
     set_workers(world);
 }
@@ -147,6 +154,7 @@ std::span<const StartMove> Simulation::start_repair() const { return implementat
 
 StepReport Simulation::step() {
     World& world = implementation_->world;
+    if (world.host) world.host->check();
     const auto cpu_seconds = [&] { return thread_cpu_seconds() + (world.workers ? world.workers->other_cpu_seconds() : 0.0); };
     const double start = cpu_seconds();
     prepare();

@@ -49,7 +49,7 @@ constexpr int poncho_samples = 4096, poncho_directions = 64;
 constexpr int poncho_rounds = 10, poncho_last_rounds = 20, poncho_merges = 3;
 constexpr double poncho_merge_share = 0.65;
 
-// ---- meshes/
+// ---- models/, meshes/
 
 /// Height of a triangle over its longest edge, in lengths of that. Flat ones have no area, as check_mesh of the engine has it:
 /// if the two differ, `percale doctor` passes what a run refuses. Slivers are warned of.
@@ -64,6 +64,14 @@ constexpr std::size_t always_allowed_vertices = 100000, most_part_copies = 64;
 
 /// Nodes of a file inside each other. More: the stack overflows.
 constexpr int deepest_node = 1000;
+
+/// What an importer of assimp may use for a file: bytes of memory, and so many for each byte of the file; s of CPU time,
+/// likewise. A Collada file of 100 MB takes 12 bytes for each and 0.1 s for each MB.
+constexpr std::uint64_t import_memory = 512ull << 20, import_memory_per_byte = 64;
+constexpr double import_cpu_s = 10.0, import_cpu_s_per_byte = 2e-6;
+
+/// Morph targets of a mesh that an animation may name: the number of one takes as many weights.
+constexpr unsigned most_morph_targets = 4096;
 
 /// Divisions of shapes that a scene names: a sphere's (4: 5120 triangles), and around the y axis. Cloth of finer mesh sees the
 /// facets; more triangles cost more.

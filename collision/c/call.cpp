@@ -4,6 +4,7 @@
 #include <new>
 
 #include "percale/contact.h"
+#include "percale/workers.h"
 
 namespace percale::c_interface {
 
@@ -36,6 +37,8 @@ percale_status failure(const char* function, ErrorText* of_object) noexcept {
         return told(error.status(), error.what());
     } catch (const StartError& error) {
         return told(PERCALE_START_REFUSED, error.what());
+    } catch (const WorkersError& error) {
+        return told(PERCALE_INTERNAL_ERROR, error.what());
     } catch (const SceneError& error) {
         return told(PERCALE_INVALID_ARGUMENT, error.what());
     } catch (const std::bad_alloc&) {

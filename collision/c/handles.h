@@ -1,17 +1,14 @@
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "c/call.h"
-#include "c/host.h"
 #include "percale/simulation.h"
 
 // What stands behind the opaque types of percale.h.
 
 struct percale_simulation {
     percale::Simulation simulation;
-    std::shared_ptr<percale::c_interface::HostWorkers> workers;  // null: threads of its own
     mutable percale::c_interface::ErrorText error = {};
     std::string explanation = {};          // of the last step
     percale::StartFault start_fault = {};  // of the start that was last refused

@@ -6,8 +6,6 @@
 namespace percale::c_interface {
 namespace {
 
-constexpr int most_host_threads = 64;  // as of StepSettings::threads
-
 struct DetectorWord {
     const char* word;
     std::unique_ptr<ContactDetector> (*make)();  // null: not in this build
@@ -27,21 +25,6 @@ constexpr DetectorWord detector_words[] = {
     {"brute_force", make_brute_force_detector},
 };
 
-/// One call of HostWorkers::run.
-struct WatchedBatch {
-    void (*work)(void* data, int part, int slot);
-    void* data;
-    int parts, threads;
-    std::atomic<int> done = 0;
-};
-
-void do_watched_part(void* data, int part, int slot) {
-    WatchedBatch& batch = *static_cast<WatchedBatch*>(data);
-    if (part < 0 || part >= batch.parts || slot < 0 || slot >= batch.threads) return;
-    batch.work(batch.data, part, slot);
-    batch.done.fetch_add(1, std::memory_order_relaxed);
-}
-
 }  // namespace
 
 std::unique_ptr<ContactDetector> make_detector(const std::string& word) {
@@ -56,24 +39,10 @@ std::unique_ptr<ContactDetector> make_detector(const std::string& word) {
 
 HostWorkers::HostWorkers(const percale_workers& host) : host_(host) {
     if (host.run == nullptr) throw SceneError("workers.run", "is NULL");
-    if (host.threads < 1 || host.threads > most_host_threads) {
-        throw SceneError("workers", "threads = " + std::to_string(host.threads) + " is outside the allowed range 1 ... " +
-                                        std::to_string(most_host_threads));
-    }
 }
 
 void HostWorkers::run(int parts, void (*work)(void* data, int part, int slot), void* data) {
-    WatchedBatch batch{.work = work, .data = data, .parts = parts, .threads = host_.threads};
-    host_.run(host_.host, parts, do_watched_part, &batch);
-    if (batch.done.load(std::memory_order_relaxed) != parts) broken_ = true;
-}
-
-void HostWorkers::check() const {
-    if (!broken_) return;
-    throw CallError(
-        PERCALE_INTERNAL_ERROR,
-        "workers.run has not done each part once, in slots of 0 ... threads - 1: the state cannot be trusted, destroy "
-        "this simulation");
+    host_.run(host_.host, parts, work, data);
 }
 
 }  // namespace percale::c_interface

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "c/handles.h"
+#include "c/host.h"
 #include "c/rest.h"
 #include "c/structs.h"
 
@@ -51,8 +52,8 @@ percale_status percale_create_simulation(const percale_setup* setup, percale_sim
         const percale_setup& from = known(setup, "setup");
         std::shared_ptr<HostWorkers> workers;
         if (from.workers != nullptr) workers = std::make_shared<HostWorkers>(known(from.workers, "workers"));
-        percale::Simulation made(settings_of(from), make_detector(&demanded(from.detector, "detector")), workers);
-        place = std::make_unique<percale_simulation>(percale_simulation{std::move(made), workers}).release();
+        percale::Simulation made(settings_of(from), make_detector(&demanded(from.detector, "detector")), std::move(workers));
+        place = std::make_unique<percale_simulation>(percale_simulation{std::move(made)}).release();
     });
 }
 

@@ -19,17 +19,10 @@ void with_start_fault(percale_simulation& of, Work work) {
     }
 }
 
-void check_workers(const percale_simulation& of) {
-    if (of.workers) of.workers->check();
-}
-
 }  // namespace
 
 percale_status percale_prepare(percale_simulation* simulation) {
-    return call_on(__func__, simulation, [&](percale_simulation& of) {
-        with_start_fault(of, [&] { of.simulation.prepare(); });
-        check_workers(of);
-    });
+    return call_on(__func__, simulation, [&](percale_simulation& of) { with_start_fault(of, [&] { of.simulation.prepare(); }); });
 }
 
 percale_status percale_start_repair(const percale_simulation* simulation, percale_start_move* moves, size_t capacity,
@@ -49,12 +42,10 @@ percale_status percale_last_start_fault(const percale_simulation* simulation, pe
 percale_status percale_step(percale_simulation* simulation, percale_step_report* report) {
     return call_on(__func__, simulation, [&](percale_simulation& of) {
         if (report != nullptr) static_cast<void>(known(report, "report"));
-        check_workers(of);
         percale::StepReport made;
         with_start_fault(of, [&] { made = of.simulation.step(); });
         of.explanation = made.explanation();
         if (report != nullptr) *report = c_report(made);
-        check_workers(of);
         if (!made.ok()) throw CallError(PERCALE_STEP_FAILED, of.explanation);
     });
 }

@@ -7,6 +7,7 @@
 #include "percale/contact_load.h"
 #include "rest_detection.h"
 #include "span/span.h"
+#include "support/checked_workers.h"
 #include "support/thread_pool.h"
 
 namespace percale {
@@ -47,8 +48,9 @@ struct GivenNumbers {
 
 /// Everything one simulation holds. Only what owns it knows it as a whole: the simulation, the step at its top, and saving.
 struct World {
-    std::shared_ptr<Workers> workers;  // null: the caller's thread alone
-    bool own_workers = true;           // made by StepSettings::threads, not given
+    std::shared_ptr<Workers> workers;            // null: the caller's thread alone
+    std::shared_ptr<const CheckedWorkers> host;  // those workers, where they are a host's
+    bool own_workers = true;                     // made by StepSettings::threads, not given
     StepScene scene;
     StepState state;
     RestState rest;

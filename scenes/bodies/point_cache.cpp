@@ -14,7 +14,7 @@
 #include "common/text.h"
 #include "garment/cloth_shape.h"
 #include "meshes/mesh_import.h"
-#include "meshes/scene_import.h"
+#include "models/joined_model.h"
 #include "percale/error.h"
 #include "tolerances.h"
 

@@ -14,10 +14,10 @@ std::string glb_start(std::string json, std::uint64_t buffer_bytes) {
     // "glTF", version 2, bytes of the file; bytes of the JSON and "JSON"; bytes of the buffer and "BIN".
     for (const std::uint64_t word : {std::uint64_t{0x46546C67}, std::uint64_t{2}, total})
         append_little(bytes, static_cast<std::uint32_t>(word));
-    for (const std::uint64_t word : {std::uint64_t{json.size()}, std::uint64_t{0x4E4F534A}})
+    for (const std::uint64_t word : {std::uint64_t{json.size()}, std::uint64_t{glb_json_chunk}})
         append_little(bytes, static_cast<std::uint32_t>(word));
     bytes += json;
-    for (const std::uint64_t word : {buffer_bytes, std::uint64_t{0x004E4942}})
+    for (const std::uint64_t word : {buffer_bytes, std::uint64_t{glb_binary_chunk}})
         append_little(bytes, static_cast<std::uint32_t>(word));
     return bytes;
 }

@@ -9,6 +9,9 @@ namespace percale::scenes {
 enum class GlbComponent : int { unsigned_byte = 5121, unsigned_short = 5123, unsigned_int = 5125, float_number = 5126 };
 enum class GlbTarget : int { none = 0, vertices = 34962, indices = 34963 };
 
+/// Types of chunks: "JSON" and "BIN".
+inline constexpr std::uint32_t glb_json_chunk = 0x4E4F534A, glb_binary_chunk = 0x004E4942;
+
 /// The largest file that a header can tell of, bytes.
 inline constexpr std::uint64_t most_glb_bytes = 0xffffffffu;
 

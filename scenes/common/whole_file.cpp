@@ -152,21 +152,4 @@ void write_durable_file(const std::string& file, std::span<const std::byte> byte
     sync_path(folder.empty() ? "." : folder.string(), file);
 }
 
-std::vector<std::byte> read_bytes(const std::string& file) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (error) throw SceneError(file + ": cannot be read: " + error.message());
-    std::vector<std::byte> bytes(size);
-    std::ifstream in(file, std::ios::binary);
-    if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
-        throw SceneError(file + ": cannot be read: " + std::strerror(errno != 0 ? errno : EIO));
-    }
-    return bytes;
-}
-
-std::string read_text(const std::string& file) {
-    const std::vector<std::byte> bytes = read_bytes(file);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 }  // namespace percale::scenes

@@ -71,9 +71,4 @@ void write_whole_file(const std::string& file, const std::string& text);
 /// Bytes as a whole file that survives a loss of power: an older one of that name is there until this one is on the disk.
 void write_durable_file(const std::string& file, std::span<const std::byte> bytes);
 
-/// Throws SceneError naming the file if it cannot be read.
-std::vector<std::byte> read_bytes(const std::string& file);
-/// The same as a text.
-std::string read_text(const std::string& file);
-
 }  // namespace percale::scenes

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/input_file.h"
 #include "common/whole_file.h"
 #include "percale/error.h"
 #include "report/csv.h"
@@ -29,7 +30,7 @@ std::string table_of(const std::string& run) {
 
 std::vector<StepHashes> read_step_hashes(const std::string& run) {
     const std::string file = table_of(run);
-    std::ifstream in(file);
+    std::ifstream in = open_input(file);
     std::string line;
     if (!in || !std::getline(in, line)) throw SceneError(file + ": cannot be read; `percale run --replay-hash` writes it");
     const std::vector<std::string> header = csv_cells(line);

@@ -19,7 +19,7 @@ void check_is_file(const std::string& file) {
 
 std::vector<Finding> examine_mesh(const std::string& file, MeshRole role, TriangleMesh mesh) {
     ExaminedMesh examined{.role = role, .place = file, .mesh = std::move(mesh)};
-    examined.facts = mesh_facts(examined.mesh);
+    examined.facts = facts_as(role, examined.mesh);
     return role == MeshRole::cloth ? examine_cloth(examined, Fabric{}) : examine_obstacle(examined);
 }
 

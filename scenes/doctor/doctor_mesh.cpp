@@ -1,7 +1,6 @@
 #include "doctor/doctor_mesh.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "common/text.h"
 #include "garment/meeting_warnings.h"
@@ -99,10 +98,16 @@ CrossingSearch search_crossings(const TriangleMesh& mesh) {
                           std::max(least_crossing_tests, crossing_tests_per_triangle * static_cast<long>(mesh.triangles.size())));
 }
 
-JoinedMesh as_given(const TriangleMesh& mesh) {
-    JoinedMesh given{.mesh = mesh, .number = std::vector<int>(mesh.triangles.size())};
-    std::iota(given.number.begin(), given.number.end(), 0);
-    return given;
+/// Without the triangles that a run leaves out of cloth; the others with their numbers.
+JoinedMesh without_repeated(const TriangleMesh& mesh) {
+    const std::vector<int> repeated = repeated_triangles(mesh.triangles);
+    JoinedMesh kept{.mesh = {.vertices = mesh.vertices, .triangles = {}}, .number = {}};
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+        if (std::ranges::binary_search(repeated, t)) continue;
+        kept.mesh.triangles.push_back(mesh.triangles[static_cast<std::size_t>(t)]);
+        kept.number.push_back(t);
+    }
+    return kept;
 }
 
 /// Of the mesh as its role sees it.
@@ -117,12 +122,14 @@ void find_self_crossing(const JoinedMesh& joined, Severity severity, const std::
               "mesh it with triangles of more even size, such as a grid in place of a fan");
 }
 
-/// Faults for which cloth is refused.
+/// What cloth has not got, and faults for which it is refused.
 void find_refused_cloth(const MeshFacts& facts, Findings& found) {
-    found.add_elements(Severity::error, "unused_vertices", facts.unused_vertices,
-                       "vertex|vertices of no triangle, which would have no mass", "delete loose vertices from the mesh");
-    found.add_elements(Severity::error, "repeated_triangles", facts.repeated_triangles,
-                       "triangle|triangles with the corners of an earlier one", "delete the second of each two from the mesh");
+    found.add_elements(
+        Severity::note, "unused_vertices", facts.unused_vertices, "vertex|vertices of no triangle, left out",
+        "nothing has to be done, unless a scene names vertices by number; deleting them from the mesh makes it smaller");
+    found.add_elements(Severity::note, "repeated_triangles", facts.repeated_triangles,
+                       "triangle|triangles with the corners of an earlier one, left out",
+                       "nothing has to be done; deleting them from the mesh makes it smaller");
     found.add_elements(Severity::error, "flat_triangles", facts.flat_triangles, "triangle|triangles without area",
                        "delete them, or merge their corners in the mesh");
     found.add_elements(Severity::error, "crowded_edges", facts.crowded_edges,
@@ -225,6 +232,16 @@ void find_obstacle_surface(const MeshFacts& surface, Findings& found) {
 
 }  // namespace
 
+MeshFacts facts_as(MeshRole role, const TriangleMesh& mesh) {
+    if (role != MeshRole::cloth) return mesh_facts(mesh);
+    const JoinedMesh kept = without_repeated(mesh);
+    MeshFacts facts = mesh_facts(kept.mesh);
+    for (std::vector<int>* list : {&facts.flat_triangles, &facts.slivers})
+        for (int& triangle : *list) triangle = kept.number[static_cast<std::size_t>(triangle)];
+    facts.repeated_triangles = repeated_triangles(mesh.triangles);
+    return facts;
+}
+
 std::vector<Finding> examine_cloth(const ExaminedMesh& cloth, const Fabric& fabric) {
     Findings found(cloth);
     find_size(cloth, found);
@@ -232,7 +249,7 @@ std::vector<Finding> examine_cloth(const ExaminedMesh& cloth, const Fabric& fabr
     if (!cloth.from_file || is_beyond_tests(cloth, found)) return found.take();
     find_refused_cloth(cloth.facts, found);
     find_cloth_shape(cloth, fabric, found);
-    find_self_crossing(as_given(cloth.mesh), Severity::warning,
+    find_self_crossing(without_repeated(cloth.mesh), Severity::warning,
                        fabric.self_contact
                            ? "nothing has to be done if the layers come apart, which percale plan shows; else move "
                              "them apart in the mesh"

@@ -18,6 +18,9 @@ struct ExaminedMesh {
     MeshFacts facts = {};
 };
 
+/// What a mesh is like in its role: as cloth without repeated triangles, which it is not made of. Numbers are those of the mesh.
+MeshFacts facts_as(MeshRole role, const TriangleMesh& mesh);
+
 /// What is wrong with cloth of this mesh and fabric.
 std::vector<Finding> examine_cloth(const ExaminedMesh& cloth, const Fabric& fabric);
 

@@ -18,7 +18,7 @@
 #include "run/run_scene.h"
 #include "run/scene_plan.h"
 #include "run/start_fault.h"
-#include "run/step_count.h"
+#include "run/step_lengths.h"
 #include "tolerances.h"
 
 namespace percale::scenes {
@@ -68,7 +68,7 @@ std::optional<ExaminedMesh> read_mesh(const Spec& spec, MeshRole role, std::vect
                          .fix = fix_of_mesh(spec)});
         return std::nullopt;
     }
-    mesh.facts = mesh_facts(mesh.mesh);
+    mesh.facts = facts_as(role, mesh.mesh);
     return mesh;
 }
 

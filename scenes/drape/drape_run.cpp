@@ -78,6 +78,7 @@ Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function
         }
         watch.look(built.simulation, built.cloths, drape.last, built.scene.step.gravity, sewn);
         drape.rest = watch.figures();
+        drape.unsolved_steps += drape.last.unsolved();
         drape.met = drape.met || drape.last.contacts > 0;
         const bool stopped = stop(built.simulation.time());
         if (drape.end == DrapeEnd::unsewn) return drape;

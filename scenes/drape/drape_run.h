@@ -26,6 +26,7 @@ struct Drape {
     StepReport last = {};
     std::string failure = {};
     RestFigures rest = {};
+    int unsolved_steps = 0;           // of RunTotals
     bool met = false;                 // whether a garment ever had contact with the body
     std::vector<double> height = {};  // m: of each garment in the mean, when it was sewn and got its weight
 };

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "common/length_unit.h"
 #include "common/text.h"
 #include "common/whole_file.h"
 #include "doctor/doctor_scene.h"
@@ -23,8 +24,6 @@ constexpr double sewing_stiffness = 3000.0;  // N/m
 constexpr double sewing_damping = 0.02;  // s
 /// A preset's moduli hold on patterns; on meshes that do not say where warp is they are made isotropic, which is warned of.
 constexpr const char *mesh_fabric = "mesh", *sewn_mesh_fabric = "sewn mesh", *pattern_fabric = "pattern";
-
-const std::map<std::string, double> metres = {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}};
 
 bool is_pattern(const std::string& garment) {
     const std::string extension = extension_of(garment);
@@ -117,14 +116,14 @@ private:
 
     /// m. A `body` of 0 m says nothing of the size.
     double unit_of(const std::string& file, const std::string& said, const char* option, double extent, double body) {
-        if (!said.empty()) return metres.at(said);
+        if (!said.empty()) return metres_of_unit(said).value();
         const std::string unit = guessed_unit(extent, body);
         if (unit != "m")
             note(file + " is " + short_number(extent) + " units large" +
                  (body > 0.0 ? " and the body " + short_number(body) + " m" : "") + ", so its unit is taken as " + unit +
-                 ", which makes it " + short_number(metres.at(unit) * extent) + " m (" + option +
+                 ", which makes it " + short_number(*metres_of_unit(unit) * extent) + " m (" + option +
                  " m, if it is m); what is written is in m");
-        return metres.at(unit);
+        return *metres_of_unit(unit);
     }
 
     void add_garment(const std::string& file) {
@@ -228,7 +227,8 @@ private:
 
 void check_drape(const DrapeOptions& options) {
     for (const auto& [option, unit] : {std::pair("--garment-unit", options.garment_unit), {"--body-unit", options.body_unit}}) {
-        if (!unit.empty() && !metres.contains(unit)) throw SceneError(std::string(option) + " " + unit + ": must be mm, cm or m");
+        if (!unit.empty() && !metres_of_unit(unit))
+            throw SceneError(std::string(option) + " " + unit + ": must be mm, cm, dm, m or inch");
     }
     if (!options.up.empty() && options.up != "y" && options.up != "z")
         throw SceneError("--up " + options.up + ": must be y or z");
@@ -263,7 +263,9 @@ std::string guessed_unit(double extent, double body) {
         return extent >= centimetre_extent ? "cm" : "m";
     }
     if (extent < least_huge_garment || extent < huge_garment_ratio * body) return "m";
-    const auto misfit = [&](const char* unit) { return std::abs(std::log(metres.at(unit) * extent / (garment_ratio * body))); };
+    const auto misfit = [&](const char* unit) {
+        return std::abs(std::log(*metres_of_unit(unit) * extent / (garment_ratio * body)));
+    };
     return misfit("cm") <= misfit("mm") ? "cm" : "mm";
 }
 

@@ -14,7 +14,7 @@ namespace percale::scenes {
 struct DrapeOptions {
     std::vector<std::string> files;                  // garments from the inside out, then the body
     std::vector<std::string> outs;                   // one a garment
-    std::string garment_unit, body_unit;             // mm, cm or m; "": guessed by the sizes (guessed_unit)
+    std::string garment_unit, body_unit;             // mm, cm, dm, m, inch; "": guessed by the sizes (guessed_unit)
     std::string up;                                  // "y" or "z" of the meshes; "": guessed by the body's shape (stands_along_z)
     std::string garment_part, body_part;             // objects or groups of the meshes, taken alone; "": all
     double scale = 1.0;                              // of garments

@@ -7,6 +7,7 @@
 #include "meshes/obj_file.h"
 #include "percale/certify.h"
 #include "run/frame_fields.h"
+#include "run/run_verdict.h"
 #include "tolerances.h"
 
 namespace percale::scenes {
@@ -28,7 +29,7 @@ std::string restless_text(const Drape& drape) {
 std::string fault_of(const Drape& drape, const FrameCheck& check, const WidestGap& gap, bool comes_apart) {
     if (!check.clean()) return unclean_text(check);
     if (gap.width > widest_sewn_gap) return unsewn_text(gap);
-    if (drape.end == DrapeEnd::settled) return {};
+    if (drape.end == DrapeEnd::settled) return unsolved_text(drape.unsolved_steps);
     const bool away = drape.end == DrapeEnd::time_up && std::isinf(check.smallest_distance);
     if (drape.end == DrapeEnd::fell || away) {
         return std::string(drape.met ? "fell off the body" : "never met the body") +

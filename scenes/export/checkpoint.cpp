@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/input_file.h"
 #include "common/scene_file_error.h"
 #include "common/whole_file.h"
 #include "export/run_settings.h"

@@ -7,9 +7,9 @@
 #include <system_error>
 
 #include "bodies/mesh_sequence.h"
+#include "common/input_file.h"
 #include "common/own_program.h"
 #include "common/text.h"
-#include "common/whole_file.h"
 #include "export/run_folder.h"
 #include "export/run_settings.h"
 #include "format/expectations.h"
@@ -100,7 +100,7 @@ std::string changed_beside_settings(const ordered_json& now, const ordered_json&
 }  // namespace
 
 std::optional<EndedRun> ended_run(const std::string& folder) {
-    std::ifstream in(folder + "/report.json");
+    std::ifstream in = open_input(folder + "/report.json");
     if (!in) return std::nullopt;
     try {
         const auto json = nlohmann::json::parse(in);
@@ -182,7 +182,7 @@ void KeptRun::look(const Scene& scene) {
 }
 
 std::string KeptRun::state_hash() const {
-    std::ifstream in(folder_ + "/steps.csv");
+    std::ifstream in = open_input(folder_ + "/steps.csv");
     std::string header, line, last;
     std::getline(in, header);
     while (std::getline(in, line)) last = line;

@@ -17,7 +17,7 @@ struct EndedRun {
         bool passed = false;
         std::string text;  // "largest_strain 0.12, expected < 0.3: passed"
     };
-    std::string status, reason;  // "finished", or "failed" and why
+    std::string status, reason;  // of RunVerdict
     int steps = 0;
     double simulated_s = 0.0, wall_s = 0.0;
     std::vector<Expected> expectations;  // in the order of the scene

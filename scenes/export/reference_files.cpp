@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/input_file.h"
 #include "common/scene_file_error.h"
-#include "common/whole_file.h"
 #include "format/expectations.h"
 #include "garment/cloth_shape.h"
 #include "meshes/mesh_import.h"

@@ -104,6 +104,7 @@ RunFolder::~RunFolder() {
 
 void RunFolder::begin(const std::string& origin) {
     made_.emplace(folder_);
+    lock_.emplace(folder_);
     remove_earlier_run(folder_, writer_);
     remove_killed_run(folder_, writer_);
     remove_file(fs::path(folder_) / checkpoint_name);
@@ -114,6 +115,7 @@ void RunFolder::begin(const std::string& origin) {
 void RunFolder::begin_from(const FolderState& state, const std::string& other, const std::string& origin) {
     const std::vector<std::string> files = files_of(state, other, writer_);
     made_.emplace(folder_);
+    lock_.emplace(folder_);
     std::error_code error;
     const bool here = fs::equivalent(folder_, other, error);
     steps_.emplace(folder_ + "/steps.csv", whole_or_part(other + "/steps.csv"), state.step_bytes);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/folder_lock.h"
 #include "common/whole_file.h"
 #include "export/frames.h"
 #include "export/run_report.h"
@@ -42,8 +43,9 @@ public:
     RunFolder(const RunFolder&) = delete;
     RunFolder& operator=(const RunFolder&) = delete;
 
-    /// Makes the folder, or takes what an earlier run's report lists out of it (report.json first: until `finish` there is
-    /// none), and its page. `origin`: of a run that is kept (origin_name), else "". Throws SceneError if that is not possible.
+    /// Makes the folder, keeps it from other runs as long as this lives (FolderLock), and takes what an earlier run's report
+    /// lists out of it (report.json first: until `finish` there is none), and its page. `origin`: of a run that is kept
+    /// (origin_name), else "". Throws SceneError if that is not possible.
     void begin(const std::string& origin = "");
     /// Goes on where another run left its folder, which may be this one; frames and steps are copied from others. Throws
     /// SceneError if what belongs to the state is not there.
@@ -60,6 +62,7 @@ private:
     std::string folder_;
     bool with_state_hash_;
     std::optional<OutputFolder> made_;
+    std::optional<FolderLock> lock_;
     FrameWriter writer_;
     std::optional<StepTable> steps_;
     std::vector<FrameRecord> frames_;

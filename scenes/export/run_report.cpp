@@ -7,11 +7,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/input_file.h"
 #include "common/text.h"
 #include "export/run_settings.h"
 #include "percale/cleaning.h"
 #include "percale/error.h"
 #include "run/frame_fields.h"
+#include "run/run_verdict.h"
 
 namespace percale::scenes {
 
@@ -229,19 +231,15 @@ std::vector<std::string> end_warnings(const BuiltScene& built, const RunResult& 
     if (result.status == RunStatus::finished && on_body && result.totals.contacts_most > 0)
         for (const std::string& text : tight_warnings(built)) warnings.push_back(text + " (pose.scale makes it larger)");
     for (const std::string& text : seam_warnings(built)) warnings.push_back(text);
-    if (m.intersections > 0) warnings.push_back(counted(m.intersections, "pair") + " of triangles cross, summed over the frames");
-    const int unsolved = result.totals.unsolved_steps;
-    if (unsolved > 0)
-        warnings.push_back(counted(unsolved, "step") + (unsolved == 1 ? " was" : " were") +
-                           " taken unsolved (not_converged or tolerance_missed)");
     return warnings;
 }
 
 std::string run_report_text(const BuiltScene& built, const RunResult& result, std::span<const FrameRecord> frames,
                             std::span<const ExpectationResult> expectations) {
     ordered_json json;
-    json["status"] = status_word(result.status);
-    if (!result.reason.empty()) json["reason"] = result.reason;
+    const RunVerdict verdict = verdict_of_run(result);
+    json["status"] = verdict.word;
+    if (!verdict.well()) json["reason"] = verdict.reason;
     if (!result.resumed_at.empty()) json["resumed_at_s"] = result.resumed_at;
     json["title"] = built.scene.title;
     json["scene"] = built.scene.file;
@@ -304,7 +302,7 @@ ClothStitches seam_record(const ordered_json& json) {
 template <class Read>
 auto read_report(const std::string& folder, Read read) {
     const std::string file = folder + "/report.json";
-    std::ifstream in(file);
+    std::ifstream in = open_input(file);
     if (!in) throw SceneError(file + ": cannot be read; a folder written by `percale run` holds it");
     try {
         return read(ordered_json::parse(in));

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <initializer_list>
 
+#include "common/length_unit.h"
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "format/motion_keys.h"
@@ -37,8 +38,6 @@ struct SelectionNode {
     }
     TomlNode operator()(const VertexBoundary&) const { return value_node(std::string("boundary")); }
 };
-
-constexpr std::string_view unit_words[] = {"mm", "cm", "m"};
 
 // Names become file names and parts of dotted keys.
 bool fits_name(unsigned char letter) { return std::isalnum(letter) || letter == '_' || letter == '-' || letter >= 0x80; }
@@ -75,7 +74,8 @@ Field<Spec> unit_field() {
                              .sentence = "What one unit of the mesh file is.",
                              .needs = "mesh",
                              .needs_why = "unit is that of a mesh file"},
-                            &Spec::unit, unit_words, std::vector{0.001, 0.01, 1.0});
+                            &Spec::unit, length_unit_words,
+                            std::vector<double>(length_unit_metres.begin(), length_unit_metres.end()));
 }
 
 template <class Spec>

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/input_file.h"
 #include "common/nearest_name.h"
 #include "common/scene_file_error.h"
 #include "format/overrides.h"
@@ -98,12 +99,7 @@ std::string file_text(const std::string& file) {
     if (std::filesystem::path(file).extension() == ".json") throw SceneError(file + not_a_scene);
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) throw SceneError(file + ": is a folder, not a scene file");
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw SceneError(file + ": cannot be read: " + std::strerror(errno));
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (in.bad()) throw SceneError(file + ": cannot be read: " + std::strerror(errno));
-    return text.str();
+    return read_text(file);
 }
 
 /// The scene of a document; with kept faults, what could be read of it until there were some.

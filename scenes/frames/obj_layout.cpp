@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "common/whole_file.h"
+#include "common/input_file.h"
 #include "meshes/obj_file.h"
 #include "meshes/text_scan.h"
 

@@ -4,8 +4,9 @@
 #include <filesystem>
 
 #include "common/text.h"
+#include "garment/cloth_leftovers.h"
 #include "meshes/mesh_import.h"
-#include "meshes/polygon.h"
+#include "models/polygon.h"
 #include "pattern/pattern_file.h"
 #include "pattern/pattern_parts.h"
 #include "percale/error.h"
@@ -60,6 +61,22 @@ void warn_of_scale(const ClothSpec& cloth, const RestShape& shape, const Triangl
                        (uv ? "; with uv_scale = " + short_number(cloth.uv_scale / ratio) + " they would be as long" : ""));
 }
 
+/// A body's are left out, too (Cleaning).
+void leave_out(const Scene& scene, const ClothSpec& cloth, ClothShape& shape, std::vector<std::string>& warnings) {
+    const Leftovers leftovers = leftovers_of(shape.start);
+    if (!leftovers.any()) return;
+    const std::size_t kept = shape.start.vertices.size() - leftovers.vertices.size();
+    const bool renumbers = !leftovers.vertices.empty() && static_cast<std::size_t>(leftovers.vertices.front()) < kept;
+    const std::string use = renumbers ? numbered_use(scene, cloth) : "";
+    if (!use.empty())
+        throw SceneError("cloth '" + cloth.name + "'", "its mesh has " + leftovers.text() + ", the first is vertex " +
+                                                           std::to_string(leftovers.vertices.front()) +
+                                                           "; left out they would change the numbers of vertices, which " + use +
+                                                           " names: delete them from the mesh");
+    warnings.push_back("cloth '" + cloth.name + "': " + leftovers.text() + " of its mesh are left out");
+    drop_leftovers(leftovers, shape.start, shape.rest);
+}
+
 }  // namespace
 
 std::string path_beside(const Scene& scene, const std::string& path) {
@@ -107,8 +124,9 @@ ClothShape cloth_shape(const Scene& scene, const ClothSpec& cloth, std::vector<s
     const std::string shown = "cloth '" + cloth.name + "'";
     if (cloth.pattern.empty()) {
         shape.start = start_mesh(scene, cloth, &warnings);
-        check_mesh(shape.start, shown, true);
         shape.rest = rest_shape(scene, cloth, shape.start, warnings);
+        if (!cloth.grid) leave_out(scene, cloth, shape, warnings);
+        check_mesh(shape.start, shown, true);
         return shape;
     }
     PatternMesh garment = pattern_mesh(scene, cloth);

@@ -33,22 +33,6 @@ double relative_height(const TriangleMesh& mesh, const Triangle& t) {
     return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
 }
 
-/// Numbers of the triangles that have the corners of an earlier one, ascending.
-std::vector<int> repeated(const std::vector<Triangle>& triangles) {
-    std::vector<std::pair<Triangle, int>> sorted(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        Triangle corners = triangles[i];
-        std::sort(corners.begin(), corners.end());
-        sorted[i] = {corners, static_cast<int>(i)};
-    }
-    std::sort(sorted.begin(), sorted.end());
-    std::vector<int> again;
-    for (std::size_t i = 1; i < sorted.size(); ++i)
-        if (sorted[i].first == sorted[i - 1].first) again.push_back(sorted[i].second);
-    std::sort(again.begin(), again.end());
-    return again;
-}
-
 /// An edge as one triangle has it.
 struct Side {
     VertexPair ends;  // sorted
@@ -194,29 +178,52 @@ void add_parts(const TriangleMesh& mesh, MeshFacts& facts) {
 }
 
 void add_vertices(const TriangleMesh& mesh, MeshFacts& facts) {
-    std::vector<bool> used(mesh.vertices.size(), false);
     Part all;
     for (const Triangle& t : mesh.triangles) {
         for (const int v : t) {
-            used[v] = true;
             all.lowest = all.lowest.cwiseMin(mesh.vertices[v]);
             all.highest = all.highest.cwiseMax(mesh.vertices[v]);
         }
     }
     if (!mesh.triangles.empty()) facts.lowest = all.lowest, facts.highest = all.highest;
     const std::vector<int> first = first_at_place(mesh.vertices);
-    for (int v = 0; v < static_cast<int>(used.size()); ++v) {
-        if (!used[v]) facts.unused_vertices.push_back(v);
+    for (int v = 0; v < static_cast<int>(first.size()); ++v) {
         if (first[v] != v) facts.repeated_places.push_back(v);
     }
 }
 
 }  // namespace
 
+std::vector<int> unused_vertices(const TriangleMesh& mesh) {
+    std::vector<bool> used(mesh.vertices.size(), false);
+    for (const Triangle& t : mesh.triangles)
+        for (const int v : t) used[v] = true;
+    std::vector<int> unused;
+    for (int v = 0; v < static_cast<int>(used.size()); ++v)
+        if (!used[v]) unused.push_back(v);
+    return unused;
+}
+
+std::vector<int> repeated_triangles(const std::vector<Triangle>& triangles) {
+    std::vector<std::pair<Triangle, int>> sorted(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        Triangle corners = triangles[i];
+        std::sort(corners.begin(), corners.end());
+        sorted[i] = {corners, static_cast<int>(i)};
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<int> again;
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (sorted[i].first == sorted[i - 1].first) again.push_back(sorted[i].second);
+    std::sort(again.begin(), again.end());
+    return again;
+}
+
 MeshFacts mesh_facts(const TriangleMesh& mesh) {
     MeshFacts facts;
     add_vertices(mesh, facts);
-    facts.repeated_triangles = repeated(mesh.triangles);
+    facts.unused_vertices = unused_vertices(mesh);
+    facts.repeated_triangles = repeated_triangles(mesh.triangles);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const double height = relative_height(mesh, mesh.triangles[i]);
         if (!(height > flat_height))
@@ -286,7 +293,7 @@ JoinedMesh joined_by_place(const TriangleMesh& mesh) {
     const std::vector<int> first = first_at_place(mesh.vertices);
     std::vector<Triangle> joined;
     for (const Triangle& t : mesh.triangles) joined.push_back({first[t[0]], first[t[1]], first[t[2]]});
-    const std::vector<int> again = repeated(joined);
+    const std::vector<int> again = repeated_triangles(joined);
     JoinedMesh result;
     result.mesh.vertices = mesh.vertices;
     for (std::size_t i = 0; i < joined.size(); ++i) {

@@ -38,6 +38,10 @@ struct MeshFacts {
 /// Of a mesh with finite coordinates and indices in range.
 MeshFacts mesh_facts(const TriangleMesh& mesh);
 
+/// Of its lists, alone.
+std::vector<int> unused_vertices(const TriangleMesh& mesh);
+std::vector<int> repeated_triangles(const std::vector<Triangle>& triangles);
+
 /// Whether every edge has two triangles, wound alike: MeshFacts::watertight() without the rest.
 bool is_watertight(const TriangleMesh& mesh);
 

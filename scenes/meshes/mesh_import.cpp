@@ -8,12 +8,13 @@
 #include <iomanip>
 #include <optional>
 
+#include "common/input_file.h"
 #include "common/text.h"
 #include "meshes/obj_file.h"
 #include "meshes/off_file.h"
 #include "meshes/ply_file.h"
-#include "meshes/scene_import.h"
 #include "meshes/stl_header.h"
+#include "models/joined_model.h"
 #include "percale/error.h"
 #include "tolerances.h"
 
@@ -58,13 +59,17 @@ void check_mesh_file(const std::string& file) {
 
 template <class Read>
 auto read_with(Read read, const std::string& file) {
-    errno = 0;
-    std::ifstream in(file, std::ios::binary);
+    std::ifstream in = open_input(file);
     if (!in) throw SceneError(file, std::string("cannot be read: ") + std::strerror(errno));
+    std::string start(4, '\0');
+    in.read(start.data(), static_cast<std::streamsize>(start.size()));
+    check_encoding(start, file);
+    in.clear();
+    in.seekg(start.starts_with("\xEF\xBB\xBF") ? 3 : 0);  // UTF-8 says what it is
     return read(in, file);
 }
 
-/// By our own reader; nothing where assimp reads the format.
+/// By our own reader; nothing for the format of a model.
 std::optional<TriangleMesh> read_own(const std::string& format, const std::string& file, const std::string& part) {
     if (format == ".obj") {
         return read_with([&](std::istream& in, const std::string& name) { return read_obj(in, name, part); }, file);
@@ -76,17 +81,18 @@ std::optional<TriangleMesh> read_own(const std::string& format, const std::strin
     return std::nullopt;
 }
 
-TriangleMesh read_with_assimp(const std::string& file, std::vector<std::string>* warnings, const std::string& part) {
-    ImportedScene imported = import_scene(file, part);
-    weld(imported);
-    const std::vector<std::string> clips = clip_names(imported);
+/// Of a model's format.
+TriangleMesh read_model(const std::string& file, std::vector<std::string>* warnings, const std::string& part) {
+    JoinedModel model = read_joined_model(file, part);
+    weld(model);
+    const std::vector<std::string> clips = clip_names(model.model);
     if (!clips.empty() && warnings != nullptr) {
         warnings->push_back(file +
                             ": it is animated, which is left out: the mesh is as it stands in the file; an obstacle's clip "
                             "plays one of: " +
                             joined(clips));
     }
-    return std::move(imported.mesh);
+    return std::move(model.mesh);
 }
 
 }  // namespace
@@ -106,7 +112,7 @@ TriangleMesh import_mesh(const std::string& file, double unit, std::vector<std::
     check_format(file, format);
     if (format == ".stl") check_stl_header(file);
     std::optional<TriangleMesh> own = read_own(format, file, part);
-    TriangleMesh mesh = own ? std::move(*own) : read_with_assimp(file, warnings, part);
+    TriangleMesh mesh = own ? std::move(*own) : read_model(file, warnings, part);
     if (mesh.triangles.empty()) throw SceneError(file, "no triangles");
     for (std::size_t k = 0; k < mesh.vertices.size(); ++k) check_finite(mesh.vertices[k] *= unit, k, file);
     return mesh;

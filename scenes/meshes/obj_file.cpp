@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "common/whole_file.h"
-#include "meshes/mesh_part.h"
-#include "meshes/polygon.h"
 #include "meshes/text_scan.h"
+#include "models/mesh_part.h"
+#include "models/polygon.h"
 
 namespace percale::scenes {
 

@@ -3,8 +3,8 @@
 #include <istream>
 #include <iterator>
 
-#include "meshes/polygon.h"
 #include "meshes/text_scan.h"
+#include "models/polygon.h"
 
 namespace percale::scenes {
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "meshes/polygon.h"
 #include "meshes/text_scan.h"
+#include "models/polygon.h"
 
 namespace percale::scenes {
 
@@ -75,8 +75,11 @@ PlyType whole_type_of(std::string_view word, const TextPlace& place, const char*
     return type;
 }
 
+/// Whether its elements are lists of corners: faces, or strips of triangles, which scanners write.
+bool has_corners(std::string_view element) { return element == "face" || element == "tristrips"; }
+
 int role_of(std::string_view element, std::string_view property) {
-    if (element == "face") return property == "vertex_indices" || property == "vertex_index" ? 0 : no_role;
+    if (has_corners(element)) return property == "vertex_indices" || property == "vertex_index" ? 0 : no_role;
     if (element != "vertex" || property.size() != 1 || property[0] < 'x' || property[0] > 'z') return no_role;
     return property[0] - 'x';
 }
@@ -109,7 +112,7 @@ void read_property(std::string_view line, const TextPlace& place, PlyHeader& hea
     if (property.role != no_role) {
         if (element.has_role[property.role]) fail_at_line(place, "a second property " + shown(name));
         element.has_role[property.role] = true;
-        const bool is_face = element.name == "face";
+        const bool is_face = has_corners(element.name);
         if (is_face != property.is_list())
             fail_at_line(place, "property " + shown(name) + (is_face ? " must be a list" : " must be a number, not a list"));
         if (is_face) whole_type_of(type, place, "a vertex index");
@@ -143,7 +146,7 @@ void read_element(std::string_view line, const TextPlace& place, PlyHeader& head
     if (count < 0 || count > most)
         fail_at_line(place, "element count " + std::to_string(count) + " is out of range 0 ... " + std::to_string(most));
     check_end(line, place);
-    const bool is_known = name == "vertex" || name == "face";
+    const bool is_known = name == "vertex" || has_corners(name);
     if (is_known && find_element(header, name) != nullptr) fail_at_line(place, "a second element " + shown(name));
     header.elements.push_back({name, place.line, static_cast<std::size_t>(count)});
 }
@@ -156,10 +159,18 @@ void check_needed(const PlyHeader& header, const std::string& name) {
         if (!vertex->has_role[axis])
             fail_at_line({name, vertex->line}, std::string("element \"vertex\" has no property \"") + "xyz"[axis] + "\"");
     if (vertex->count == 0) fail_at_line({name, vertex->line}, "no vertices: their count is 0");
-    if (face == nullptr) throw SceneError(name, "no triangles: the header has no element \"face\"");
-    if (!face->has_role[0])
-        fail_at_line({name, face->line}, "element \"face\" has no list \"vertex_indices\" or \"vertex_index\"");
-    if (face->count == 0) fail_at_line({name, face->line}, "no triangles: the count of faces is 0");
+    const PlyElement* strips = find_element(header, "tristrips");
+    if (face == nullptr && strips == nullptr)
+        throw SceneError(name, "no triangles: the header has no element \"face\" or \"tristrips\"");
+    std::size_t lists = 0;
+    for (const PlyElement* element : {face, strips}) {
+        if (element == nullptr) continue;
+        lists += element->count;
+        if (!element->has_role[0])
+            fail_at_line({name, element->line},
+                         "element " + shown(element->name) + " has no list \"vertex_indices\" or \"vertex_index\"");
+    }
+    if (lists == 0) fail_at_line({name, (face != nullptr ? face : strips)->line}, "no triangles: the count of faces is 0");
 }
 
 /// The least that an element takes: in text a digit and a blank for each number, in binary an empty list its length alone.
@@ -348,6 +359,26 @@ void read_corners(PlyBody& body, const PlyProperty& list, std::size_t vertex_cou
     polygons.end_polygon();
 }
 
+/// Triangles of each three indices that follow each other, turned the same way; -1 begins another strip. Those with a vertex
+/// twice, by which strips are joined, are left out.
+void read_strip(PlyBody& body, const PlyProperty& list, std::size_t vertex_count, PolygonList& polygons) {
+    std::array<long long, 3> last = {-1, -1, -1};
+    long long in_strip = 0;
+    for (long long left = body.whole(list.length, "number of indices"); left > 0; --left) {
+        const long long index = body.whole(list.item, "vertex index");
+        in_strip = index == -1 ? 0 : in_strip + 1;
+        if (index == -1) continue;
+        if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
+            body.fail("vertex index " + std::to_string(index) + " is out of range 0 ... " + std::to_string(vertex_count - 1) +
+                      ", and not -1");
+        last = {last[1], last[2], index};
+        if (in_strip < 3 || last[0] == last[1] || last[1] == last[2] || last[2] == last[0]) continue;
+        const int turned = in_strip % 2 == 0 ? 1 : 0;
+        for (const int corner : {turned, 1 - turned, 2}) polygons.add_corner(static_cast<int>(last[corner]));
+        polygons.end_polygon();
+    }
+}
+
 /// What the elements of a file hold, faces perhaps before their vertices.
 struct PlyContent {
     std::vector<Vec3> vertices;
@@ -362,7 +393,9 @@ void read_elements(PlyBody& body, const PlyElement& element, std::size_t vertex_
             read.vertices.push_back(read_vertex(body, element, read.fields));
         } else {
             for (const PlyProperty& property : element.properties)
-                property.role == no_role ? body.skip(property) : read_corners(body, property, vertex_count, read.faces);
+                property.role == no_role      ? body.skip(property)
+                : element.name == "tristrips" ? read_strip(body, property, vertex_count, read.faces)
+                                              : read_corners(body, property, vertex_count, read.faces);
         }
         body.end();
     }
@@ -380,7 +413,7 @@ TriangleMesh read_ply(std::istream& in, const std::string& name, std::vector<Mes
     read.fields = fields;
     if (fields != nullptr) name_fields(*find_element(header, "vertex"), *fields);
     read.vertices.reserve(vertex_count);
-    read.faces.reserve(find_element(header, "face")->count);
+    if (const PlyElement* face = find_element(header, "face")) read.faces.reserve(face->count);
     PlyBody body(text, header.format);
     for (const PlyElement& element : header.elements)
         if (!element.properties.empty()) read_elements(body, element, vertex_count, read);

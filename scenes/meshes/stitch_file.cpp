@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "common/input_file.h"
 #include "meshes/text_scan.h"
 #include "percale/error.h"
 
@@ -38,10 +39,7 @@ Stitch read_stitch(std::string_view line, const TextPlace& place) {
 /// `read` says what a line holds, if it is a stitch.
 template <class Read>
 std::vector<Stitch> read_lines(const std::string& file, Read read) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw SceneError(file, "cannot be read");
-    const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (in.bad()) throw SceneError(file, "cannot be read");
+    const std::string content = read_text(file);
     std::vector<Stitch> stitches;
     std::size_t number = 0;
     for (std::string_view text = content; !text.empty();) {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "common/input_file.h"
 #include "percale/error.h"
 #include "report/csv.h"
 
@@ -35,7 +36,7 @@ std::size_t place_of_column(const std::vector<std::string>& header, const std::s
 
 StepTableText read_step_table(const std::string& file) {
     StepTableText table{.places = {}, .lines = {}, .file = file};
-    std::ifstream in(file);
+    std::ifstream in = open_input(file);
     std::string line;
     if (!in || !std::getline(in, line)) throw SceneError(file + ": cannot be read; a folder written by `percale run` holds it");
     const std::vector<std::string> header = csv_cells(line);

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "meshes/polygon.h"
+#include "models/polygon.h"
 
 namespace percale::scenes {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/source_place.h"
-#include "meshes/polygon.h"
+#include "models/polygon.h"
 #include "percale/mesh.h"
 
 // A sewing pattern as plain data: flat panels, where they are placed, and which of their edges are sewn together. Lengths in m.

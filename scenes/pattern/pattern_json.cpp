@@ -1,9 +1,11 @@
 #include "pattern/pattern_json.h"
 
 #include <cmath>
-#include <fstream>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "common/input_file.h"
 #include "common/nearest_name.h"
 #include "common/text.h"
 #include "pattern/pattern_parts.h"
@@ -25,6 +27,18 @@ std::array<double, 3> read_three(const Json& panel, const char* key) {
     if (list.size() != 3) throw SceneError(std::string(key) + " has " + std::to_string(list.size()) + " numbers, not 3");
     return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
 }
+
+/// A whole number that an int holds: get<int>() would cut off fractions and higher bits.
+int read_index(const Json& json, const char* what) {
+    const bool whole =
+        json.is_number_integer() && (json.is_number_unsigned() ? json.get<std::uint64_t>() <= std::numeric_limits<int>::max()
+                                                               : json.get<std::int64_t>() >= std::numeric_limits<int>::min());
+    if (!whole) throw SceneError(std::string(what) + " is " + json.dump() + ", no whole number of 32 bits");
+    return json.get<int>();
+}
+
+/// GarmentCode writes true or 1.
+bool read_flag(const Json& json) { return json.is_boolean() ? json.get<bool>() : read_index(json, "a flag of a circle") != 0; }
 
 class JsonPattern {
 public:
@@ -68,8 +82,8 @@ private:
 
     PanelEdge read_edge(const Json& json, const Panel& panel) const {
         PanelEdge edge{.control = {}, .label = json.value("label", "")};
-        edge.from = json.at("endpoints").at(0).get<int>();
-        edge.to = json.at("endpoints").at(1).get<int>();
+        edge.from = read_index(json.at("endpoints").at(0), "an end of an edge");
+        edge.to = read_index(json.at("endpoints").at(1), "an end of an edge");
         const int corners = static_cast<int>(panel.corners.size());
         for (const int corner : {edge.from, edge.to}) {
             if (corner >= 0 && corner < corners) continue;
@@ -108,7 +122,7 @@ private:
 
     Point2 circle_middle(const Json& params, const Point2& a, const Point2& b) const {
         const double radius = unit_ * params.at(0).get<double>(), half = 0.5 * (b - a).norm();
-        const bool large = params.at(1).get<int>() != 0, right = params.at(2).get<int>() != 0;
+        const bool large = read_flag(params.at(1)), right = read_flag(params.at(2));
         // A radius that rounding has left below half of the chord is a half circle, as drawing programs take it.
         const double to_centre = std::sqrt(std::max(0.0, radius * radius - half * half));
         const double bulge = std::max(radius, half) + (large ? to_centre : -to_centre);
@@ -121,7 +135,7 @@ private:
         for (const Panel& panel : pattern_.panels) names.push_back(panel.name);
         const auto found = std::find(names.begin(), names.end(), name);
         if (found == names.end()) throw SceneError("no panel '" + name + "'" + suggestion(name, names));
-        const int panel = static_cast<int>(found - names.begin()), edge = json.at("edge").get<int>();
+        const int panel = static_cast<int>(found - names.begin()), edge = read_index(json.at("edge"), "edge");
         const int edges = static_cast<int>(pattern_.panels[panel].edges.size());
         if (edge >= 0 && edge < edges) return {panel, edge, false};
         throw SceneError("panel '" + name + "' has no edge " + std::to_string(edge) + ", edges are 0 ... " +
@@ -148,10 +162,9 @@ private:
 }  // namespace
 
 Pattern read_pattern_json(const std::string& file) {
-    std::ifstream in(file);
-    if (!in) throw SceneError(file, "cannot be read");
+    const std::string text = read_text(file);
     try {
-        const Json json = Json::parse(in);
+        const Json json = Json::parse(text);
         return JsonPattern(file, json).read();
     } catch (const Json::parse_error& error) {
         throw SceneError(file, "is no JSON from its byte " + std::to_string(error.byte) + " on");

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "common/input_file.h"
+#include "common/length_unit.h"
 #include "common/nearest_name.h"
 #include "common/scene_file_error.h"
 #include "common/text.h"
@@ -82,12 +84,12 @@ public:
 
 private:
     void read_unit() {
-        const std::vector<std::string> words = {"mm", "cm", "m"};
         const TomlNode& node = needed(document_, "a pattern", "unit");
         const std::string word = text_in(node, "unit");
-        const auto found = std::find(words.begin(), words.end(), word);
-        if (found == words.end()) fail_at(node.place, "unit has no choice '" + word + "'" + suggestion(word, words));
-        unit_ = std::array{0.001, 0.01, 1.0}[found - words.begin()];
+        const std::optional<double> metres = metres_of_unit(word);
+        const std::vector<std::string> words(length_unit_words.begin(), length_unit_words.end());
+        if (!metres) fail_at(node.place, "unit has no choice '" + word + "'" + suggestion(word, words));
+        unit_ = *metres;
     }
 
     Point2 point_in(const TomlNode& node, const std::string& shown) const {
@@ -218,10 +220,6 @@ Pattern parse_pattern_toml(const std::string& text, const std::string& name) {
     return TomlPattern(document, name).read();
 }
 
-Pattern read_pattern_toml(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw SceneError(file, "cannot be read");
-    return parse_pattern_toml({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}, file);
-}
+Pattern read_pattern_toml(const std::string& file) { return parse_pattern_toml(read_text(file), file); }
 
 }  // namespace percale::scenes

@@ -20,7 +20,7 @@
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
-#include "run/run_scene.h"
+#include "run/run_verdict.h"
 #include "run/start_fault.h"
 
 namespace percale::program {
@@ -62,9 +62,9 @@ std::string rounded_text(double value) {
     return text;
 }
 
-void judge_outcome(Outcome& outcome, RunStatus status) {
+void judge_outcome(Outcome& outcome) {
     outcome.exit_code = outcome.scene.failed() > 0 ? not_as_expected : all_well;
-    if (status == RunStatus::stopped) outcome.exit_code = stopped_by_signal;
+    if (outcome.scene.status == status_word(RunStatus::stopped)) outcome.exit_code = stopped_by_signal;
 }
 
 /// What an earlier call found.
@@ -73,19 +73,20 @@ void take_kept(Outcome& outcome, const KeptRun& kept, std::span<const Expectatio
     outcome.kept = true;
     outcome.ending =
         "kept: " + run.status + " earlier: " + std::to_string(run.steps) + " steps, " + rounded_text(run.simulated_s) + " s";
+    outcome.scene.status = run.status;
     outcome.scene.reason = run.reason;
     outcome.scene.wall_s = run.wall_s;
     for (std::size_t i = 0; i < expected.size(); ++i)
         outcome.scene.expectations.push_back(
             {.expectation = expected[i], .value = {}, .passed = run.expectations[i].passed, .text = run.expectations[i].text});
     outcome.state_hash = kept.state_hash();
-    judge_outcome(outcome, RunStatus::finished);
+    judge_outcome(outcome);
 }
 
 /// "finished: 60 steps, 1 s, resumed at 0.5 s; run again: ball.obj has changed"
-std::string ending_text(const RunResult& result, const std::string& why_again) {
-    std::string text = std::string(status_word(result.status)) + ": " + std::to_string(result.totals.steps) + " steps, " +
-                       rounded_text(result.totals.simulated_s) + " s";
+std::string ending_text(const std::string& status, const RunResult& result, const std::string& why_again) {
+    std::string text =
+        status + ": " + std::to_string(result.totals.steps) + " steps, " + rounded_text(result.totals.simulated_s) + " s";
     if (!result.resumed_at.empty()) text += ", resumed at " + rounded_text(result.resumed_at.back()) + " s";
     return why_again.empty() ? text : text + "; run again: " + why_again;
 }
@@ -106,16 +107,18 @@ void run_into(Outcome& outcome, const CheckOptions& check, const StopSignals& si
     hooks.stop_asked = [&] { return signals.asked(); };
     const RunResult result = kept ? kept->run(built, hooks.stop_asked, expected)
                                   : run_scene(built, hooks, {.certify_steps = options.certify_steps, .compare = !check.update});
-    outcome.scene.reason = result.reason;
-    outcome.ending = ending_text(result, kept ? kept->why_again() : "");
+    const RunVerdict verdict = verdict_of_run(result);
+    outcome.scene.status = verdict.word;
+    outcome.scene.reason = verdict.reason;
+    outcome.ending = ending_text(verdict.word, result, kept ? kept->why_again() : "");
     outcome.scene.wall_s = result.totals.wall_s;
     outcome.scene.expectations = judge(expected, measure_values(result.measures), result.timed);
     if (check.update) {
         std::erase_if(outcome.scene.expectations, [](const ExpectationResult& r) { return r.expectation.measure == "matches"; });
-        if (result.status == RunStatus::finished) outcome.updates = update_references(built, result);
+        if (verdict.well()) outcome.updates = update_references(built, result);
     }
     outcome.state_hash = hexadecimal(built.simulation.state_hash());
-    judge_outcome(outcome, result.status);
+    judge_outcome(outcome);
 }
 
 Outcome check_scene(const std::string& file, const CheckOptions& options, const StopSignals& signals) {
@@ -137,7 +140,7 @@ void print_outcome(const CheckOptions& options, const Outcome& outcome) {
     const CheckedScene& scene = outcome.scene;
     if (!scene.error.empty()) std::fprintf(stderr, "percale: %s\n", scene.error.c_str());
     if (!scene.reason.empty())
-        std::fprintf(stderr, "percale: %s: did not finish: %s\n", scene.file.c_str(), scene.reason.c_str());
+        std::fprintf(stderr, "percale: %s: %s: %s\n", scene.file.c_str(), scene.status.c_str(), scene.reason.c_str());
     if (options.common.quiet) return;
     std::printf("%s: %s\n", scene.file.c_str(), scene.error.empty() ? outcome.ending.c_str() : "did not run");
     for (const std::string& move : outcome.start_moves) std::printf("  %s\n", move.c_str());

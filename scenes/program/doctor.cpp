@@ -46,6 +46,7 @@ int examine(const DoctorOptions& options) {
         }
     }
     std::fputs(options.json ? diagnoses_json(diagnoses).c_str() : text.c_str(), stdout);
+    if (std::ranges::any_of(diagnoses, [](const Diagnosis& d) { return d.has("unreadable"); })) return wrong_input;
     const bool any = std::ranges::any_of(diagnoses, [](const Diagnosis& d) { return d.count(Severity::error) > 0; });
     return any ? not_as_expected : all_well;
 }

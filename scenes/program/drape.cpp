@@ -150,11 +150,11 @@ void add_options(CLI::App& command, DrapeCommand& all) {
         ->required();
     command
         .add_option("--garment-unit", options.garment_unit,
-                    "Unit of the garments' meshes: mm, cm, m (default: m, or what fits the body's size)")
+                    "Unit of the garments' meshes: mm, cm, dm, m, inch (default: m, or what fits the body's size)")
         ->type_name("UNIT");
     command
         .add_option("--body-unit", options.body_unit,
-                    "Unit of the body's mesh: mm, cm, m (default: m, or what makes it 0.1 to some 10 m large)")
+                    "Unit of the body's mesh: mm, cm, dm, m, inch (default: m, or what makes it 0.1 to some 10 m large)")
         ->type_name("UNIT");
     command
         .add_option("--garment-part", options.garment_part, "Object or group of the garments' meshes, taken alone (default: all)")

@@ -20,6 +20,7 @@
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
+#include "run/run_verdict.h"
 #include "run/scene_plan.h"
 #include "run/start_fault.h"
 #include "tolerances.h"
@@ -101,7 +102,7 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
                    std::span<const ExpectationResult> expectations) {
     const Measures& m = result.measures;
     std::printf("%s%s: %d steps, %.6g s simulated in %.3g s (CPU %.3g s), largest strain %.3g, speed at end %.3g m/s",
-                status_word(result.status), result.rest && result.rest->at_rest ? " at rest" : "", result.totals.steps,
+                verdict_of_run(result).word.c_str(), result.rest && result.rest->at_rest ? " at rest" : "", result.totals.steps,
                 result.totals.simulated_s, result.totals.wall_s, result.totals.cpu_s, m.largest_strain, m.speed_at_end);
     if (built.scene.has_contact())
         std::printf(", %d intersecting pairs, %s", m.intersections, nearness_text(m.smallest_distance).c_str());
@@ -122,22 +123,23 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
 
 /// One message on stderr for whatever is not well, and the exit code.
 int verdict(const RunOptions& options, const RunResult& result, std::span<const ExpectationResult> expectations) {
-    if (result.status == RunStatus::failed) {
-        std::fprintf(stderr, "percale: %s: the run failed: %s\n", options.scene.c_str(), result.reason.c_str());
-        return not_as_expected;
-    }
+    const RunVerdict verdict = verdict_of_run(result);
+    const char* scene = options.scene.c_str();
     if (result.status == RunStatus::stopped) {
         const std::string resumable =
             options.checkpoint.empty() ? "" : "; go on with --resume " + options.folder + "/" + checkpoint_name;
-        std::fprintf(stderr, "percale: %s: %s; the report is written%s\n", options.scene.c_str(), result.reason.c_str(),
-                     resumable.c_str());
+        std::fprintf(stderr, "percale: %s: %s; the report is written%s\n", scene, verdict.reason.c_str(), resumable.c_str());
         return stopped_by_signal;
     }
     std::string failed;
     for (const ExpectationResult& expectation : expectations)
-        if (!expectation.passed) failed += (failed.empty() ? "" : "; ") + expectation.text;
+        if (!expectation.passed) failed += "; " + expectation.text;
+    if (!verdict.well()) {
+        std::fprintf(stderr, "percale: %s: %s: %s%s\n", scene, verdict.word.c_str(), verdict.reason.c_str(), failed.c_str());
+        return not_as_expected;
+    }
     if (failed.empty()) return all_well;
-    std::fprintf(stderr, "percale: %s: not as expected: %s\n", options.scene.c_str(), failed.c_str());
+    std::fprintf(stderr, "percale: %s: not as expected: %s\n", scene, failed.substr(2).c_str());
     return not_as_expected;
 }
 

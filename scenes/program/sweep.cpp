@@ -4,10 +4,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <numeric>
+#include <optional>
+#include <span>
 
 #include "common/own_program.h"
 #include "common/text.h"
 #include "common/whole_file.h"
+#include "export/kept_run.h"
 #include "percale/error.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
@@ -50,9 +54,10 @@ OpenStudy opened(const SweepOptions& options) {
     return {std::move(study), folder};
 }
 
-/// The runs that are left, of FIRST-LAST where that is given.
-std::vector<std::size_t> wanted_runs(const SweepOptions& options, const OpenStudy& open) {
-    std::vector<std::size_t> runs = open.folder.left(open.study);
+/// All runs, or FIRST-LAST where that is given.
+std::vector<std::size_t> asked_runs(const SweepOptions& options, const OpenStudy& open) {
+    std::vector<std::size_t> runs(open.study.runs.size());
+    std::iota(runs.begin(), runs.end(), std::size_t{0});
     if (options.range.empty()) return runs;
     std::size_t first = 0, last = 0;
     const char *begin = options.range.data(), *end = begin + options.range.size();
@@ -60,8 +65,8 @@ std::vector<std::size_t> wanted_runs(const SweepOptions& options, const OpenStud
     const bool whole = error == std::errc() && dash != end && *dash == '-';
     const auto [stop, second] =
         whole ? std::from_chars(dash + 1, end, last) : std::from_chars_result{begin, std::errc::invalid_argument};
-    if (second != std::errc() || stop != end || first > last || last >= open.study.runs.size())
-        throw SceneError("--run " + options.range + ": must be FIRST-LAST, 0 ... " + std::to_string(open.study.runs.size() - 1));
+    if (second != std::errc() || stop != end || first > last || last >= runs.size())
+        throw SceneError("--run " + options.range + ": must be FIRST-LAST, 0 ... " + std::to_string(runs.size() - 1));
     std::erase_if(runs, [&](std::size_t run) { return run < first || run > last; });
     return runs;
 }
@@ -110,6 +115,20 @@ void print_failures(const OpenStudy& open, const std::vector<std::size_t>& faile
     std::fprintf(stderr, "percale: %s", text.c_str());
 }
 
+/// How many of these runs were; tells of them.
+std::size_t crossed_or_unsolved(const OpenStudy& open, std::span<const std::size_t> runs) {
+    std::size_t found = 0;
+    for (const std::size_t run : runs) {
+        const std::string folder = open.folder.folder_of(run);
+        const std::optional<EndedRun> ended = ended_run(folder);
+        if (!ended || (ended->status != "crossed" && ended->status != "unsolved")) continue;
+        if (++found <= told_runs)
+            std::fprintf(stderr, "percale: %s: %s: %s\n", folder.c_str(), ended->status.c_str(), ended->reason.c_str());
+    }
+    if (found > told_runs) std::fprintf(stderr, "percale: and %zu more runs crossed or unsolved\n", found - told_runs);
+    return found;
+}
+
 /// Writes what there is; the exit code.
 int gather(const SweepOptions& options, const OpenStudy& open) {
     const StudyTables tables = study_tables(open.study, open.folder);
@@ -120,7 +139,8 @@ int gather(const SweepOptions& options, const OpenStudy& open) {
     if (!options.quiet)
         std::printf("%zu of %zu runs done, %zu failed, %zu not as expected; %s/study.csv, study.svg\n", tables.done, all,
                     tables.failed, tables.not_as_expected, open.folder.path().c_str());
-    return tables.done == all && tables.failed == 0 && tables.not_as_expected == 0 ? all_well : not_as_expected;
+    const std::size_t wrong = crossed_or_unsolved(open, asked_runs({}, open)) + tables.failed + tables.not_as_expected;
+    return tables.done == all && wrong == 0 ? all_well : not_as_expected;
 }
 
 int sweep(const SweepOptions& options) {
@@ -128,7 +148,9 @@ int sweep(const SweepOptions& options) {
         throw SceneError("--jobs " + std::to_string(options.jobs) + " is outside the allowed range 1 ... 1024");
     const OpenStudy open = opened(options);
     if (options.collect) return gather(options, open);
-    const std::vector<std::size_t> runs = wanted_runs(options, open);
+    const std::vector<std::size_t> asked = asked_runs(options, open);
+    std::vector<std::size_t> runs = open.folder.left(open.study);
+    std::erase_if(runs, [&](std::size_t run) { return run < asked.front() || run > asked.back(); });
     if (options.range.empty()) write_batch_files(open);
     if (options.slurm) return submit(options, open);
     const StopSignals signals;
@@ -144,7 +166,8 @@ int sweep(const SweepOptions& options) {
     do_runs(open.study, open.folder, runs, work);
     bar.clear();
     print_failures(open, failed);
-    if (!options.range.empty()) return failed.empty() ? all_well : not_as_expected;  // the tables are of all runs
+    if (!options.range.empty())  // the tables are of all runs
+        return failed.empty() && crossed_or_unsolved(open, asked) == 0 ? all_well : not_as_expected;
     const int code = gather(options, open);
     if (!signals.asked()) return code;
     std::fprintf(stderr, "percale: %s: stopped; the same command goes on\n", options.study.c_str());

@@ -15,6 +15,7 @@
 #include "python/arrays.h"
 #include "python/module.h"
 #include "python/values.h"
+#include "run/run_verdict.h"
 #include "run/scene_plan.h"
 #include "run/start_fault.h"
 
@@ -211,12 +212,22 @@ py::list expectation_list(const SceneRun& run) {
     return list;
 }
 
+/// Told on standard error unless the host's warning filter says otherwise: nobody has to read `status` to hear of it.
+void warn_of(const SceneRun& run, const std::string& scene) {
+    const scenes::RunVerdict verdict = scenes::verdict_of_run(run.result);
+    if (verdict.word != "crossed" && verdict.word != "unsolved") return;
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, (scene + ": " + verdict.word + ": " + verdict.reason).c_str(), 1) != 0)
+        throw py::error_already_set();
+}
+
 void bind_run(py::module_& module) {
     py::class_<SceneRun, std::shared_ptr<SceneRun>>(module, "RunResult", "What became of a run of a scene.")
         .def_property_readonly(
-            "status", [](const SceneRun& run) { return scenes::status_word(run.result.status); }, "finished, failed or stopped.")
+            "status", [](const SceneRun& run) { return scenes::verdict_of_run(run.result).word; },
+            "finished, failed, stopped, crossed (something crosses in a frame) or unsolved (a step was taken unsolved).")
         .def_property_readonly(
-            "reason", [](const SceneRun& run) { return run.result.reason; }, "Why it failed or was stopped.")
+            "reason", [](const SceneRun& run) { return scenes::verdict_of_run(run.result).reason; },
+            "What was not well; empty where it finished.")
         .def_property_readonly("passed", &SceneRun::passed, "It finished, and every expectation was met.")
         .def_property_readonly(
             "measures", [](const SceneRun& run) { return measure_values(run.result.measures); },
@@ -231,7 +242,7 @@ void bind_run(py::module_& module) {
         .def_readonly("warnings", &SceneRun::warnings, "What is not quite as the scene says, and what was repaired.")
         .def_readonly("state_hash", &SceneRun::state_hash, "Of the last state.")
         .def("__repr__", [](const SceneRun& run) {
-            return std::string("<percale.RunResult: ") + scenes::status_word(run.result.status) + ", " +
+            return "<percale.RunResult: " + scenes::verdict_of_run(run.result).word + ", " +
                    std::to_string(run.result.totals.steps) + " steps>";
         });
     module.def(
@@ -240,24 +251,28 @@ void bind_run(py::module_& module) {
            bool frames, bool certify_steps) {
             if (output && output->empty()) throw SceneError("output", "is empty; None writes nothing");
             if (!on_step.is_none() && !PyCallable_Check(on_step.ptr())) throw SceneError("on_step", "cannot be called");
-            return run_with(scene_from(scene, overrides), {.output = output ? output->string() : "",
-                                                           .on_step = on_step,
-                                                           .keep_frames = frames,
-                                                           .certify_steps = certify_steps});
+            const Scene checked = scene_from(scene, overrides);
+            const auto run = run_with(checked, {.output = output ? output->string() : "",
+                                                .on_step = on_step,
+                                                .keep_frames = frames,
+                                                .certify_steps = certify_steps});
+            warn_of(*run, checked.file);
+            return run;
         },
         py::arg("scene"), py::arg("output") = py::none(), py::arg("on_step") = py::none(), py::arg("overrides") = py::none(),
         py::arg("frames") = false, py::arg("certify_steps") = false,
         "Runs a scene (Scene, path or dict) to its end; other threads run meanwhile. output: a folder for frames, report.json "
         "and\n"
         "steps.csv, whole or absent; None: nothing is written. on_step(report, view): called after every step with a StepReport\n"
-        "and a RunView; True stops the run. frames: keep the output frames in the result. certify_steps: certify every state.");
+        "and a RunView; True stops the run. frames: keep the output frames in the result. certify_steps: certify every state.\n"
+        "A run that crossed or was unsolved is a RuntimeWarning, too.");
 }
 
 }  // namespace
 
 bool SceneRun::passed() const {
     const auto is_passed = [](const ExpectationResult& expectation) { return expectation.passed; };
-    return result.status == RunStatus::finished && std::ranges::all_of(expectations, is_passed);
+    return scenes::verdict_of_run(result).well() && std::ranges::all_of(expectations, is_passed);
 }
 
 const BuiltScene& RunView::now() const {

@@ -149,7 +149,7 @@ void add_cost(RunTotals& totals, const StepReport& report) {
 void add_accepted(RunTotals& totals, const StepReport& report) {
     totals.steps += report.parts;
     totals.sleeping_steps += report.slept;
-    totals.unsolved_steps += report.status == StepStatus::not_converged || report.status == StepStatus::tolerance_missed;
+    totals.unsolved_steps += report.unsolved();
     totals.smallest_step_s = std::min(totals.smallest_step_s, report.smallest_dt);
     totals.largest_step_s = std::max(totals.largest_step_s, report.largest_dt);
     totals.largest_residual = std::max(totals.largest_residual, report.residual);

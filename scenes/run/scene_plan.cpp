@@ -9,7 +9,7 @@
 #include "frames/frame_formats.h"
 #include "run/obstacle_motion.h"
 #include "run/start_fault.h"
-#include "run/step_count.h"
+#include "run/step_lengths.h"
 
 namespace percale::scenes {
 

@@ -1,9 +1,15 @@
 #pragma once
 
 #include "format/scene.h"
-#include "run/step_count.h"
 
 namespace percale::scenes {
+
+/// Steps of a scene, undivided, and the length of the last one, s.
+struct StepCount {
+    long steps = 0;
+    double last_dt = 0.0;
+};
+StepCount count_steps(double duration, double time_step);
 
 /// Tells how long the steps of a run are: `time_step`, the last one shorter; with "auto" equal ones from stop to stop, which are
 /// the times of frames, events and expectations' `at`, and the scene's end. Times in s.

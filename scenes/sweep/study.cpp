@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "common/input_file.h"
 #include "common/nearest_name.h"
 #include "common/scene_file_error.h"
 #include "common/text.h"
-#include "common/whole_file.h"
 #include "export/run_settings.h"
 #include "fields/toml_text.h"
 #include "format/expectations.h"

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "common/input_file.h"
 #include "common/whole_file.h"
 #include "export/kept_run.h"
 #include "percale/error.h"

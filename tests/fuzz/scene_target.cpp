@@ -54,7 +54,11 @@ void require_finite(const scenes::BuiltScene& built) {
     }
 }
 
+/// Of a step, s: some scenes take hundreds of Newton iterations, which sanitizers make slow.
+constexpr double most_seconds = 2.0;
+
 void try_step(scenes::BuiltScene& built) {
+    built.simulation.set_time_limit(most_seconds);
     const StepReport report = built.simulation.step();
     require(!report.explanation().empty(), "a step says what happened");
     require_finite(built);

@@ -29,6 +29,14 @@ def test_a_run_ends_with_the_bits_of_the_program(source_dir, hash_of_program, na
     assert result.state_hash == hash_of_program(scene, '--set', 'duration=0.4')
 
 
+def test_steps_that_were_not_solved_are_a_status_and_a_warning():
+    hurried = {'step.newton_iterations': 2, 'step.newton_tolerance': 1e-12}
+    with pytest.warns(RuntimeWarning, match='unsolved: .* taken unsolved'):
+        result = percale.run(SCENE, overrides=hurried)
+    assert result.status == result.report['status'] == 'unsolved' and not result.passed
+    assert result.reason == result.report['reason']
+
+
 def test_calls_end_with_the_bits_of_a_scene(tmp_path, hash_of_program):
     scene = tmp_path / 'towel.toml'
     scene.write_text('duration = 0.5\n[fabric.sheet]\nsprings = { structural = 1000.0, shear = 500.0, bend = 10.0 }\n'

@@ -7,7 +7,7 @@
 #include "scenes/format/expectations.h"
 #include "scenes/format/scene_file.h"
 #include "scenes/run/run_scene.h"
-#include "scenes/run/step_count.h"
+#include "scenes/run/step_lengths.h"
 #include "tests/scenes/watched_run.h"
 #include "tests/support/catch.h"
 

@@ -148,6 +148,8 @@ struct StepReport {
     double cpu_s = 0.0;  // s, of all threads
 
     bool ok() const { return status <= StepStatus::tolerance_missed; }
+    /// Accepted with what the solver had come to.
+    bool unsolved() const { return status == StepStatus::not_converged || status == StepStatus::tolerance_missed; }
     /// One sentence on what happened, with figures.
     std::string explanation() const;
     void explain(std::FILE* out) const;

@@ -51,7 +51,9 @@ struct ObstacleSettings {
 class Simulation {
 public:
     /// Without a detector, obstacles are refused. `workers` do the work instead of StepSettings::threads, several simulations may
-    /// share them. Throws SceneError for settings out of range.
+    /// share them. Throws SceneError for settings or a number of threads out of range. Where they have left out a part, or done
+    /// one twice, the call in which they did throws WorkersError, and so does every step from then on; what they throw passes
+    /// through.
     explicit Simulation(const StepSettings& settings, std::unique_ptr<ContactDetector> detector = nullptr,
                         std::shared_ptr<Workers> workers = nullptr);
     ~Simulation();

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "percale/error.h"
+
 namespace percale {
 
 /// Threads that do numbered parts of work: a pool of the library (make_workers), or a host's job system behind this interface.
@@ -10,7 +12,7 @@ class Workers {
 public:
     virtual ~Workers() = default;
 
-    /// How many parts run at the same time at most, the caller's included; >= 1, and always the same.
+    /// How many parts run at the same time at most, the caller's included; 1 ... 64, and always the same.
     virtual int threads() const = 0;
 
     /// Calls work(data, part, slot) once for each part of 0 ... parts - 1, in any order and on any threads, and returns when all
@@ -20,6 +22,12 @@ public:
 
     /// CPU seconds that threads other than its callers have used so far; 0 where that is not known.
     virtual double other_cpu_seconds() const { return 0.0; }
+};
+
+/// A host's workers have not kept what `run` promises: what was being computed cannot be trusted.
+class WorkersError : public SceneError {
+public:
+    using SceneError::SceneError;
 };
 
 /// A pool of `threads` threads, the caller's included: 1 ... 64, 0: as many as the machine runs at once. Threads that wait give

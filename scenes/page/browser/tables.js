@@ -32,7 +32,7 @@ const measureText = (name, value) => (measureUnits[name] || (number => digits(nu
 function headBadges(report) {
   const status = String(report.status), atRest = isObject(report.rest) && report.rest.at_rest === true;
   const all = listOf(report.expectations), passed = all.filter(one => one.passed === true).length;
-  const badges = [badge(atRest ? status + ', at rest' : status, status === 'finished' ? 'good' : status === 'failed' ? 'bad' : 'warn')];
+  const badges = [badge(atRest ? status + ', at rest' : status, status === 'finished' ? 'good' : status === 'stopped' ? 'warn' : 'bad')];
   if (all.length > 0) badges.push(badge(passed + ' of ' + all.length + ' expectations passed', passed === all.length ? 'good' : 'bad'));
   if (!isClean(report)) badges.push(badge('certificate not clean', 'bad'));
   else if (hasContact(report)) badges.push(badge('no crossing', 'good'));
@@ -188,7 +188,7 @@ function makeTables(data, goToFrame) {
   byId('title').textContent = report.title || document.title;
   byId('scene').textContent = typeof report.scene === 'string' ? report.scene : '';
   if (typeof report.reason === 'string' && report.reason !== '')
-    document.querySelector('.name').append(make('p', { class: 'reason' + (report.status === 'failed' ? ' failed' : '') }, report.reason));
+    document.querySelector('.name').append(make('p', { class: 'reason' + (report.status === 'stopped' ? '' : ' failed') }, report.reason));
   byId('badges').append(...headBadges(report));
   byId('side').append(figures(report), expectations(report), certificate(data, goToFrame));
   const clothNames = isObject(report.settings) ? listOf(report.settings.cloth).map(cloth => cloth.name) : [];

@@ -65,23 +65,7 @@ TEST_CASE("A host's threads give the same state in every bit as the library's, a
     CHECK(swinging_hashes(nullptr, {{"threads", "2"}}) == alone);
 }
 
-TEST_CASE("A host that leaves out parts, or numbers its threads wrongly, is an error that stays") {
-    ThreadHost host;
-    SECTION("parts") { host.left_out = 1; }
-    SECTION("slots") { host.slot_shift = 64; }
-    c_interface::HostWorkers workers(workers_of(host));
-    std::atomic<int> done = 0;
-    workers.check();
-    workers.run(
-        10, [](void* data, int, int) { ++*static_cast<std::atomic<int>*>(data); }, &done);
-    CHECK(done < 10);
-    host.left_out = host.slot_shift = 0;
-    workers.run(
-        10, [](void* data, int, int) { ++*static_cast<std::atomic<int>*>(data); }, &done);
-    CHECK_THROWS_WITH(workers.check(), Catch::Contains("cannot be trusted"));
-}
-
-TEST_CASE("A simulation whose host has left out parts says so from then on") {
+TEST_CASE("A simulation whose host leaves out parts, or numbers its threads wrongly, says so from then on") {
     ThreadHost host;
     const percale_workers workers = workers_of(host);
     const CSimulation simulation = c_simulation("none", {}, &workers);
@@ -89,9 +73,10 @@ TEST_CASE("A simulation whose host has left out parts says so from then on") {
     well(percale_pin(simulation.get(), 0, 0));
     well(percale_step(simulation.get(), nullptr));
     REQUIRE(host.runs > 0);
-    host.left_out = 1;
+    SECTION("a part less") { host.left_out = 1; }
+    SECTION("slots that there are not") { host.slot_shift = 64; }
     fails(percale_step(simulation.get(), nullptr), PERCALE_INTERNAL_ERROR, "percale_step", "workers.run");
-    host.left_out = 0;
+    host.left_out = host.slot_shift = 0;
     fails(percale_step(simulation.get(), nullptr), PERCALE_INTERNAL_ERROR, "percale_step", "workers.run");
 }
 

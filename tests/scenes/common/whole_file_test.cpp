@@ -1,21 +1,13 @@
 #include "common/whole_file.h"
 
 #include <filesystem>
+
+#include "common/input_file.h"
 #include "percale/error.h"
 #include "tests/scenes/test_folder.h"
-
 #include "tests/support/catch.h"
 
 namespace percale::scenes::test::whole_file_test {
-
-TEST_CASE("a file is read as bytes and as a text, whatever they are") {
-    const TestFolder folder;
-    const std::string text("a\0\r\n\xff", 5);
-    const std::string file = folder.write("some.bin", text);
-    CHECK(read_text(file) == text);
-    CHECK(read_bytes(file).size() == 5);
-    CHECK_THROWS_WITH(read_text(folder.path("none")), Catch::Contains("none"));
-}
 
 TEST_CASE("a device is refused and not replaced") {
     if (!std::filesystem::is_character_file("/dev/full")) return;

@@ -14,7 +14,7 @@ ExaminedMesh examined(MeshRole role, const TriangleMesh& mesh) {
             .name = role == MeshRole::cloth ? "cloth 'c'" : "obstacle 'o'",
             .place = "a.toml:3:1",
             .mesh = mesh,
-            .facts = mesh_facts(mesh)};
+            .facts = facts_as(role, mesh)};
 }
 
 std::vector<Finding> of_cloth(const TriangleMesh& mesh, const Fabric& fabric = {}) {
@@ -83,14 +83,14 @@ TEST_CASE("nothing is found in a sound sheet and a sound ball") {
     CHECK(of_pair(free_sheet(), make_sphere(0.3, 2)).empty());
 }
 
-TEST_CASE("what cloth is refused for is an error with the numbers of the elements") {
+TEST_CASE("what cloth is refused for is an error with the numbers of the elements; what is left out of it, a note") {
     const TriangleMesh sheet = free_sheet();
-    check_only(of_cloth(with_vertex(sheet, {0, 1, 0})), "unused_vertices", Severity::error);
+    check_only(of_cloth(with_vertex(sheet, {0, 1, 0})), "unused_vertices", Severity::note);
     const Triangle first = sheet.triangles[0];
     check_only(of_cloth(crowded_sheet()), "crowded_edges", Severity::error);
     CHECK(find(of_cloth(crowded_sheet()), "crowded_edges")->elements == std::vector<int>{0, 8});
     const auto repeated = of_cloth(with_triangle(sheet, {first[1], first[2], first[0]}));
-    CHECK(find(repeated, "repeated_triangles")->severity == Severity::error);
+    check_only(repeated, "repeated_triangles", Severity::note);
     CHECK(find(repeated, "repeated_triangles")->elements == std::vector<int>{static_cast<int>(sheet.triangles.size())});
     const auto flat = of_cloth({.vertices = {{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}}, .triangles = {{0, 1, 2}}});
     check_only(flat, "flat_triangles", Severity::error);
@@ -104,7 +104,7 @@ TEST_CASE("a finding names a few elements and counts all") {
     const Finding* finding = find(found, "unused_vertices");
     CHECK(finding->count == 10);
     CHECK(finding->elements == std::vector<int>{49, 50, 51, 52});
-    CHECK(finding->what.find("10 vertices of no triangle, which would have no mass: 49, 50, 51, 52, ...") != std::string::npos);
+    CHECK(finding->what.find("10 vertices of no triangle, left out: 49, 50, 51, 52, ...") != std::string::npos);
 }
 
 TEST_CASE("a bending spring without length is an error where there are such springs") {

@@ -153,7 +153,7 @@ TEST_CASE("what doctor warns of is told, and options that are wrong are refused"
     CHECK(refusal([](DrapeOptions&) {}).empty());
     CHECK(refusal([](DrapeOptions& o) { o.up = "x"; }) == "--up x: must be y or z");
     CHECK(refusal([](DrapeOptions& o) { o.scale = 0.0; }).find("--scale: ") == 0);
-    CHECK(refusal([](DrapeOptions& o) { o.body_unit = "inch"; }) == "--body-unit inch: must be mm, cm or m");
+    CHECK(refusal([](DrapeOptions& o) { o.body_unit = "foot"; }) == "--body-unit foot: must be mm, cm, dm, m or inch");
     CHECK(refusal([](DrapeOptions& o) { o.outs.clear(); }).find("it takes one for each garment") != std::string::npos);
 }
 

@@ -89,6 +89,27 @@ std::string quad_of(const BinaryFormat& format, const WholeType& length, const W
 
 }  // namespace
 
+TEST_CASE("Strips are triangles that turn the same way, begin anew behind -1, and are joined by flat ones, which are left out") {
+    const std::string vertices = "ply\nformat ascii 1.0\nelement vertex 6\n" + vertex_lines;
+    const std::string points = "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n";
+    const std::string strip = "element tristrips 1\nproperty list int int vertex_indices\n";
+    CHECK(parse(vertices + strip + "end_header\n" + points + "5 0 1 2 3 4\n").triangles ==
+          std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}});
+    CHECK(parse(vertices + strip + "end_header\n" + points + "8 0 1 2 -1 1 2 3 4\n").triangles ==
+          std::vector<Triangle>{{0, 1, 2}, {1, 2, 3}, {3, 2, 4}});
+    CHECK(parse(vertices + strip + "end_header\n" + points + "8 0 1 2 2 3 3 4 5\n").triangles ==
+          std::vector<Triangle>{{0, 1, 2}, {4, 3, 5}});
+    CHECK(parse(vertices + "element face 1\n" + face_line + strip + "end_header\n" + points + "3 0 1 2\n3 3 4 5\n").triangles ==
+          std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}});
+    CHECK(refusal(vertices + strip + "end_header\n" + points + "3 0 1 6\n") ==
+          "mesh.ply:16: vertex index 6 is out of range 0 ... 5, and not -1");
+    CHECK(refusal(vertices + strip + "end_header\n" + points + "3 0 1 -2\n").find("-2 is out of range") != std::string::npos);
+    CHECK(refusal(vertices + "element tristrips 0\nproperty list int int vertex_indices\nend_header\n" + points)
+              .find("no triangles") != std::string::npos);
+    CHECK(refusal(vertices + "element tristrips 1\nproperty list int int other\nend_header\n" + points + "0\n")
+              .find("element \"tristrips\" has no list") != std::string::npos);
+}
+
 TEST_CASE("a PLY in text is exactly its vertices and faces, in order, doubles included, nothing welded") {
     const TriangleMesh mesh = parse(
         "ply\r\nformat ascii 1.0\r\ncomment \x05 any \xff thing\r\nobj_info end_header\r\n"

@@ -50,7 +50,7 @@ TEST_CASE("curves with control points, wraps, mirrors and sides whose direction 
 }
 
 TEST_CASE("what is wrong in a pattern is told at its place") {
-    CHECK(fault("unit = \"inch\"\n[[panel]]\n").find("t:1:8: unit has no choice 'inch'") == 0);
+    CHECK(fault("unit = \"foot\"\n[[panel]]\n").find("t:1:8: unit has no choice 'foot'") == 0);
     CHECK(fault("[[panel]]\nname = \"a\"\n").find("a pattern lacks unit") != std::string::npos);
     CHECK(fault("unit = \"cm\"\n").find("a pattern lacks panel") != std::string::npos);
     CHECK(fault(panel + "turns = [0, 0, 0]\n").find("t:5:1: panel 'a' has no key 'turns'; did you mean 'turn'?") == 0);

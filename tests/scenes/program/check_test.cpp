@@ -93,7 +93,7 @@ TEST_CASE("a scene without expectations is told so, and passes exactly if its ru
     const ProgramRun bad = run_program({"check", "free.toml", "drag.toml"}, folder.path());
     CHECK(bad.exit_code == 1);
     CHECK(bad.out.find("drag.toml: failed: ") != std::string::npos);
-    CHECK(bad.error.find("drag.toml: did not finish: ") != std::string::npos);
+    CHECK(bad.error.find("drag.toml: failed: ") != std::string::npos);
     CHECK(ends_with(bad.out, "1 of 2 scenes finished, 0 of 0 expectations passed\n"));
 }
 

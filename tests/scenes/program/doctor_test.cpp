@@ -61,7 +61,7 @@ TEST_CASE("doctor says of a folder's scenes and meshes in a line each what is wo
     folder.write("notes.txt", "no mesh");
     folder.write("falling.toml", falling_sheet());
     const ProgramRun run = run_program({"doctor", "."}, folder.path());
-    CHECK(run.exit_code == 1);
+    CHECK(run.exit_code == 2);  // b.obj cannot be read
     CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 3);
     CHECK(run.out.find("./a.obj: 0 errors, ") == 0);
     CHECK(run.out.find("./b.obj: 1 error, 0 warnings, 0 notes; ") != std::string::npos);

@@ -182,7 +182,7 @@ TEST_CASE("what cannot be draped is refused before anything is written") {
     CHECK(refused(draped({"--seconds", "0"}), "--seconds"));
     CHECK(refused(draped({"--thickness", "-1"}), "thickness"));
     CHECK(refused(draped({"--friction", "-1"}), "friction"));
-    CHECK(refused(draped({"--body-unit", "inch"}), "mm, cm or m"));
+    CHECK(refused(draped({"--body-unit", "foot"}), "mm, cm, dm, m or inch"));
     CHECK(refused(run_program({"drape", "sheet.obj", "absent.obj", "-o", "out.obj"}, folder.path()),
                   "percale: absent.obj: 'body': no such file\n"));
     CHECK(refused(run_program({"drape", "sheet.obj", "block.obj", "-o", "out.ply"}, folder.path()),

@@ -140,4 +140,63 @@ TEST_CASE("what a killed run leaves is recognised and removed by the next run in
     CHECK(folder.file_count() == 1 + 2 + frames + 3);
 }
 
+TEST_CASE("a second run into a folder is refused while the first lives, and a run that was killed leaves no lock") {
+    const TestFolder folder;
+    folder.write("sheet.toml", falling_sheet());
+    StartedRun first(folder, {"run", "sheet.toml", "-o", "out", "--set", "duration=1000", "--set", "output.fps=1000"});
+    first.wait_for(folder, "out/frames/sheet_00003.obj");
+    const ProgramRun second = run_program({"run", "sheet.toml", "-o", "out"}, folder.path());
+    CHECK(refused(second, "out: another run writes into it"));
+    CHECK(folder.holds("out/frames/sheet_00003.obj"));
+    first.end(SIGKILL);
+    CHECK(run_program({"run", "sheet.toml", "-o", "out"}, folder.path()).exit_code == 0);
+    CHECK_FALSE(holds_part(folder));
+}
+
+TEST_CASE("what may give bytes for ever, or none, is refused at once by every command for every kind of file") {
+    const TestFolder folder;
+    const auto scene = [&](const std::string& name, const std::string& cloth, const std::string& rest) {
+        folder.write(name,
+                     "duration = 0.01\n[fabric.f]\nsprings = { structural = 100.0 }\n[[cloth]]\nname = \"c\"\nfabric = \"f\"\n" +
+                         cloth + "\n" + rest);
+    };
+    const std::string grid = "grid = { size = [1, 1], vertices = [5, 5] }";
+    folder.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+    std::filesystem::create_directories(folder.path("run"));
+    for (const char* name : {"pipe.toml", "pipe.obj", "pipe.off", "pipe.ply", "pipe.stl", "pipe.glb", "pipe.gltf", "pipe.fbx",
+                             "pipe.json", "pipe.pc2", "pipe.percale", "run/report.json", "run/steps.csv"})
+        REQUIRE(mkfifo(folder.path(name).c_str(), 0600) == 0);
+    std::vector<std::vector<std::string>> calls;
+    for (const std::string format : {"obj", "off", "ply", "stl", "glb", "gltf", "fbx"}) {
+        scene(format + ".toml", "mesh = \"pipe." + format + "\"", "");
+        calls.push_back({"run", format + ".toml", "-o", "out"});
+        calls.push_back({"doctor", "pipe." + format});
+        calls.push_back({"picture", "pipe." + format, "-o", "out.png"});
+        calls.push_back({"drape", "sheet.obj", "pipe." + format, "-o", "out.obj"});
+    }
+    scene("seams.toml", grid, "[[seam]]\nfile = \"pipe.json\"\n");
+    scene("rest.toml", "mesh = \"sheet.obj\"\nrest = \"pipe.obj\"", "");
+    scene("pattern.toml", "pattern = \"pipe.json\"", "");
+    scene("cache.toml", grid, "[[obstacle]]\nname = \"o\"\nmesh = \"sheet.obj\"\ncache = \"pipe.pc2\"\n");
+    scene("zero.toml", "mesh = \"/dev/zero\"", "");
+    scene("matches.toml", grid, "[expect]\nmatches = { file = \"pipe.obj\", within = 1.0 }\n");
+    for (const char* name :
+         {"pipe.toml", "seams.toml", "rest.toml", "pattern.toml", "cache.toml", "zero.toml", "matches.toml", "/dev/zero"})
+        calls.push_back({"check", name});
+    calls.insert(calls.end(), {{"sew", "pipe.json", "-o", "out.obj"},
+                               {"sew", "pipe.toml", "-o", "out.obj"},
+                               {"sweep", "pipe.toml", "-o", "out"},
+                               {"run", "--resume", "pipe.percale", "cache.toml"},
+                               {"certify", "run"},
+                               {"report", "run"},
+                               {"replay", "run", "run"}});
+    for (const std::vector<std::string>& call : calls) {
+        CAPTURE(call);
+        const ProgramRun run = run_program(call, folder.path());
+        CHECK(run.exit_code == 2);
+        CHECK(line_count(run.error) <= 1);
+    }
+    CHECK_FALSE(folder.holds("out"));
+}
+
 }  // namespace percale::program::test::faults_test

@@ -61,7 +61,7 @@ TEST_CASE("a run until rest ends by itself, with a last frame, or fails and says
         {"run", "sheet.toml", "-o", "early", "--set", "duration=\"rest\"", "--set", "longest=0.3", "--quiet"}, folder.path());
     CHECK(early.exit_code == 1);
     CHECK(early.error.starts_with(
-        "percale: sheet.toml: the run failed: not at rest (still for half a second, its forces balanced) after 0.3 s, the "));
+        "percale: sheet.toml: failed: not at rest (still for half a second, its forces balanced) after 0.3 s, the "));
     const auto failed = report_in(folder, "early");
     CHECK(failed.at("status") == "failed");
     CHECK(failed.at("rest").at("at_rest") == false);
@@ -142,6 +142,28 @@ TEST_CASE("a step that ends badly is exit code 1, status failed and a reason") {
     CHECK(report.at("status") == "failed");
     CHECK(run.error.find(report.at("reason").get<std::string>()) != std::string::npos);
     CHECK(report.at("intersections") == 0);
+}
+
+TEST_CASE("a run whose steps were not solved says so in one line, is status unsolved and exit code 1, whatever is expected") {
+    const TestFolder folder;
+    folder.write("box.toml", sheet_on_box() + "[expect]\nintersections = 0\n");
+    const std::vector<std::string> hurried = {"--set", "step.newton_iterations=2", "--set", "step.newton_tolerance=1e-12",
+                                              "--quiet"};
+    std::vector<std::string> arguments = {"run", "box.toml", "-o", "out"};
+    arguments.insert(arguments.end(), hurried.begin(), hurried.end());
+    const ProgramRun run = run_program(arguments, folder.path());
+    CHECK(run.exit_code == 1);
+    CHECK(line_count(run.error) == 1);
+    const auto report = report_in(folder, "out");
+    CHECK(report.at("status") == "unsolved");
+    CHECK(report.at("expectations").at(0).at("passed") == true);
+    CHECK(run.error == "percale: box.toml: unsolved: " + report.at("reason").get<std::string>() + "\n");
+    CHECK(report.at("reason").get<std::string>().find("taken unsolved (not_converged or tolerance_missed)") != std::string::npos);
+    arguments = {"check", "box.toml"};
+    arguments.insert(arguments.end(), hurried.begin(), hurried.end());
+    const ProgramRun check = run_program(arguments, folder.path());
+    CHECK(check.exit_code == 1);
+    CHECK(check.error == run.error);
 }
 
 TEST_CASE("wrong input is exit code 2, and no folder is made") {

@@ -37,4 +37,23 @@ TEST_CASE("runs that are not as expected are exit code 1, wrong words exit code 
     CHECK(refused(run_program({"sweep", "study.toml", "-o", "out"}, folder.path()), "holds another study"));
 }
 
+TEST_CASE("a study with a run that crossed names it and is exit code 1, for a part of the runs, too") {
+    const TestFolder folder;
+    write_study(folder, "\"step.time_step\" = [0.01, 0.005]\n");
+    REQUIRE(run_program({"sweep", "study.toml", "-o", "out", "--quiet"}, folder.path()).exit_code == 0);
+    std::string report = folder.read("out/runs/00001/report.json");
+    const std::string finished = "\"status\": \"finished\"";
+    REQUIRE(report.find(finished) != std::string::npos);
+    report.replace(report.find(finished), finished.size(), "\"status\": \"crossed\", \"reason\": \"3 pairs\"");
+    folder.write("out/runs/00001/report.json", report);
+    const ProgramRun all = run_program({"sweep", "out", "--collect", "--quiet"}, folder.path());
+    CHECK(all.exit_code == 1);
+    CHECK(all.error == "percale: out/runs/00001: crossed: 3 pairs\n");
+    CHECK(folder.read("out/study.csv").find(",crossed,") != std::string::npos);
+    CHECK(run_program({"sweep", "out", "--run", "0-0", "--quiet"}, folder.path()).exit_code == 0);
+    const ProgramRun part = run_program({"sweep", "out", "--run", "1-1", "--quiet"}, folder.path());
+    CHECK(part.exit_code == 1);
+    CHECK(part.error == all.error);
+}
+
 }  // namespace percale::program::test::sweep_test

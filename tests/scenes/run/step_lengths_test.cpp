@@ -30,6 +30,27 @@ bool holds(const std::vector<double>& times, double wanted) {
 
 }  // namespace
 
+TEST_CASE("a duration that is a multiple of the step up to rounding takes only full steps") {
+    CHECK(count_steps(2.0, 1.0 / 60.0).steps == 120);
+    CHECK(count_steps(2.0, 0.016666666666666666).last_dt == 0.016666666666666666);
+    CHECK(count_steps(0.3, 0.1).steps == 3);
+    CHECK(count_steps(0.3, 0.1).last_dt == 0.1);
+    CHECK(count_steps(1e4, 1e-3).steps == 10000000);
+}
+
+TEST_CASE("a remainder that is no step of its own makes the last step longer") {
+    CHECK(count_steps(1.0, 0.016666666).steps == 60);
+    CHECK(count_steps(1.0, 0.016666666).last_dt == Approx(0.016666666 + 4e-8).epsilon(1e-12));
+    CHECK(count_steps(3.0005, 1.0).steps == 4);
+}
+
+TEST_CASE("otherwise the last step is what is left") {
+    CHECK(count_steps(1.0, 0.3).steps == 4);
+    CHECK(count_steps(1.0, 0.3).last_dt == Approx(0.1));
+    CHECK(count_steps(0.004, 0.01).steps == 1);
+    CHECK(count_steps(0.004, 0.01).last_dt == Approx(0.004));
+}
+
 TEST_CASE("steps are as long as said, and the last one is shorter where they do not fill the duration") {
     const std::vector<double> times = ends(lasting(0.25, 0.1));
     REQUIRE(times.size() == 4);

@@ -1,4 +1,4 @@
-#include "scenes/meshes/mesh_part.h"
+#include "scenes/models/mesh_part.h"
 
 #include <sstream>
 

@@ -1,4 +1,4 @@
-#include "meshes/mesh_part.h"
+#include "models/mesh_part.h"
 
 #include <algorithm>
 #include <span>

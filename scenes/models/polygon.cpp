@@ -1,4 +1,4 @@
-#include "meshes/polygon.h"
+#include "models/polygon.h"
 
 #include <algorithm>
 #include <cmath>

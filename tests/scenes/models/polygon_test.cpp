@@ -1,4 +1,4 @@
-#include "scenes/meshes/polygon.h"
+#include "scenes/models/polygon.h"
 
 #include <algorithm>
 #include <sstream>

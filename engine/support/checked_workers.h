@@ -1,0 +1,43 @@
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "percale/workers.h"
+
+namespace percale {
+
+/// A host's workers, with a watch on what they promise: each part once, slots in range, no exception.
+class CheckedWorkers : public Workers {
+public:
+    /// Throws SceneError where the host says that it has no threads, or too many.
+    explicit CheckedWorkers(std::shared_ptr<Workers> host);
+
+    int threads() const override { return threads_; }
+    /// Throws WorkersError where the host has not done each part once; what a host throws passes through. A part that is called
+    /// again is not done again.
+    void run(int parts, void (*work)(void* data, int part, int slot), void* data) override;
+    double other_cpu_seconds() const override { return host_->other_cpu_seconds(); }
+
+    /// Throws WorkersError, from then on, where a run has ever failed: work was left out.
+    void check() const;
+
+private:
+    /// One call of run.
+    struct Batch {
+        CheckedWorkers& of;
+        void (*work)(void* data, int part, int slot);
+        void* data;
+        int parts;
+        std::atomic<int> done = 0;
+        std::atomic<bool> wrong = false;
+    };
+    static void do_part(void* batch, int part, int slot);
+
+    std::shared_ptr<Workers> host_;
+    int threads_;
+    std::vector<std::atomic<bool>> begun_;  // of each part of the run; grows
+    std::atomic<bool> broken_ = false;
+};
+
+}  // namespace percale

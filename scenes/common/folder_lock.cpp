@@ -1,0 +1,23 @@
+#include "common/folder_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "percale/error.h"
+
+namespace percale::scenes {
+
+FolderLock::FolderLock(const std::string& folder) : opened_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (opened_ < 0 || flock(opened_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    close(opened_);
+    throw SceneError(folder, "another run writes into it; wait for its end, or name another folder");
+}
+
+FolderLock::~FolderLock() {
+    if (opened_ >= 0) close(opened_);
+}
+
+}  // namespace percale::scenes

@@ -1,0 +1,57 @@
+#include "common/input_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "percale/error.h"
+
+namespace percale::scenes {
+
+namespace {
+
+constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
+
+std::string reason() { return std::strerror(errno != 0 ? errno : EIO); }
+
+}  // namespace
+
+std::ifstream open_input(const std::string& file) {
+    std::error_code error;
+    const std::filesystem::file_type type = std::filesystem::status(file, error).type();
+    if (type == std::filesystem::file_type::directory) throw SceneError(file, "cannot be read: it is a folder");
+    const bool there = type != std::filesystem::file_type::not_found && type != std::filesystem::file_type::none;
+    if (there && type != std::filesystem::file_type::regular)
+        throw SceneError(file, "cannot be read: it is a device or a pipe, not a file");
+    errno = 0;
+    return std::ifstream(file, std::ios::binary);
+}
+
+void check_encoding(std::string_view beginning, const std::string& file) {
+    const bool wide = beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF") ||
+                      beginning.starts_with(std::string_view("\0\0\xFE\xFF", 4));
+    if (wide) throw SceneError(file, "is UTF-16 or UTF-32 text; save it as UTF-8");
+}
+
+std::vector<std::byte> read_bytes(const std::string& file) {
+    std::ifstream in = open_input(file);
+    if (!in) throw SceneError(file, "cannot be read: " + reason());
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (error) throw SceneError(file, "cannot be read: " + error.message());
+    std::vector<std::byte> bytes(size);
+    if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
+        throw SceneError(file, "cannot be read: " + reason());
+    return bytes;
+}
+
+std::string read_text(const std::string& file) {
+    const std::vector<std::byte> bytes = read_bytes(file);
+    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    check_encoding(text, file);
+    if (text.starts_with(utf8_mark)) text.remove_prefix(utf8_mark.size());
+    return std::string(text);
+}
+
+}  // namespace percale::scenes

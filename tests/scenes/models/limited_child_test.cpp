@@ -1,0 +1,73 @@
+#include "scenes/models/limited_child.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include "percale/error.h"
+#include "tests/scenes/message_of.h"
+#include "tests/support/catch.h"
+
+namespace percale::scenes::test::limited_child_test {
+namespace {
+
+constexpr ChildLimits limits{.memory = 256u << 20, .cpu_s = 1.0};
+
+std::string fault_of(const std::function<std::vector<std::byte>()>& work) {
+    return message_of([&] { run_in_child(limits, work); });
+}
+
+/// Longer than a pipe holds.
+std::vector<std::byte> many_bytes() {
+    std::vector<std::byte> bytes;
+    for (int k = 0; k < 300000; ++k) bytes.push_back(static_cast<std::byte>(k % 251));
+    return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("What a child returns comes back whole, and nothing where it returns nothing") {
+    CHECK(run_in_child(limits, many_bytes) == many_bytes());
+    CHECK(run_in_child(limits, [] { return std::vector<std::byte>(); }).empty());
+}
+
+TEST_CASE("An error in a child is the caller's, with its text") {
+    CHECK(fault_of([]() -> std::vector<std::byte> { throw SceneError("a.fbx", "is torn"); }) == "a.fbx: is torn");
+    CHECK(fault_of([]() -> std::vector<std::byte> { throw std::runtime_error("lost"); }) == "lost");
+    CHECK(fault_of([]() -> std::vector<std::byte> { throw 7; }) == "ended without a result (exit code 1)");
+}
+
+TEST_CASE("A child that crashes, does not end or takes too much memory is told of, and this process goes on") {
+    CHECK(fault_of([]() -> std::vector<std::byte> {
+              std::raise(SIGSEGV);
+              std::abort();
+          }).starts_with("crashed (Segmentation fault"));
+    CHECK(fault_of([]() -> std::vector<std::byte> { std::abort(); }).starts_with("crashed (Abort"));
+    CHECK(fault_of([] {
+              volatile bool on = true;
+              while (on) {
+              }
+              return std::vector<std::byte>();
+          }) == "took more than 1 s of CPU time");
+    const std::string memory = fault_of([] {
+        std::vector<std::vector<std::byte>> all;
+        while (true) all.emplace_back(std::size_t{16} << 20, std::byte{1});
+        return std::vector<std::byte>();
+    });
+    // Sanitizers have an allocator that ends the program instead.
+    CHECK((memory == "took more than 256 MB of memory" || memory.starts_with("ended without a result")));
+    CHECK(run_in_child(limits, many_bytes) == many_bytes());
+}
+
+TEST_CASE("Several threads may have children at once") {
+    std::vector<std::thread> threads;
+    std::vector<int> good(4, 0);
+    for (int k = 0; k < 4; ++k)
+        threads.emplace_back(
+            [&good, k] { good[static_cast<std::size_t>(k)] = run_in_child(limits, many_bytes) == many_bytes(); });
+    for (std::thread& thread : threads) thread.join();
+    CHECK(good == std::vector<int>(4, 1));
+}
+
+}  // namespace percale::scenes::test::limited_child_test
