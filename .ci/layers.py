@@ -76,6 +76,7 @@ MOST_FOLDER_FILES = 25
 # Folders that may hold more files of their own, and why.
 LARGE_FOLDERS = {
     'scenes/program': 'one file a subcommand, by the name that users type',
+    'scenes/python': 'one file a part of the module, by what Python users see of it',
     'tests/fuzz/corpus/*': 'inputs that the fuzzers found and nobody reads',
     'data/scenes': 'each stands for itself: users pick one by its name, and programs run all',
 }

@@ -71,7 +71,7 @@ public:
 
     std::optional<Untangled> untangle(std::span<const Vec3> positions, std::span<const double> free) override {
         std::vector<SolidObstacle> solids;
-        for (const auto& obstacle : obstacles_) solids.emplace_back(obstacle->given_mesh());
+        for (const auto& obstacle : obstacles_) solids.emplace_back(obstacle->start_mesh());
         return percale::untangle(make_tangled_cloth(triangles_, thickness_, free), solids, positions);
     }
 

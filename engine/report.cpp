@@ -51,6 +51,14 @@ std::string jump_text(const StepReport& report) {
     return text.str();
 }
 
+const char* limit_text(bool out_of_time) {
+    if (out_of_time)
+        return "its time was up before pins and obstacles had arrived; teleport what jumps, take a shorter time step, or "
+               "raise the limit (set_time_limit)";
+    return "more Newton iterations than work_limit allows; take a shorter time step or a slower motion, teleport what "
+           "jumps, or raise the limit (set_work_limit)";
+}
+
 std::string failure_text(const StepReport& report) {
     std::ostringstream text;
     const bool by_cloth = report.blocking_obstacle < 0 && !report.blocking_name.empty();
@@ -96,14 +104,10 @@ std::string failure_text(const StepReport& report) {
             text << "positions or velocities would become infinite; take a shorter time step or an implicit scheme";
             break;
         case StepStatus::work_limit:
-            if (report.out_of_time) {
-                text
-                    << "its time was up before pins and obstacles had arrived; teleport what jumps, take a shorter time step, or "
-                       "raise the limit (set_time_limit)";
-                break;
-            }
-            text << "more Newton iterations than work_limit allows; take a shorter time step or a slower motion, teleport what "
-                    "jumps, or raise the limit (set_work_limit)";
+            text << limit_text(report.out_of_time);
+            break;
+        case StepStatus::cancelled:
+            text << "its caller has cancelled it (set_cancel)";
             break;
         default:
             break;
@@ -181,6 +185,8 @@ const char* status_word(StepStatus status) {
             return "not_finite";
         case StepStatus::work_limit:
             return "work_limit";
+        case StepStatus::cancelled:
+            return "cancelled";
     }
     return "unknown";
 }

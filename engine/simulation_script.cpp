@@ -172,6 +172,8 @@ void Simulation::set_time_limit(double seconds) {
     implementation_->world.time_limit = seconds;
 }
 
+void Simulation::set_cancel(const std::atomic<bool>* cancel) { implementation_->world.cancel = cancel; }
+
 void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     World& world = implementation_->world;
     const ClothRange& range = implementation_->cloth(cloth);

@@ -26,6 +26,10 @@ constexpr double unit_length_error = 1e-6, unit_square_error = 1e-6;
 constexpr std::chrono::microseconds longest_spin(20);
 constexpr int spins_between_looks = 8;
 
+/// s beyond the time limit of a step that a linear solve may take. 0: one that is cut off at its first iteration gives velocities
+/// of 50 m/s. Minutes: a step whose solve does not end does not heed the limit.
+constexpr double linear_grace_s = 0.5;
+
 /// Of one pool. And what a thread should have to do before `threads = auto` uses another one (cost alone).
 constexpr int most_threads = 64, least_vertices_a_thread = 1000;
 

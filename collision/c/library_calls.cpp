@@ -14,6 +14,7 @@ static_assert(PERCALE_STEP_OBSTACLE_TOO_FAST == static_cast<int>(percale::StepSt
 static_assert(PERCALE_STEP_WRONG_DERIVATIVE == static_cast<int>(percale::StepStatus::wrong_derivative));
 static_assert(PERCALE_STEP_NOT_FINITE == static_cast<int>(percale::StepStatus::not_finite));
 static_assert(PERCALE_STEP_WORK_LIMIT == static_cast<int>(percale::StepStatus::work_limit));
+static_assert(PERCALE_STEP_CANCELLED == static_cast<int>(percale::StepStatus::cancelled));
 
 const char* percale_version(void) { return PERCALE_C_VERSION; }
 
@@ -40,7 +41,7 @@ const char* percale_status_text(percale_status status) {
 }
 
 const char* percale_step_status_text(int status) {
-    if (status < PERCALE_STEP_OK || status > PERCALE_STEP_WORK_LIMIT) return "unknown status";
+    if (status < PERCALE_STEP_OK || status > PERCALE_STEP_CANCELLED) return "unknown status";
     return percale::status_word(static_cast<percale::StepStatus>(status));
 }
 

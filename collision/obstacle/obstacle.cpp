@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "certificate/inside_test.h"
 #include "percale/certify.h"
 #include "percale/error.h"
 #include "tolerances.h"
@@ -14,6 +15,9 @@ Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, 
     if (deforms()) {
         start_shape_ = end_shape_ = mesh.vertices;
         find_doubles();
+    } else if (surface_.watertight && !certificate::is_watertight(mesh)) {
+        // Contact takes the body as solid; so must the start, or cloth inside would be let out where only cloth outside may be.
+        mesh_ = solid_of(mesh, given_triangles_);
     }
     local_ = surface_.vertices;
     start_ = transform(pose, local_);
@@ -173,7 +177,7 @@ void Obstacle::find(std::span<const Box> boxes, IdLists& found) {
     }
 }
 
-TriangleMesh Obstacle::given_mesh() const {
+TriangleMesh Obstacle::start_mesh() const {
     TriangleMesh placed = mesh_;
     placed.vertices = transform(start_pose_, std::span<const Vec3>(deforms() ? start_shape_ : mesh_.vertices));
     return placed;
@@ -181,7 +185,7 @@ TriangleMesh Obstacle::given_mesh() const {
 
 std::optional<StartFault> Obstacle::start_fault(const TriangleMesh& cloth, int number) const {
     // Only whether the distance is 0 matters here, so nothing is searched farther away.
-    const Certificate certificate = certify(cloth, given_mesh(), 0.0);
+    const Certificate certificate = certify(cloth, start_mesh(), 0.0);
     if (certificate.clean() && certificate.smallest_distance > 0.0) return std::nullopt;
     StartFault fault{.obstacle = number,
                      .intersecting_pairs = static_cast<int>(certificate.pairs.size()),
@@ -190,7 +194,8 @@ std::optional<StartFault> Obstacle::start_fault(const TriangleMesh& cloth, int n
                      .inside_vertices = certificate.inside_vertices};
     if (!certificate.pairs.empty()) {
         fault.cloth_triangle = certificate.pairs[0].first;
-        fault.obstacle_triangle = certificate.pairs[0].second;
+        const int triangle = certificate.pairs[0].second;
+        fault.obstacle_triangle = given_triangles_.empty() ? triangle : given_triangles_[static_cast<std::size_t>(triangle)];
     }
     return fault;
 }

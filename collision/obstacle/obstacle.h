@@ -74,8 +74,9 @@ public:
 
     /// Patches whose boxes come near each world box during the step, ascending and the same for every kind of tree.
     void find(std::span<const Box> boxes, IdLists& found);
-    /// The mesh at the start of the step, as it was given (not cleaned).
-    TriangleMesh given_mesh() const;
+    /// The mesh at the start of the step, as it was given; of a body that is closed but for repeated vertices and triangles
+    /// without these (solid_of).
+    TriangleMesh start_mesh() const;
     /// What is wrong with cloth that starts there, told of the obstacle of this number; nothing if it is clear.
     std::optional<StartFault> start_fault(const TriangleMesh& cloth, int number) const;
 
@@ -92,9 +93,10 @@ private:
     void make_patch_tree(TreeFactory make_tree);
     VertexPaths paths() const { return {start_, moves_ ? end_ : start_}; }
 
-    TriangleMesh mesh_;
-    ObstacleSurface surface_;  // vertices where the tree was built
-    std::vector<Vec3> local_;  // cleaned vertices before the pose
+    TriangleMesh mesh_;                 // of start_mesh, before the pose
+    std::vector<int> given_triangles_;  // of its triangles in the given mesh; empty: the same
+    ObstacleSurface surface_;           // vertices where the tree was built
+    std::vector<Vec3> local_;           // cleaned vertices before the pose
     std::vector<Vec3> start_shape_, end_shape_;
     std::vector<std::array<int, 2>> doubles_;  // given vertices at one place that are used, of a deforming obstacle
     std::vector<Vec3> start_, end_;            // m, world

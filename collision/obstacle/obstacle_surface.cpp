@@ -40,13 +40,14 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
-/// Of a deforming surface those without area stay: they may get one.
+/// Of a deforming surface those without area stay: they may get one. `numbers`, where not null, gets those of the triangles that
+/// are kept.
 void keep_good_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles, SurfaceShape shape,
-                         ObstacleSurface& surface) {
+                         ObstacleSurface& surface, std::vector<int>* numbers = nullptr) {
     const std::vector<int> merged = merge_vertices(vertices, surface.cleaning.merged_vertices);
     std::map<Triangle, int> seen;
-    for (const Triangle& original : triangles) {
-        const Triangle t{merged[original[0]], merged[original[1]], merged[original[2]]};
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const Triangle t{merged[triangles[i][0]], merged[triangles[i][1]], merged[triangles[i][2]]};
         const bool distinct = t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
         if (!distinct || (shape == SurfaceShape::rigid && !has_area(vertices, t))) {
             ++surface.cleaning.degenerate_triangles;
@@ -54,6 +55,7 @@ void keep_good_triangles(std::span<const Vec3> vertices, std::span<const Triangl
             ++surface.cleaning.duplicate_triangles;
         } else {
             surface.triangles.push_back(t);
+            if (numbers != nullptr) numbers->push_back(static_cast<int>(i));
         }
     }
 }
@@ -271,6 +273,13 @@ ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Tri
     }
     mark_touchable(surface, surface.watertight ? drop_internal_faces(surface) : std::vector<FaceSides>());
     return surface;
+}
+
+TriangleMesh solid_of(const TriangleMesh& mesh, std::vector<int>& numbers) {
+    ObstacleSurface surface;
+    numbers.clear();
+    keep_good_triangles(mesh.vertices, mesh.triangles, SurfaceShape::rigid, surface, &numbers);
+    return {.vertices = mesh.vertices, .triangles = std::move(surface.triangles)};
 }
 
 void mark_flat(std::span<const Vec3> start, std::span<const Vec3> end, ObstacleSurface& surface) {

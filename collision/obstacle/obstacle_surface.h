@@ -51,6 +51,10 @@ enum class SurfaceShape { rigid, deforming };
 ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                              SurfaceShape shape = SurfaceShape::rigid);
 
+/// A mesh whose corners at one place are one vertex, the first of them, without triangles that have no area or are repeated:
+/// closed where make_surface takes it as closed, internal faces included. `numbers`: of its triangles in the given mesh.
+TriangleMesh solid_of(const TriangleMesh& mesh, std::vector<int>& numbers);
+
 /// Of a deforming surface during a step: edges that are flat at both of its ends cannot touch, nor can vertices at which all are.
 void mark_flat(std::span<const Vec3> start, std::span<const Vec3> end, ObstacleSurface& surface);
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "geometry/cut_floor.h"
+#include "geometry/joined_places.h"
 #include "geometry/stretches.h"
 #include "percale/certify.h"
 #include "tolerances.h"
@@ -40,7 +41,8 @@ std::vector<Triangle> SelfContactDetection::triangles() const {
 }
 
 StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) const {
-    const TriangleMesh cloth{.vertices = {positions.begin(), positions.end()}, .triangles = triangles()};
+    const std::vector<Triangle> met = triangles();
+    const TriangleMesh cloth{.vertices = joined_places(positions, met), .triangles = met};
     const ClothCertificate certificate = certify_cloth(cloth, stitches_, meeting());
     const auto& pairs = certificate.crossing.empty() ? certificate.touching : certificate.crossing;
     if (pairs.empty()) return {};

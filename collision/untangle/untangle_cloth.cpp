@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "geometry/joined_places.h"
 #include "percale/certify.h"
 #include "tolerances.h"
 #include "untangle/edge_crossings.h"
@@ -258,7 +259,8 @@ private:
 
 }  // namespace
 
-std::optional<std::vector<Vec3>> untangle_cloth(const CrossedCloth& cloth, std::span<const Vec3> positions) {
+std::optional<std::vector<Vec3>> untangle_cloth(const CrossedCloth& cloth, std::span<const Vec3> given) {
+    const std::vector<Vec3> positions = joined_places(given, cloth.triangles);  // as the start is checked
     // Sides that lie a little apart may be clear as they are and cross when they are drawn together: then once more as they are.
     std::optional<std::vector<Vec3>> apart = Rounds(cloth, positions, tolerances::closed_stitch).run();
     return apart || cloth.stitches.empty() ? apart : Rounds(cloth, positions, 0.0).run();

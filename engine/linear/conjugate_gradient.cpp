@@ -22,7 +22,7 @@ public:
         double rz = apply_preconditioner(), beta = 0.0;
         copy(compute_, space_.z, space_.p);  // set_residual has sized space_.points and set its guards
         SolveReport report;
-        while (report.iterations < target.most_iterations) {
+        while (target.goes_on(report.iterations)) {
             ++report.iterations;
             for_chunks(compute_, matrix_.slices(), [&](Slices range) {
                 kernels().turn(beta, view(space_.z), space_.p.axes(), range);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "../tolerances.h"
+#include "support/deadline.h"
 
 namespace percale {
 
@@ -25,6 +26,9 @@ struct SolveTarget {
     double absolute_gain = 0.0;
     std::span<const NetLimit> net = {};  // gains are small enough only where these hold too
     int most_iterations = 2000;
+    Deadline deadline = {};  // behind it no iteration begins but the first
+
+    bool goes_on(int iterations) const { return iterations < most_iterations && (iterations == 0 || !is_past(deadline)); }
 };
 
 /// Whether residuals, whose axes lie one after the other, keep these limits. `unit` is the size of a residual of 1, kg m/s.

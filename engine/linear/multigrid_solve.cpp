@@ -84,7 +84,7 @@ private:
         double rz = end_cycle(r, z);
         float beta = 0.0f;
         GainRecord gains(1);
-        while (report_.iterations < target.most_iterations) {
+        while (target.goes_on(report_.iterations)) {
             ++report_.iterations;
             for_chunks(compute_, multigrid_.slices(), [&](Slices range) {
                 kernels().float_turn(beta, z, p, range);

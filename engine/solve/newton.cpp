@@ -93,6 +93,7 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
         if (meets_tolerance(equations, report)) return true;
         if (report.newton_iterations >= std::min(settings.newton_iterations, space.iterations_left)) return false;
         if (next_change_is_small(equations, error, search, report)) return true;
+        if (is_cancelled(space.time.deadline)) return false;
         if (report.newton_iterations > 0 && is_past(space.time.deadline) &&
             (equations.arrived() || --space.time.late_iterations < 0)) {
             report.out_of_time = true;
@@ -106,7 +107,8 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
         const double ratio = report.newton_iterations > 0 ? search.norm / search.last_norm : 1.0;
         const NewtonProgress progress{report.newton_iterations, ratio, report.residual};
         const Vectors& velocities = space.current.velocities;
-        const SolveTarget target = solve_target(error, progress, settings, velocities);
+        SolveTarget target = solve_target(error, progress, settings, velocities);
+        target.deadline = later(space.time.deadline, linear_grace_s);  // a solve that was cut off leads astray
         Direction direction = newton_direction(equations, target);
         const bool may_stop = equations.arrived() && report.newton_iterations + 1 < settings.newton_iterations;
         LineResult line = search_line(equations, error, may_stop);

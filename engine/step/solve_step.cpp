@@ -104,6 +104,7 @@ private:
         StepState* end = nullptr;
         for (int part = 0; part < scene_.plan.parts; ++part) {
             const bool last = part + 1 == scene_.plan.parts;
+            if (cancelled()) return nullptr;
             end = &other_end(*at);
             keep(advance(span({piece.from + part * length, last ? piece.to : piece.from + (part + 1) * length}, false), *at,
                          work_, *end));
@@ -133,6 +134,7 @@ private:
             const SpanResult result = advance(next, *at, work_, *end);
             work_.time = work_.newton.time;
             add_figures(result, report_);
+            if (cancelled()) return nullptr;
             const bool worked_out = report_.newton_iterations >= work_.iterations_left;
             const bool taken = result.end == SpanEnd::solved || (result.out_of_time && result.is_usable(next.last_try));
             const bool late = work_.time.late_iterations < 0 && !taken;
@@ -161,6 +163,13 @@ private:
             pending[count++] = {{fraction.from, middle}, depth + 1};
         }
         return end;
+    }
+
+    /// By the caller's wish: the step is failed.
+    bool cancelled() {
+        const bool now = is_cancelled(work_.time.deadline);
+        if (now) report_.status = StepStatus::cancelled;
+        return now;
     }
 
     Span span(StepFraction fraction, bool last_try) const { return {scene_, start_.cloth.positions, fraction, last_try}; }

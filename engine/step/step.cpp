@@ -174,7 +174,7 @@ StepReport step(World& world) {
     }
     const int limit = world.scene.settings.work_limit;
     world.work.iterations_left = limit > 0 ? limit : std::numeric_limits<int>::max();
-    world.work.time = {deadline_in(world.time_limit), most_late_iterations};
+    world.work.time = {deadline_in(world.time_limit, world.cancel), most_late_iterations};
     const MotionParts motion = motion_parts(world.scene, world.state.cloth);
     if (motion.count > most_step_parts) return refuse_far(world, motion);
     StepReport report = motion.count > 1 ? step_divided(world, motion.count) : step_once(world);

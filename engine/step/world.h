@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct GivenNumbers {
 struct World {
     std::shared_ptr<Workers> workers;            // null: the caller's thread alone
     std::shared_ptr<const CheckedWorkers> host;  // those workers, where they are a host's
+    const std::atomic<bool>* cancel = nullptr;   // Simulation::set_cancel
     bool own_workers = true;                     // made by StepSettings::threads, not given
     StepScene scene;
     StepState state;

@@ -1,17 +1,23 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 
 namespace percale {
 
-/// When a step should be at its end; empty: it may take as long as it takes. The one decision that reads a clock.
-using Deadline = std::optional<std::chrono::steady_clock::time_point>;
+/// When a step should be at its end; by default it may take as long as it takes. The one decision that reads a clock.
+struct Deadline {
+    std::optional<std::chrono::steady_clock::time_point> time = {};
+    const std::atomic<bool>* cancel = nullptr;  // true: at once, by its caller's wish (Simulation::set_cancel)
+};
 
-inline Deadline deadline_in(double seconds) {
-    if (seconds == 0.0) return std::nullopt;
-    return std::chrono::steady_clock::now() +
-           std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+/// 0 s: none.
+inline Deadline deadline_in(double seconds, const std::atomic<bool>* cancel = nullptr) {
+    if (seconds == 0.0) return {{}, cancel};
+    return {std::chrono::steady_clock::now() +
+                std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds)),
+            cancel};
 }
 
 /// The deadline of a step, and how many of Newton's iterations it may take beyond for what moves to arrive.
@@ -20,6 +26,18 @@ struct TimeBudget {
     int late_iterations = 0;
 };
 
-inline bool is_past(const Deadline& deadline) { return deadline && std::chrono::steady_clock::now() >= *deadline; }
+/// By so many seconds; cancelled all the same.
+inline Deadline later(Deadline deadline, double seconds) {
+    if (deadline.time)
+        *deadline.time += std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+    return deadline;
+}
+
+inline bool is_cancelled(const Deadline& deadline) {
+    return deadline.cancel != nullptr && deadline.cancel->load(std::memory_order_relaxed);
+}
+inline bool is_past(const Deadline& deadline) {
+    return is_cancelled(deadline) || (deadline.time && std::chrono::steady_clock::now() >= *deadline.time);
+}
 
 }  // namespace percale

@@ -71,6 +71,10 @@ Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function
             drape.failure = sewing_fault(built);
             if (!drape.failure.empty()) drape.end = DrapeEnd::unsewn;
         }
+        if (drape.last.status == StepStatus::cancelled) {
+            drape.end = DrapeEnd::stopped;
+            return drape;
+        }
         if (!drape.last.ok()) {
             drape.end = DrapeEnd::failed;
             drape.failure = drape.last.explanation();

@@ -191,7 +191,7 @@ std::string KeptRun::state_hash() const {
     return column && *column < cells.size() ? cells[*column] : "";
 }
 
-RunResult KeptRun::run(BuiltScene& built, const std::function<bool()>& stop_asked, std::span<const Expectation> expectations) {
+RunResult KeptRun::run(BuiltScene& built, const RunHooks& stops, std::span<const Expectation> expectations) {
     const std::string checkpoint = folder_ + "/" + checkpoint_name;
     RunFolder folder(folder_, built.scene, marks_.replay_hash);
     RunHooks hooks;
@@ -201,7 +201,8 @@ RunResult KeptRun::run(BuiltScene& built, const std::function<bool()>& stop_aske
     };
     hooks.frame = [&](const Frame& frame) { folder.add(frame); };
     hooks.step = [&](const StepReport& report, const Simulation& simulation) { folder.add(report, simulation); };
-    hooks.stop_asked = stop_asked;
+    hooks.stop_asked = stops.stop_asked;
+    hooks.cancel = stops.cancel;
     hooks.checkpoint = [&](const RunState& state) { save_run(checkpoint, built.scene, state, marks_, folder); };
     RunSettings settings{.certify_steps = marks_.certify_steps};
     settings.checkpoint_every = built.scene.latest_end() / checkpoints_of_kept_run;

@@ -54,8 +54,9 @@ public:
     /// Of the last state of a run that has ended, where its table has one: 16 hexadecimal digits.
     std::string state_hash() const;
 
-    /// Runs the scene, or goes on with it, and leaves its report. `stop_asked`: RunHooks. Throws what run_scene and RunFolder do.
-    RunResult run(BuiltScene& built, const std::function<bool()>& stop_asked, std::span<const Expectation> expectations);
+    /// Runs the scene, or goes on with it, and leaves its report. `stops`: stop_asked and cancel alone are looked at. Throws what
+    /// run_scene and RunFolder do.
+    RunResult run(BuiltScene& built, const RunHooks& stops, std::span<const Expectation> expectations);
 
 private:
     void look(const Scene& scene);

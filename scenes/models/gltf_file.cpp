@@ -364,7 +364,9 @@ bool is_gltf_2(const std::string& file) {
         false);
     if (!document.is_object()) return true;
     const auto asset = document.find("asset");
-    return asset != document.end() && asset->is_object() && asset->value("version", "").starts_with("2");
+    if (asset == document.end() || !asset->is_object() || !asset->contains("version")) return false;
+    const GltfJson& version = asset->at("version");  // files of version 1 give a number, too
+    return version.is_string() && version.get<std::string>().starts_with("2");
 }
 
 Model read_gltf(const std::string& file) {

@@ -57,7 +57,7 @@ void check_exact(const std::string& folder, const std::string& file) {
         if (format.exact) exact.push_back(format.word);
     }
     throw SceneError(folder + "/" + file + ": holds no frames that can be certified, bit for bit; write one of " + joined(exact) +
-                     " too, as by --frames " + exact.front() + "," + ending.substr(1));
+                     " too, as by --frames " + exact.front() + (ending.empty() ? "" : "," + ending.substr(1)));
 }
 
 /// What a run wrote, from its report; no other word of the report is believed.

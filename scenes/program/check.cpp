@@ -101,11 +101,12 @@ void run_into(Outcome& outcome, const CheckOptions& check, const StopSignals& si
                      check.program);
     if (kept && kept->ended()) return take_kept(outcome, *kept, expected);
     if (check.jobs > 1 && scene.step.threads == 0) scene.step.threads = 1;  // the jobs use the cores
-    BuiltScene built = build_scene(scene);
+    BuiltScene built = signals.prepare([&] { return build_scene(scene); });
     for (const StartMove& move : built.simulation.start_repair()) outcome.start_moves.push_back(start_move_text(move));
     RunHooks hooks;
     hooks.stop_asked = [&] { return signals.asked(); };
-    const RunResult result = kept ? kept->run(built, hooks.stop_asked, expected)
+    hooks.cancel = &signals.overdue();
+    const RunResult result = kept ? kept->run(built, hooks, expected)
                                   : run_scene(built, hooks, {.certify_steps = options.certify_steps, .compare = !check.update});
     const RunVerdict verdict = verdict_of_run(result);
     outcome.scene.status = verdict.word;

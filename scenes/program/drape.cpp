@@ -58,7 +58,8 @@ std::size_t print_start(const DrapeOptions& options, const DrapeScene& made, con
 std::optional<int> drape_once(const DrapeCommand& command, const StopSignals& signals, bool again) {
     const DrapeOptions& options = command.drape;
     const DrapeScene made = drape_scene(options);
-    BuiltScene built = build_scene(made.scene);
+    BuiltScene built = signals.prepare([&] { return build_scene(made.scene); });
+    built.simulation.set_cancel(&signals.overdue());
     const std::size_t start_moves = command.quiet ? 0 : print_start(options, made, built);
     ProgressBar bar(!command.quiet, options.seconds);
     const auto stop = [&](double time) {

@@ -156,7 +156,7 @@ int run(RunOptions options) {
     if (!options.resume.empty()) from = read_checkpoint(options.resume);
     if (options.folder.empty()) options.folder = from ? folder_of(options.resume) : default_folder(options.scene);
     const StopSignals signals;  // before the threads of the simulation
-    BuiltScene built = built_scene(options, from ? &*from : nullptr);
+    BuiltScene built = signals.prepare([&] { return built_scene(options, from ? &*from : nullptr); });
     if (signals.asked()) {
         std::fprintf(stderr, "percale: %s: stopped before the first step; nothing was written\n", options.scene.c_str());
         return stopped_by_signal;
@@ -182,6 +182,7 @@ int run(RunOptions options) {
         bar.show(simulation.time());
     };
     hooks.stop_asked = [&] { return signals.asked(); };
+    hooks.cancel = &signals.overdue();
     const std::string checkpoint = options.folder + "/" + checkpoint_name;
     const RunMarks marks{options.common.certify_steps, options.common.replay_hash};
     if (interval > 0.0)

@@ -5,6 +5,7 @@
 #include "python/arrays.h"
 #include "python/meshes.h"
 #include "python/module.h"
+#include "python/released_gil.h"
 
 namespace percale::python {
 namespace {
@@ -22,13 +23,13 @@ py::array pairs_of(const std::vector<IntersectingPair>& pairs) {
 Certificate certificate_of(py::handle cloth, py::handle obstacle, double distance_limit) {
     if (!(distance_limit >= 0.0)) throw SceneError("distance_limit", "must be at least 0 m");
     const auto first = mesh_of(cloth, "cloth"), second = mesh_of(obstacle, "obstacle");
-    const py::gil_scoped_release others_run;
+    const ReleasedGil others_run;
     return certify(*first, *second, distance_limit);
 }
 
 ClothCertificate cloth_certificate_of(py::handle cloth) {
     const auto mesh = mesh_of(cloth, "cloth");
-    const py::gil_scoped_release others_run;
+    const ReleasedGil others_run;
     return certify_cloth(*mesh);
 }
 
@@ -39,7 +40,7 @@ py::array_t<double> distances_of(py::handle mesh, py::handle points) {
         if (!x.allFinite()) throw SceneError("points", "one is not finite");
     std::vector<double> distances;
     {
-        const py::gil_scoped_release others_run;
+        const ReleasedGil others_run;
         distances = surface_distances(*surface, places);
     }
     py::array_t<double> array(static_cast<long>(distances.size()));

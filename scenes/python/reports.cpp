@@ -149,7 +149,7 @@ void bind_reports(py::module_& module) {
         .def_property_readonly(
             "status", [](const StepReport& self) { return status_word(self.status); },
             "ok, halved, not_converged, tolerance_missed (accepted); pin_blocked, obstacle_too_fast, wrong_derivative,\n"
-            "not_finite, work_limit (failed).")
+            "not_finite, work_limit, cancelled (failed).")
         .def_property_readonly("ok", &StepReport::ok, "Whether the step was accepted.")
         .def_property_readonly("explanation", &StepReport::explanation, "One sentence on what happened, with figures.")
         .def("__repr__", [](const StepReport& self) { return "<percale.StepReport: " + self.explanation() + ">"; });

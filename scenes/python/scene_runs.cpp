@@ -14,6 +14,7 @@
 #include "percale/error.h"
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/released_gil.h"
 #include "python/values.h"
 #include "run/run_verdict.h"
 #include "run/scene_plan.h"
@@ -38,7 +39,7 @@ KeptFrame kept(const Frame& frame) {
 
 /// Calls on_step where there is one; true if the run is to stop. Looks for signals, which Python's own code cannot meanwhile.
 bool told(const py::object& on_step, const StepReport& report, const BuiltScene& built) {
-    const py::gil_scoped_acquire gil;
+    const TakenGil gil;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (on_step.is_none()) return false;
     const auto view = std::make_shared<RunView>(RunView{&built});
@@ -135,7 +136,7 @@ void bind_scene(py::module_& module) {
         [](py::handle source, py::handle overrides) {
             const Scene scene = scene_from(source, overrides);
             return parsed_json([&] {
-                const py::gil_scoped_release others_run;
+                const ReleasedGil others_run;
                 return plan_json(build_scene(scene));
             }());
         },
@@ -283,7 +284,7 @@ const BuiltScene& RunView::now() const {
 
 std::shared_ptr<SceneRun> run_with(const Scene& scene, const RunWishes& wishes) {
     auto run = std::make_shared<SceneRun>();
-    const py::gil_scoped_release others_run;
+    const ReleasedGil others_run;
     BuiltScene built = build_scene(scene);
     run->cloth_names = names_of(built.scene.cloths);
     run->obstacle_names = names_of(built.scene.obstacles);

@@ -9,6 +9,7 @@
 
 #include "format/scene.h"
 #include "percale/simulation.h"
+#include "python/released_gil.h"
 
 namespace percale::python {
 
@@ -44,7 +45,7 @@ public:
         check_idle();
         const UpToDate after{*this};
         const Busy busy(running_);
-        const py::gil_scoped_release others_run;
+        const ReleasedGil others_run;
         return work(simulation_);
     }
 

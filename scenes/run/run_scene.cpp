@@ -195,6 +195,13 @@ struct RunScript {
     }
 };
 
+/// `where`: "", or what is to be told besides.
+void stop_at(const BuiltScene& built, const std::string& where, RunResult& result) {
+    result.status = RunStatus::stopped;
+    result.reason = "stopped at " + short_number(built.simulation.time()) + " of " + short_number(built.scene.latest_end()) +
+                    " s" + (where.empty() ? "" : ", " + where);
+}
+
 /// One step of the simulation: script, simulation, figures. False if it failed.
 bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, double dt, RunResult& result) {
     RunTotals& totals = result.totals;
@@ -218,6 +225,10 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, doub
         return false;
     }
     totals.cpu_s += report.cpu_s;
+    if (report.status == StepStatus::cancelled) {
+        stop_at(built, "within a step", result);
+        return false;
+    }
     if (is_measured_by_frames(built) && script.observer.frame_is_due()) measure_frame(built.simulation, report);
     add_cost(totals, report);
     if (hooks.step) hooks.step(report, built.simulation);
@@ -306,10 +317,7 @@ public:
             const bool due = checkpoints_.due(built_.simulation.time());
             if ((stop || due) && hooks_.checkpoint) hooks_.checkpoint(state());
             if (!stop) continue;
-            result_.status = RunStatus::stopped;
-            result_.reason =
-                "stopped at " + short_number(built_.simulation.time()) + " of " + short_number(built_.scene.latest_end()) + " s";
-            return;
+            return stop_at(built_, "", result_);
         }
         if (script_.rest) end_at_rest(script_.rest->figures());
     }
@@ -410,7 +418,9 @@ RunResult run_scene(BuiltScene& built, const RunHooks& hooks, const RunSettings&
     result.plan = plan_of(built);
     Run run(built, hooks, settings, references, result);
     if (hooks.begin) hooks.begin();
+    built.simulation.set_cancel(hooks.cancel);
     run.make_steps();
+    built.simulation.set_cancel(nullptr);
     if (is_measured_by_frames(built)) {
         set_stored_energy(built.simulation.energy(), result.totals.energy);
         result.measures.energy_gain = std::numeric_limits<double>::quiet_NaN();

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "percale/error.h"
+
 namespace percale::scenes {
 
 namespace {
@@ -26,6 +28,9 @@ std::string shell_word(const std::string& word) {
 BatchFiles batch_files(const Study& study, const StudyFolder& folder, const std::string& program) {
     const std::size_t runs = study.runs.size(), chunk = (runs + most_tasks - 1) / most_tasks, tasks = (runs + chunk - 1) / chunk;
     const std::string path = std::filesystem::absolute(folder.path()).lexically_normal().string();
+    for (const std::string& name : {path, program})
+        if (name.find('\n') != std::string::npos)
+            throw SceneError(name, "a name with a line end is none that a Makefile can hold");
     const std::string sweep = shell_word(program) + " sweep " + shell_word(path) + " --quiet";
     BatchFiles files;
     files.slurm = "#!/bin/sh\n#SBATCH --job-name=percale\n#SBATCH --array=0-" + std::to_string(tasks - 1) +

@@ -18,7 +18,8 @@ constexpr StepStatus all_statuses[] = {StepStatus::ok,
                                        StepStatus::obstacle_too_fast,
                                        StepStatus::wrong_derivative,
                                        StepStatus::not_finite,
-                                       StepStatus::work_limit};
+                                       StepStatus::work_limit,
+                                       StepStatus::cancelled};
 
 StepReport report_of(StepStatus status) {
     StepReport report;

@@ -20,12 +20,12 @@ TEST_CASE("Nothing crosses in 200 random scenes, by the exact certificate after 
         CHECK(outcome.last != StepStatus::not_finite);
         touched += outcome.result.totals.contacts_most > 0 ? 1 : 0;
         blocked += outcome.blocked() ? 1 : 0;
-        blocked_free += outcome.blocked() && !scene.pinned ? 1 : 0;
+        blocked_free += outcome.blocked() && !scene.pinned && scene.motion != "closing" ? 1 : 0;
         steps += outcome.result.totals.steps;
     }
     std::printf("200 random scenes: %ld steps, %d with contact, %d blocked\n", steps, touched, blocked);
     CHECK(touched > 100);
-    // Where an obstacle runs over a pin nothing can be done; cloth that nothing holds gets away.
+    // Where an obstacle runs over a pin, or two close on cloth, nothing can be done; cloth that nothing holds gets away.
     CHECK(blocked_free == 0);
     CHECK(blocked < 25);
 }

@@ -19,6 +19,7 @@ enum class StepStatus {  // those up to tolerance_missed are accepted
     wrong_derivative,   // failed: StepSettings::check_derivatives found forces that do not fit energy or matrix
     not_finite,         // failed: a state would have become infinite or NaN; the state is that of the step's start
     work_limit,         // failed: more Newton iterations than StepSettings::work_limit allows; or out_of_time
+    cancelled,          // failed: Simulation::set_cancel
 };
 
 /// What became of a span, a piece of a step that is solved at once. All but `solved` drop it, and it is solved again in shorter

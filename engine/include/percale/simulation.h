@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -129,6 +130,10 @@ public:
     /// The clock starts when `prepare` has done what is to do. Explicit schemes do not look at it: what their steps cost is known
     /// before. Results then depend on the machine; without it no decision reads a clock. Not part of saved states.
     void set_time_limit(double seconds);
+    /// While this is true, a step ends within a few iterations of what it is at and fails (StepStatus::cancelled), nothing moves:
+    /// for hosts that have to go, from another thread or a signal handler. Null: none. It must outlive the steps. Not part of
+    /// saved states.
+    void set_cancel(const std::atomic<bool>* cancel);
     /// All vertices of a cloth; m and m/s, -1e9 ... 1e9. For starts that are not at rest.
     void set_positions(ClothId cloth, std::span<const Vec3> positions);
     void set_velocities(ClothId cloth, std::span<const Vec3> velocities);

@@ -14,7 +14,7 @@ TEST_CASE("Every status of the C interface has a text of its own, others are unk
     CHECK(texts.size() == static_cast<std::size_t>(PERCALE_INTERNAL_ERROR) + 1);
     CHECK(texts.count("unknown status") == 0);
     CHECK(percale_step_status_text(-1) == std::string("unknown status"));
-    CHECK(percale_step_status_text(PERCALE_STEP_WORK_LIMIT + 1) == std::string("unknown status"));
+    CHECK(percale_step_status_text(PERCALE_STEP_CANCELLED + 1) == std::string("unknown status"));
 }
 
 TEST_CASE("A status of a step has the word that C++ gives it") {
@@ -26,7 +26,8 @@ TEST_CASE("A status of a step has the word that C++ gives it") {
                                                  {PERCALE_STEP_OBSTACLE_TOO_FAST, "obstacle_too_fast"},
                                                  {PERCALE_STEP_WRONG_DERIVATIVE, "wrong_derivative"},
                                                  {PERCALE_STEP_NOT_FINITE, "not_finite"},
-                                                 {PERCALE_STEP_WORK_LIMIT, "work_limit"}};
+                                                 {PERCALE_STEP_WORK_LIMIT, "work_limit"},
+                                                 {PERCALE_STEP_CANCELLED, "cancelled"}};
     for (const auto& [status, word] : words) CHECK(percale_step_status_text(status) == std::string(word));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "percale/certify.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
 #include "tests/support/collision/shapes.h"
@@ -217,9 +218,34 @@ TEST_CASE("the given mesh is kept with what cleaning drops, at the start of the 
     const Pose start = random.pose(1.0);
     obstacle.move(start, random.pose(1.0));
     CHECK(obstacle.surface().triangles.size() == 12);
-    CHECK(obstacle.given_mesh().triangles == mesh.triangles);
-    CHECK(obstacle.given_mesh().vertices == transform(start, mesh.vertices));
+    CHECK(obstacle.start_mesh().triangles == mesh.triangles);
+    CHECK(obstacle.start_mesh().vertices == transform(start, mesh.vertices));
     CHECK(obstacle.friction() == 0.3);
+}
+
+TEST_CASE("cloth inside a body that is closed but for repeated vertices or triangles does not start clear") {
+    const TriangleMesh ball = make_sphere(0.3, 2);
+    TriangleMesh loose;  // every triangle has corners of its own, as files without shared vertices have
+    for (const Triangle& t : ball.triangles) {
+        const int first = static_cast<int>(loose.vertices.size());
+        for (const int v : t) loose.vertices.push_back(ball.vertices[v]);
+        loose.triangles.push_back({first, first + 1, first + 2});
+    }
+    const TriangleMesh sheet = make_grid(0.1, 0.1, 3, 3), far = moved(sheet, {1.0, 0.0, 0.0}),
+                       across = moved(sheet, {0.3, 0.013, 0.017});
+    for (const TriangleMesh& mesh : {ball, loose, joined(ball, ball), joined(ball, inside_out(ball))}) {
+        const Obstacle obstacle = make(mesh, {});
+        const auto inside = obstacle.start_fault(sheet, 0);
+        REQUIRE(inside.has_value());
+        CHECK(inside->vertices_inside == 9);
+        CHECK_FALSE(obstacle.start_fault(far, 0).has_value());
+        const auto crossed = obstacle.start_fault(across, 0);
+        REQUIRE(crossed.has_value());
+        REQUIRE(crossed->obstacle_triangle >= 0);
+        REQUIRE(crossed->obstacle_triangle < static_cast<int>(mesh.triangles.size()));
+        CHECK(certify(across, {.vertices = mesh.vertices, .triangles = {mesh.triangles[crossed->obstacle_triangle]}}, 0.0)
+                  .pairs.size() > 0);
+    }
 }
 
 }  // namespace percale::test::obstacle_test

@@ -1,5 +1,6 @@
 #include "engine/step/step_parts.h"
 
+#include <atomic>
 #include <cmath>
 
 #include "percale/simulation.h"
@@ -193,6 +194,40 @@ TEST_CASE("A step that takes more Newton iterations than work_limit fails and le
         CHECK(mentions(report.explanation(), {"work_limit", "Newton iterations"}));
         CHECK(limited.simulation.state_hash() == hash);
     }
+}
+
+namespace {
+
+void check_cancelled(Simulation& simulation) {
+    std::atomic<bool> cancel = true;
+    simulation.set_cancel(&cancel);
+    const std::uint64_t hash = simulation.state_hash();
+    const double time = simulation.time();
+    const StepReport report = simulation.step();
+    CHECK(report.status == StepStatus::cancelled);
+    CHECK(mentions(report.explanation(), {"cancelled"}));
+    CHECK(simulation.state_hash() == hash);
+    CHECK(simulation.time() == time);
+    cancel = false;
+    CHECK(simulation.step().ok());
+    CHECK(simulation.state_hash() != hash);
+    simulation.set_cancel(nullptr);
+}
+
+}  // namespace
+
+TEST_CASE("A step that is cancelled fails and leaves every bit, by any scheme, in parts as in one, and the next one goes on") {
+    for (const StepSettings& settings :
+         {StepSettings{}, StepSettings{.adaptive = true}, StepSettings{.scheme = Scheme::tr_bdf2}}) {
+        for (const bool far : {false, true}) {
+            RestingSheet scene(settings);
+            if (far) scene.aim(1.0);
+            check_cancelled(scene.simulation);
+        }
+    }
+    Simulation falling({.time_step = 1e-4, .scheme = Scheme::symplectic_euler});
+    falling.add_cloth(make_grid(0.5, 0.5, 4, 4), sheet_fabric());
+    check_cancelled(falling);
 }
 
 }  // namespace percale::test::step_parts_test

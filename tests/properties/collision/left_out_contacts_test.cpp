@@ -18,32 +18,6 @@ struct Body {
     TriangleMesh mesh;
 };
 
-/// Moves some vertices far through the body: long spikes that leave it on the other side, inside out around their feet.
-TriangleMesh pierced_ball(double radius, Random& random) {
-    TriangleMesh ball = make_sphere(radius, 1);
-    for (Vec3& x : ball.vertices) x *= random.index(3) == 0 ? random.number(-1.5, -0.5) : random.number(0.6, 1.4);
-    return ball;
-}
-
-/// A tube that is bent over so far that it goes through itself, closed at both ends.
-TriangleMesh bent_tube(Random& random) {
-    TriangleMesh tube = make_capsule(0.08, 0.6, 12);
-    const double bend = random.number(4.0, 9.0), shift = random.number(-0.06, 0.06);
-    for (Vec3& x : tube.vertices) {
-        const double angle = bend * x.y(), reach = 0.15 + x.x();
-        x = Vec3(reach * std::cos(angle) - 0.15, reach * std::sin(angle), x.z() + shift * angle);
-    }
-    return tube;
-}
-
-/// Boxes that stand on each other, share planes and corners.
-TriangleMesh touching_boxes(Random& random) {
-    const double side = 0.125 * (1 + random.index(3));
-    TriangleMesh all = make_box({0.5, 0.25, 0.5});
-    all = joined(all, moved(make_box({side, 0.25, side}), {0.125 * random.index(3) - 0.125, 0.25, 0.0625}));
-    return joined(all, moved(make_box({0.125, side, 0.125}), {0.25, 0.125 + 0.5 * side, -0.1875}));
-}
-
 Body draw_body(Random& random) {
     const auto seed = static_cast<unsigned>(random.index(100000));
     switch (random.index(7)) {

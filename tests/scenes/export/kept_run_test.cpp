@@ -33,7 +33,9 @@ Scene scene_in(const TestFolder& folder) {
 
 RunResult run(KeptRun& kept, const Scene& scene, const std::function<bool()>& stop_asked = {}) {
     BuiltScene built = build_scene(scene);
-    return kept.run(built, stop_asked, scene.expectations);
+    RunHooks stops;
+    stops.stop_asked = stop_asked;
+    return kept.run(built, stops, scene.expectations);
 }
 
 /// As one that is interrupted in its fourth step leaves the folder.

@@ -229,7 +229,8 @@ TEST_CASE("a PLY without coordinates or faces says what is missing") {
         without.replace(without.find("float " + axis), 7, "float other");
         CHECK(refusal(without) == "mesh.ply:3: element \"vertex\" has no property \"" + axis + "\"");
     }
-    CHECK(refusal(start + vertex + end + corners) == "mesh.ply: no triangles: the header has no element \"face\"");
+    CHECK(refusal(start + vertex + end + corners) ==
+          "mesh.ply: no triangles: the header has no element \"face\" or \"tristrips\"");
     CHECK(refusal(start + vertex + "element face 1\nproperty list uchar int corners\n" + end + corners + "3 0 1 2\n") ==
           "mesh.ply:7: element \"face\" has no list \"vertex_indices\" or \"vertex_index\"");
     CHECK(refusal(header("ascii", "0", "1") + "3 0 1 2\n") == "mesh.ply:3: no vertices: their count is 0");

@@ -116,6 +116,8 @@ TEST_CASE("glTF 2.0 is known by what the file says, not by its name") {
     CHECK(is_gltf_2(folder.write("b", std::string("glTF\2\0\0\0", 8))));
     CHECK_FALSE(is_gltf_2(folder.write("b", std::string("glTF\1\0\0\0", 8))));
     CHECK_FALSE(is_gltf_2(folder.write("b", "{\"nodes\":{\"asset\":{\"version\":\"2.0\"}},\"asset\":{\"version\":\"1.0\"}}")));
+    CHECK_FALSE(is_gltf_2(folder.write("b", "{\"asset\":{\"version\":1}}")));
+    CHECK_FALSE(is_gltf_2(folder.write("b", "{\"asset\":7}")));
     CHECK_FALSE(is_gltf_2(folder.write("b", "solid a")));
     CHECK_FALSE(is_gltf_2(folder.write("b", "")));
 }

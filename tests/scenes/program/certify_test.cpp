@@ -138,6 +138,10 @@ TEST_CASE("what cannot be read is exit code 2 with one message") {
     folder.write("sheet.toml", falling_sheet());
     REQUIRE(run_program({"run", "sheet.toml", "-o", "out", "--frames", "none"}, folder.path()).exit_code == 0);
     CHECK(refused(certified({"out"}), "no frames"));
+    folder.write("report.json",
+                 "{\"frames\": [{\"index\": 0, \"time\": 0, \"cloths\": [\"box\"], \"obstacles\": [], \"intersections\": 0, "
+                 "\"deepest_penetration\": 0, \"smallest_distance\": null}]}");
+    CHECK(refused(certified({"."}), "box: holds no frames that can be certified"));
 }
 
 TEST_CASE("cloth that meets cloth is certified against it, in a folder because its scene says so, else with --self") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "tests/scenes/message_of.h"
 #include "tests/scenes/sweep/study_files.h"
 #include "tests/support/catch.h"
 
@@ -46,6 +47,15 @@ TEST_CASE("a Slurm array has at most 1,000 tasks, which do all runs, the last ta
     for (const char* task : {"0", "1", "833"})
         REQUIRE(std::system(("SLURM_ARRAY_TASK_ID=" + std::string(task) + " sh " + shell_word(script)).c_str()) == 0);
     CHECK(folder.read("asked") == "0-2\n3-5\n2499-2499\n");
+}
+
+TEST_CASE("a folder or program whose name has a line end is refused: no Makefile and no list of commands holds it") {
+    const TestFolder folder;
+    const Study study = read_study(write_study(folder, "\"step.time_step\" = [0.01]\n"));
+    CHECK(message_of([&] { batch_files(study, StudyFolder(folder.path("a\nb")), "percale"); }).find("line end") !=
+          std::string::npos);
+    CHECK(message_of([&] { batch_files(study, StudyFolder(folder.path("ab")), "per\ncale"); }).find("line end") !=
+          std::string::npos);
 }
 
 }  // namespace percale::scenes::test::batch_files_test

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "percale/error.h"
 #include "scenes/meshes/mesh_import.h"
@@ -50,9 +51,25 @@ TriangleMesh open_sheet(Random& random) {
     return mesh;
 }
 
+/// A sheet folded back over itself once or twice, its layers millimetres apart, open.
+TriangleMesh folded_sheet(Random& random) {
+    TriangleMesh mesh = make_grid(0.9, 0.4, 13, 5);
+    const double gap = random.decades(5e-4, 1e-2);
+    for (Vec3& x : mesh.vertices) {
+        const double along = x.x() + 0.45, fold = std::floor(along / 0.31);
+        const double in_fold = along - 0.31 * fold;
+        x = Vec3(std::fmod(fold, 2.0) == 0.0 ? in_fold : 0.31 - in_fold, gap * fold + gap * in_fold / 0.31, x.z());
+    }
+    return mesh;
+}
+
+/// m, of each of two that close to a millimetre.
+constexpr double jaw_height = 0.05, jaws_apart = 0.001;
+
 NamedMesh random_obstacle(Random& random) {
     const double size = random.number(0.08, 0.3), other = random.number(0.08, 0.3);
-    switch (random.index(12)) {
+    const auto seed = static_cast<unsigned>(random.index(100000));
+    switch (random.index(20)) {
         case 0:
             return {"sphere", make_sphere(size, 2)};
         case 1:
@@ -75,6 +92,22 @@ NamedMesh random_obstacle(Random& random) {
             return {"star", spiky_ball(size, 1, 0.5, static_cast<unsigned>(random.index(1000)))};
         case 10:
             return {"blade", make_box({2.0 * size, 0.002, 0.05})};
+        case 11:
+            return {"tangled ball", tangled_ball(size, 1 + random.index(2), random.number(0.05, 0.25), seed)};
+        case 12:
+            return {"pierced ball", pierced_ball(size, random)};
+        case 13:
+            return {"bent tube", bent_tube(random)};
+        case 14:
+            return {"touching boxes", touching_boxes(random)};
+        case 15:
+            return {"inside out", inside_out(spiky_ball(size, 1, 0.5, seed))};
+        case 16:
+            return {"doubled", joined(spiky_ball(size, 1, 0.4, seed), spiky_ball(size, 1, 0.4, seed))};
+        case 17:
+            return {"folded sheet", folded_sheet(random)};
+        case 18:
+            return {"jaws", make_box({0.4, jaw_height, 0.4})};
         default:
             // Where none is installed only these scenes are others.
             if (scans().empty()) return {"sphere", make_sphere(size, 3)};
@@ -126,10 +159,11 @@ Fabric random_fabric(Random& random) {
 }
 
 NamedMesh random_cloth(Random& random) {
-    const int columns = 5 + random.index(9), rows = 5 + random.index(9);
+    const bool fine = random.index(8) == 0;
+    const int columns = fine ? 30 : 3 + random.index(11), rows = fine ? 30 : 3 + random.index(11);
     const double width = random.number(0.2, 0.6), depth = random.number(0.2, 0.6);
     if (random.index(3) > 0) return {"grid", make_grid(width, depth, columns, rows)};
-    return {"free mesh", irregular_sheet(width, 300)};
+    return {"free mesh", irregular_sheet(width, random.index(2) == 0 ? 60 : 300)};
 }
 
 /// Pins nothing, a corner, or the vertices of one edge of the bounding box.
@@ -154,6 +188,7 @@ struct Draw {
     StepSettings settings;
     scenes::Detector detector = scenes::Detector::fcl;
     ObstacleSpec spec;
+    std::optional<ObstacleSpec> jaw;  // of the same mesh, closing on it
 };
 
 scenes::BuiltScene build(const Draw& draw) {
@@ -178,6 +213,13 @@ scenes::BuiltScene build(const Draw& draw) {
     built.cloths = {built.simulation.add_cloth(draw.cloth.mesh, draw.fabric)};
     built.obstacles = {built.simulation.add_obstacle(draw.obstacle.mesh, scenes::obstacle_pose_at(draw.spec, 0.0),
                                                      {.friction = draw.spec.friction, .name = draw.obstacle.name})};
+    if (draw.jaw) {
+        built.scene.obstacles.push_back(*draw.jaw);
+        built.obstacle_meshes.push_back(draw.obstacle.mesh);
+        built.shapes.push_back(nullptr);
+        built.obstacles.push_back(built.simulation.add_obstacle(draw.obstacle.mesh, scenes::obstacle_pose_at(*draw.jaw, 0.0),
+                                                                {.friction = draw.jaw->friction, .name = "jaw"}));
+    }
     built.simulation.prepare();
     return built;
 }
@@ -195,8 +237,28 @@ Draw draw_scene(Random& random, int index) {
     draw.settings.measure = StepMeasures::none;
     draw.cloth.mesh = placed(draw.cloth.mesh, random.pose(0.0));
     draw.spec.name = draw.obstacle.name;
-    draw.spec.friction = random.index(4) == 0 ? 0.0 : random.number(0.05, 1.0);
+    draw.spec.friction = random.index(4) == 0 ? 0.0 : random.number(0.05, 2.0);
+    draw.fabric.self_contact = random.index(4) == 0;
+    draw.settings.gravity = {0.0, -(random.index(3) == 0 ? random.number(0.0, 40.0) : 9.81), 0.0};
+    // Projection takes backward Euler alone, of one length.
+    if (draw.settings.contact_response == ContactResponse::penalty) {
+        if (random.index(3) == 0) draw.settings.scheme = Scheme::tr_bdf2;
+        draw.settings.adaptive = random.index(6) == 0;
+    }
     return draw;
+}
+
+/// Another one above the obstacle, in its axes, that comes down on it within the scene.
+ObstacleSpec closing_jaw(const ObstacleSpec& below, Random& random) {
+    ObstacleSpec jaw = below;
+    jaw.name = "jaw";
+    const Vec3 up = transform({.rotation = below.pose.rotation}, Vec3::UnitY());
+    const double gap = random.number(0.02, 0.2), time = random.number(0.05, 0.25);
+    const auto at = [&](double apart) { return Vec3(below.pose.translation + (jaw_height + apart) * up); };
+    jaw.pose.translation = at(gap);
+    jaw.motion = {Keyframe{.time = 0.0, .translation = at(gap), .rotation = below.pose.rotation},
+                  Keyframe{.time = time, .translation = at(jaws_apart), .rotation = below.pose.rotation}};
+    return jaw;
 }
 
 /// The obstacle as near as it may start, at a random place around the cloth.
@@ -206,7 +268,8 @@ scenes::BuiltScene build_clear(Draw& draw, std::string& motion, Random& random) 
         draw.spec.pose = {.translation = reach * way, .rotation = random.rotation(), .scale = 1.0};
         draw.spec.motion.clear();
         draw.spec.spin.reset();
-        motion = set_random_motion(draw.spec, random);
+        motion = draw.obstacle.name == "jaws" ? "closing" : set_random_motion(draw.spec, random);
+        if (draw.obstacle.name == "jaws") draw.jaw = closing_jaw(draw.spec, random);
         try {
             return build(draw);
         } catch (const StartError&) {
@@ -226,7 +289,10 @@ std::string describe(const Draw& draw, const RandomScene& scene, const std::stri
     return scene.obstacle + " " + scene.motion + ", " + scene.cloth + " of " + std::to_string(draw.cloth.mesh.vertices.size()) +
            " vertices, " + pins + ", " + number(draw.fabric.area_density) + " kg/m2, " + number(draw.fabric.springs.structural) +
            " N/m, thickness " + number(1e3 * draw.fabric.thickness) + " mm, mu " + number(draw.spec.friction) + ", dt 1/" +
-           number(1.0 / draw.settings.time_step) + " s, " + std::string(detector);
+           number(1.0 / draw.settings.time_step) + " s, g " + number(-draw.settings.gravity.y()) +
+           (draw.settings.scheme == Scheme::tr_bdf2 ? ", tr_bdf2" : "") + (draw.settings.adaptive ? ", adaptive" : "") +
+           (draw.settings.contact_response == ContactResponse::projection ? ", projection, " : ", penalty, ") +
+           (draw.fabric.self_contact ? "self-contact, " : "") + std::string(detector);
 }
 
 bool all_finite(const Simulation& simulation, ClothId cloth) {

@@ -1,0 +1,48 @@
+#include "python/released_gil.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace percale::python {
+
+namespace {
+
+std::atomic<bool> is_ending = false;
+std::thread::id ending_thread;        // written before is_ending
+std::atomic<int> threads_at_door{0};  // that will take the lock without asking again
+
+/// Returns where the lock may be waited for, and never at the end.
+void come_to_door() {
+    ++threads_at_door;
+    if (!is_ending || std::this_thread::get_id() == ending_thread) return;
+    --threads_at_door;
+    while (true) pause();
+}
+
+/// Called with the lock. Whoever asked before is_ending was set is let through first.
+void begin_ending() {
+    ending_thread = std::this_thread::get_id();
+    is_ending = true;
+    const pybind11::gil_scoped_release others_pass;
+    while (threads_at_door > 0) std::this_thread::sleep_for(std::chrono::microseconds(100));
+}
+
+}  // namespace
+
+ReleasedGil::ReleasedGil() : state_(PyEval_SaveThread()) {}
+
+ReleasedGil::~ReleasedGil() {
+    come_to_door();
+    PyEval_RestoreThread(state_);
+    --threads_at_door;
+}
+
+TakenGil::Asked::Asked() { come_to_door(); }
+TakenGil::TakenGil() { --threads_at_door; }
+
+void watch_exit() { pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&begin_ending)); }
+
+}  // namespace percale::python
