@@ -241,8 +241,8 @@ constexpr int least_surrounded = 4;
 /// From the middle of a rim to its vertices: where an obstacle is looked for that passes through it. Fewer: legs are missed.
 constexpr double fan_places[] = {0.0, 0.25, 0.5, 0.75, 0.95};
 
-/// Roundings of the largest coordinate within which vertices of cloth are in one place at a start. 0: a tube whose rims are 6e-17 m
-/// apart does not end its first step. More than some hundred: gaps that a mesh means are closed.
+/// Roundings of the largest coordinate within which vertices of cloth are in one place at a start. 0: a tube whose rims are 6e-17
+/// m apart does not end its first step. More than some hundred: gaps that a mesh means are closed.
 constexpr double joined_roundings = 32.0;
 
 /// Size of the cells in which such places are looked for, in that distance. Cost alone.
