@@ -1,4 +1,5 @@
 #include "c/handles.h"
+#include "c/host.h"
 #include "percale/report.h"
 
 // What percale.h tells of the library itself.

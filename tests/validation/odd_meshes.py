@@ -142,7 +142,7 @@ class Row:
 
     def text(self, name):
         doctor, cloth, obstacle = (self.codes[what] for what in ('doctor', 'cloth', 'obstacle'))
-        return (f'| {name} | {self.files} | {doctor[1]} | {cloth[0]}, {cloth[1]}, {cloth[2]} '
+        return (f'| {name} | {self.files} | {doctor[1] + doctor[2]} | {cloth[0]}, {cloth[1]}, {cloth[2]} '
                 f'| {obstacle[0]}, {obstacle[1]}, {obstacle[2]} | {self.seconds:.1f} | {self.peak / 1e6:.0f} |')
 
 

@@ -235,6 +235,7 @@ Draw draw_scene(Random& random, int index) {
     draw.detector = random_detectors[turn % random_detectors.size()];
     draw.settings.contact_response = random_responses[turn / random_detectors.size() % random_responses.size()];
     draw.settings.measure = StepMeasures::none;
+    draw.settings.start = StartRule::refuse;  // cloth is taken farther away, not taken apart
     draw.cloth.mesh = placed(draw.cloth.mesh, random.pose(0.0));
     draw.spec.name = draw.obstacle.name;
     draw.spec.friction = random.index(4) == 0 ? 0.0 : random.number(0.05, 2.0);
