@@ -65,8 +65,8 @@ constexpr std::size_t always_allowed_vertices = 100000, most_part_copies = 64;
 /// Nodes of a file inside each other. More: the stack overflows.
 constexpr int deepest_node = 1000;
 
-/// What an importer of assimp may use for a file: bytes of memory, and so many for each byte of the file; s of CPU time, likewise. Less:
-/// large good files are refused. More: broken ones take the machine longer.
+/// What an importer of assimp may use for a file: bytes of memory, and so many for each byte of the file; s of CPU time,
+/// likewise. Less: large good files are refused. More: broken ones take the machine longer.
 constexpr std::uint64_t import_memory = 512ull << 20, import_memory_per_byte = 64;
 constexpr double import_cpu_s = 10.0, import_cpu_s_per_byte = 2e-6;
 
