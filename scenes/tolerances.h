@@ -62,6 +62,10 @@ constexpr std::size_t most_solids = 100;
 /// file fills the memory.
 constexpr std::size_t always_allowed_vertices = 100000, most_part_copies = 64;
 
+/// How often parts of a glTF file may use its numbers in the mean, each of which takes a byte at least. Less: bodies of many
+/// materials that share their vertices are refused. More: a small file fills the memory.
+constexpr std::size_t most_number_copies = 4;
+
 /// Nodes of a file inside each other. More: the stack overflows.
 constexpr int deepest_node = 1000;
 

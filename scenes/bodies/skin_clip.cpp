@@ -81,9 +81,10 @@ std::vector<Vec3> SkinClip::shape(double tick) const {
         const ModelChannel* channel = channels_[static_cast<std::size_t>(node)];
         return channel != nullptr ? node_transform(*channel, tick) : model.nodes[static_cast<std::size_t>(node)].transform;
     };
+    const MorphWeights at_rest = rest_weights(model);
     const auto weights = [&](int node, const ModelMesh& mesh) {
         const ModelMorphs* morphs = morphs_[static_cast<std::size_t>(node)];
-        return morphs != nullptr ? morph_weights(*morphs, tick) : rest_weights(node, mesh);
+        return morphs != nullptr ? morph_weights(*morphs, tick) : at_rest(node, mesh);
     };
     std::vector<Vec3> vertices = skinned_->at(node_poses(model, own), weights);
     for (std::size_t k = 0; k < vertices.size(); ++k) check_finite(vertices[k] *= unit_, k, file_);

@@ -11,8 +11,6 @@ namespace percale::scenes {
 
 namespace {
 
-constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
-
 std::string reason() { return std::strerror(errno != 0 ? errno : EIO); }
 
 }  // namespace
@@ -28,10 +26,11 @@ std::ifstream open_input(const std::string& file) {
     return std::ifstream(file, std::ios::binary);
 }
 
-void check_encoding(std::string_view beginning, const std::string& file) {
+std::size_t encoding_mark(std::string_view beginning, const std::string& file) {
     const bool wide = beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF") ||
                       beginning.starts_with(std::string_view("\0\0\xFE\xFF", 4));
     if (wide) throw SceneError(file, "is UTF-16 or UTF-32 text; save it as UTF-8");
+    return beginning.starts_with("\xEF\xBB\xBF") ? 3 : 0;
 }
 
 std::vector<std::byte> read_bytes(const std::string& file) {
@@ -49,8 +48,7 @@ std::vector<std::byte> read_bytes(const std::string& file) {
 std::string read_text(const std::string& file) {
     const std::vector<std::byte> bytes = read_bytes(file);
     std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    check_encoding(text, file);
-    if (text.starts_with(utf8_mark)) text.remove_prefix(utf8_mark.size());
+    text.remove_prefix(encoding_mark(text, file));
     return std::string(text);
 }
 

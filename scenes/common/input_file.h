@@ -12,8 +12,9 @@ namespace percale::scenes {
 /// naming the file where it is a folder, a device or a pipe, which may give bytes for ever, or none.
 std::ifstream open_input(const std::string& file);
 
-/// Throws SceneError naming the file where its first bytes are those of UTF-16 or UTF-32 text.
-void check_encoding(std::string_view beginning, const std::string& file);
+/// How many of a text's first bytes say that it is UTF-8 (its byte-order mark): 3 or 0. Throws SceneError naming the file where
+/// they say that it is UTF-16 or UTF-32.
+std::size_t encoding_mark(std::string_view beginning, const std::string& file);
 
 /// Throws SceneError naming the file if it cannot be read.
 std::vector<std::byte> read_bytes(const std::string& file);

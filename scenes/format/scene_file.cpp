@@ -1,11 +1,7 @@
 #include "format/scene_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "common/input_file.h"
 #include "common/nearest_name.h"

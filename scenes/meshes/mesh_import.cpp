@@ -63,9 +63,8 @@ auto read_with(Read read, const std::string& file) {
     if (!in) throw SceneError(file, std::string("cannot be read: ") + std::strerror(errno));
     std::string start(4, '\0');
     in.read(start.data(), static_cast<std::streamsize>(start.size()));
-    check_encoding(start, file);
     in.clear();
-    in.seekg(start.starts_with("\xEF\xBB\xBF") ? 3 : 0);  // UTF-8 says what it is
+    in.seekg(static_cast<std::streamoff>(encoding_mark(start, file)));
     return read(in, file);
 }
 

@@ -15,15 +15,14 @@ std::string extension_of(const std::string& file);
 bool is_mesh_file(const std::string& file);
 
 /// Reads a mesh file. OBJ, OFF and PLY by our own readers (vertices exactly the file's, in its order; polygons by
-/// polygon_triangles), STL, glTF and GLB, Collada (DAE), FBX, 3DS, AMF, X3D, DXF, LWO, ASE and X through assimp (float precision;
-/// polygons likewise; all parts of the file joined, node transforms applied) with vertices welded by position so that a file's
-/// shared vertices are shared again, in the order of first appearance. Coordinates are multiplied by `unit` (m per unit of the
-/// file, > 0). Throws SceneError naming the file, and the line for OBJ, OFF and PLY in text: missing or unreadable file, empty,
-/// NaN or infinite coordinate, index out of range, no triangles, a header that claims more than the file can hold, another
-/// format, copies of parts beyond 64 in the mean and 100000 vertices. `warnings`, where not null: what of the file is left out
-/// that it moves by.
-/// `part`: an object or group of an OBJ file, or a node or mesh of what assimp reads (but STL), that is taken alone, with
-/// its own vertices; "": all.
+/// polygon_triangles), models by read_joined_model: glTF and GLB by our own reader, STL, Collada (DAE), FBX, 3DS, AMF, X3D, DXF,
+/// LWO, ASE and X through assimp (float precision; polygons likewise; all parts of the file joined, as they stand in it) with
+/// vertices welded by position so that a file's shared vertices are shared again, in the order of first appearance. Coordinates
+/// are multiplied by `unit` (m per unit of the file, > 0). Throws SceneError naming the file, and the line for OBJ, OFF and PLY
+/// in text: missing or unreadable file, empty, NaN or infinite coordinate, index out of range, no triangles, a header that claims
+/// more than the file can hold, another format, copies of parts beyond 64 in the mean and 100000 vertices. `warnings`, where not
+/// null: what of the file is left out that it moves by. `part`: an object or group of an OBJ file, or a node or mesh of what
+/// assimp reads (but STL), that is taken alone, with its own vertices; "": all.
 TriangleMesh import_mesh(const std::string& file, double unit = 1.0, std::vector<std::string>* warnings = nullptr,
                          const std::string& part = {});
 

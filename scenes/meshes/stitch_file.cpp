@@ -1,7 +1,5 @@
 #include "meshes/stitch_file.h"
 
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <optional>
 

@@ -86,7 +86,8 @@ private:
         if (depth > deepest_node)
             throw SceneError(file_, "its nodes are nested more than " + std::to_string(deepest_node) + " deep");
         const int number = static_cast<int>(model_.nodes.size());
-        ModelNode node{.name = from.mName.C_Str(), .parent = parent, .transform = matrix(from.mTransformation), .parts = {}};
+        ModelNode node{
+            .name = from.mName.C_Str(), .parent = parent, .transform = matrix(from.mTransformation), .parts = {}, .weights = {}};
         for (const unsigned mesh : std::span(from.mMeshes, from.mNumMeshes)) node.parts.push_back({static_cast<int>(mesh), -1});
         nodes_.emplace(node.name, number);
         model_.nodes.push_back(std::move(node));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <system_error>
 
 #include "common/glb.h"
 #include "common/input_file.h"
@@ -125,8 +126,7 @@ GltfDocument::GltfDocument(const std::string& file) : file_(file) {
 
 void GltfDocument::read_document(const std::vector<std::byte>& bytes) {
     const char* text = reinterpret_cast<const char*>(bytes.data());
-    check_encoding({text, bytes.size()}, file_);
-    json_ = GltfJson::parse(text, text + bytes.size());
+    json_ = GltfJson::parse(text + encoding_mark({text, bytes.size()}, file_), text + bytes.size());
     read_buffers({});
 }
 
@@ -154,7 +154,17 @@ void GltfDocument::read_glb(const std::vector<std::byte>& bytes) {
     read_buffers(std::move(binary));
 }
 
+void GltfDocument::check_extensions() const {
+    for (const GltfJson& name : list("extensionsRequired")) {
+        const std::string extension = name.get<std::string>();
+        for (const char* unread :
+             {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "EXT_mesh_gpu_instancing"})
+            if (extension == unread) refuse("needs the extension " + extension + ", which is not read; export it without");
+    }
+}
+
 void GltfDocument::read_buffers(std::optional<std::vector<std::byte>> binary) {
+    check_extensions();  // the buffers of some are no buffers
     const std::size_t count = list("buffers").size();
     for (std::size_t k = 0; k < count; ++k) {
         const GltfJson& buffer = at("buffers", k);
@@ -177,7 +187,8 @@ std::vector<std::byte> GltfDocument::buffer_at(const std::string& uri) const {
         return std::move(*bytes);
     }
     const std::filesystem::path beside = std::filesystem::path(file_).parent_path() / decoded(uri);
-    if (!std::filesystem::is_regular_file(beside)) refuse("its buffer " + beside.string() + " is no file");
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(beside, error)) refuse("its buffer " + beside.string() + " is no file");
     return read_bytes(beside.string());
 }
 
@@ -287,6 +298,9 @@ std::vector<double> GltfDocument::numbers(std::size_t number_of_accessor, std::s
     if (count > std::max(bytes_, always_allowed_vertices))
         refuse("accessor " + std::to_string(number_of_accessor) + " claims " + std::to_string(count) +
                " elements, more than its buffers hold");
+    asked_ += count * components;
+    if (asked_ > std::max(most_part_copies * always_allowed_vertices, most_number_copies * bytes_))
+        refuse("its parts use the same numbers over and over, " + std::to_string(asked_) + " in all; give each its own");
     std::vector<double> numbers(count * components);
     if (const auto view = number(accessor, "bufferView", GltfDocument::any))
         read_elements(view_of(*view), number(accessor, "byteOffset", GltfDocument::any).value_or(0), layout, count,

@@ -30,7 +30,8 @@ public:
     std::size_t required(const nlohmann::json& object, const char* key, std::size_t count) const;
 
     /// Numbers of an accessor, element by element: `components` each; integers as they are, or where they are normalized as
-    /// shares of the largest (3.11 of the specification).
+    /// shares of the largest (3.11 of the specification). Refuses where all that was asked for comes to far more than the buffers
+    /// hold: a small file may name one accessor without end.
     std::vector<double> numbers(std::size_t accessor, std::size_t components) const;
 
     /// Of all its buffers.
@@ -52,6 +53,8 @@ private:
 
     void read_document(const std::vector<std::byte>& bytes);
     void read_glb(const std::vector<std::byte>& bytes);
+    /// Refuses extensions that hide vertices or place meshes; others are of looks.
+    void check_extensions() const;
     void read_buffers(std::optional<std::vector<std::byte>> binary);
     std::vector<std::byte> buffer_at(const std::string& uri) const;
     View view_of(std::size_t number) const;
@@ -63,7 +66,8 @@ private:
     std::string file_;
     nlohmann::json json_;
     std::vector<std::vector<std::byte>> buffers_;
-    std::size_t bytes_ = 0;  // of all buffers
+    std::size_t bytes_ = 0;          // of all buffers
+    mutable std::size_t asked_ = 0;  // numbers, in all calls of `numbers`
 };
 
 }  // namespace percale::scenes

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <optional>
 
+#include "common/input_file.h"
 #include "models/gltf_document.h"
 #include "percale/error.h"
 #include "tolerances.h"
@@ -49,16 +50,18 @@ std::vector<Vec3> vectors(const std::vector<double>& numbers) {
     return result;
 }
 
-/// The corners of triangles of a mode of the specification: 4 triangles, 5 a strip, 6 a fan. None of points and lines.
+/// The corners of triangles of a mode of the specification: 4 triangles, 5 a strip, 6 a fan; none of points and lines. Of strips
+/// and fans triangles with a vertex twice are left out, by which they are joined.
 std::vector<int> triangle_corners(std::size_t mode, const std::vector<int>& indices) {
     std::vector<int> corners;
     const std::size_t count = indices.size();
     if (mode == 4) corners.assign(indices.begin(), indices.begin() + static_cast<std::ptrdiff_t>(count / 3 * 3));
-    for (std::size_t k = 2; mode == 5 && k < count; ++k) {
-        const bool odd = k % 2 == 1;
-        corners.insert(corners.end(), {indices[odd ? k - 1 : k - 2], indices[odd ? k - 2 : k - 1], indices[k]});
+    for (std::size_t k = 2; mode > 4 && k < count; ++k) {
+        const bool strip = mode == 5, odd = k % 2 == 1;
+        const int a = indices[strip ? k - 2 : 0], b = indices[k - 1], c = indices[k];
+        if (a == b || b == c || c == a) continue;
+        corners.insert(corners.end(), {strip && odd ? b : a, strip && odd ? a : b, c});
     }
-    for (std::size_t k = 2; mode == 6 && k < count; ++k) corners.insert(corners.end(), {indices[0], indices[k - 1], indices[k]});
     return corners;
 }
 
@@ -73,6 +76,7 @@ void drop_unused(ModelMesh& mesh) {
         for (std::size_t k = 0; k < vertices.size(); ++k)
             if (kept[k] >= 0) vertices[static_cast<std::size_t>(kept[k])] = vertices[k];
         if (!vertices.empty()) vertices.resize(static_cast<std::size_t>(count));
+        vertices.shrink_to_fit();  // of parts that share their vertices each keeps its own alone
     };
     take(mesh.vertices);
     for (MorphTarget& target : mesh.targets) take(target.vertices);
@@ -86,7 +90,6 @@ public:
     explicit GltfReader(const std::string& file) : document_(file) {}
 
     Model read() {
-        check_extensions();
         for (std::size_t k = 0; k < document_.list("meshes").size(); ++k) add_mesh(document_.at("meshes", k));
         add_nodes();
         for (std::size_t k = 0; k < document_.list("skins").size(); ++k) add_skin(document_.at("skins", k));
@@ -95,17 +98,6 @@ public:
     }
 
 private:
-    /// Those that hide vertices or place meshes; others are of looks.
-    void check_extensions() const {
-        for (const GltfJson& name : document_.list("extensionsRequired")) {
-            const std::string extension = name.get<std::string>();
-            for (const char* unread :
-                 {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "EXT_mesh_gpu_instancing"})
-                if (extension == unread)
-                    document_.refuse("needs the extension " + extension + ", which is not read; export it without");
-        }
-    }
-
     void add_mesh(const GltfJson& from) {
         const GltfJson primitives = from.value("primitives", GltfJson::array());
         std::vector<int> numbers;
@@ -125,9 +117,6 @@ private:
         const GltfJson& attributes = from.at("attributes");
         mesh.vertices = vectors(document_.numbers(document_.required(attributes, "POSITION", GltfDocument::any), 3));
         mesh.corners = triangle_corners(mode, indices_of(from, mesh.vertices.size()));
-        corners_ += mesh.corners.size();
-        if (corners_ > most_part_copies * std::max(always_allowed_vertices, document_.buffer_bytes()))
-            document_.refuse("its primitives use the same numbers over and over, for " + std::to_string(corners_) + " corners");
         mesh.face_sizes.assign(mesh.corners.size() / 3, 3);
         add_shares(attributes, mesh);
         add_targets(from, mesh_json, mesh);
@@ -162,8 +151,12 @@ private:
                 document_.numbers(document_.required(attributes, weights.c_str(), GltfDocument::any), 4);
             if (numbers.size() != 4 * mesh.vertices.size() || shares.size() != numbers.size())
                 document_.refuse(joints + " and " + weights + " are not of as many vertices as POSITION");
-            for (std::size_t k = 0; k < numbers.size(); ++k)
-                if (shares[k] > 0.0) mesh.shares.push_back({static_cast<int>(k / 4), static_cast<int>(numbers[k]), shares[k]});
+            for (std::size_t k = 0; k < numbers.size(); ++k) {
+                if (!(shares[k] > 0.0)) continue;
+                if (!(numbers[k] >= 0.0 && numbers[k] <= 65535.0 && numbers[k] == std::floor(numbers[k])))
+                    document_.refuse(joints + " holds " + std::to_string(numbers[k]) + ", no number of a joint");
+                mesh.shares.push_back({static_cast<int>(k / 4), static_cast<int>(numbers[k]), shares[k]});
+            }
         }
     }
 
@@ -221,8 +214,11 @@ private:
             const auto [number, parent] = waiting.back();
             waiting.pop_back();
             const GltfJson& from = document_.at("nodes", number);
-            ModelNode node{
-                .name = from.value("name", ""), .parent = parent, .transform = transform_of(document_, from), .parts = {}};
+            ModelNode node{.name = from.value("name", ""),
+                           .parent = parent,
+                           .transform = transform_of(document_, from),
+                           .parts = {},
+                           .weights = from.value("weights", std::vector<double>())};
             const auto skin_number = document_.number(from, "skin", document_.list("skins").size());
             const int skin = skin_number ? static_cast<int>(*skin_number) : -1;
             if (const auto mesh = document_.number(from, "mesh", primitives_.size()); mesh && shown)
@@ -339,7 +335,6 @@ private:
     Model model_;
     std::vector<std::vector<int>> primitives_;  // of each mesh of the file: meshes of the model
     std::vector<int> numbers_;                  // of each node of the file: in the model
-    std::size_t corners_ = 0;                   // of all meshes
 };
 
 }  // namespace
@@ -349,7 +344,7 @@ bool is_gltf_2(const std::string& file) {
     std::array<char, 8> start{};
     in.read(start.data(), start.size());
     if (std::memcmp(start.data(), "glTF", 4) == 0) return start[4] == 2;
-    const std::size_t mark = std::memcmp(start.data(), "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;  // UTF-8 says what it is
+    const std::size_t mark = encoding_mark({start.data(), start.size()}, file);
     const auto first = std::ranges::find_if(start.begin() + mark, start.end(),
                                             [](char letter) { return !std::isspace(static_cast<unsigned char>(letter)); });
     if (first == start.end() || *first != '{') return false;

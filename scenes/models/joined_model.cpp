@@ -52,8 +52,8 @@ std::vector<VertexOrigin> origins_of(const Model& model, const std::string& file
     return origins;
 }
 
-/// The triangles of a mesh whose vertices are those from `first` on.
-void append_faces(const ModelMesh& mesh, std::size_t first, TriangleMesh& joined) {
+/// The triangles of a mesh whose vertices are those from `first` on. `mirrored`: turned about, so that they face outwards again.
+void append_faces(const ModelMesh& mesh, std::size_t first, bool mirrored, TriangleMesh& joined) {
     std::size_t at = 0;
     std::vector<Vec3> places;
     for (const int size : mesh.face_sizes) {
@@ -63,7 +63,8 @@ void append_faces(const ModelMesh& mesh, std::size_t first, TriangleMesh& joined
         for (const int corner : corners) places.push_back(joined.vertices[first + static_cast<std::size_t>(corner)]);
         const auto corner = [&](int k) { return static_cast<int>(first) + corners[static_cast<std::size_t>(k)]; };
         for (const Triangle& t : polygon_triangles(places))
-            joined.triangles.push_back({corner(t[0]), corner(t[1]), corner(t[2])});
+
+            joined.triangles.push_back({corner(t[mirrored ? 1 : 0]), corner(t[mirrored ? 0 : 1]), corner(t[2])});
     }
 }
 
@@ -88,13 +89,17 @@ JoinedModel join(Model model, const std::string& file, const std::string& part) 
     check_model(model, file);
     JoinedModel joined{.model = std::move(model), .mesh = {}, .origins = {}};
     joined.origins = origins_of(joined.model, file, part);
-    joined.mesh.vertices = SkinnedShape(joined.model, joined.origins).at(rest_poses(joined.model), rest_weights);
+    const std::vector<Eigen::Matrix4d> poses = rest_poses(joined.model);
+    joined.mesh.vertices = SkinnedShape(joined.model, joined.origins).at(poses, rest_weights(joined.model));
     for (std::size_t k = 0; k < joined.origins.size(); ++k) {
         if (joined.origins[k].vertex > 0) continue;  // the first one of a part
         const VertexOrigin& origin = joined.origins[k];
         const ModelPart& from =
             joined.model.nodes[static_cast<std::size_t>(origin.node)].parts[static_cast<std::size_t>(origin.part)];
-        append_faces(joined.model.meshes[static_cast<std::size_t>(from.mesh)], k, joined.mesh);
+        // Bones carry a skin wherever its node is (glTF 2.0, 3.7.4).
+        const bool mirrored =
+            from.skin < 0 && poses[static_cast<std::size_t>(origin.node)].topLeftCorner<3, 3>().determinant() < 0.0;
+        append_faces(joined.model.meshes[static_cast<std::size_t>(from.mesh)], k, mirrored, joined.mesh);
     }
     return joined;
 }

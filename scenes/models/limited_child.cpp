@@ -49,8 +49,9 @@ void set_limit(decltype(RLIMIT_AS) what, std::uint64_t value) {
 void limit_child(const ChildLimits& limits, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);
-    for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGPIPE})
-        signal(number, SIG_DFL);
+    for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGPIPE}) signal(number, SIG_DFL);
+    // A terminal sends them to the child, too; what they mean is for the parent to say, and the child ends with it.
+    for (const int number : {SIGINT, SIGTERM}) signal(number, SIG_IGN);
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -113,8 +114,8 @@ bool receive(int from, double seconds, std::vector<std::byte>& bytes) {
 std::string ending_text(int status, bool in_time, const ChildLimits& limits) {
     const std::string seconds = std::to_string(static_cast<long>(std::ceil(limits.cpu_s))) + " s";
     if (!in_time) return "took more than " + seconds + " of CPU time, or waited for ever";
-    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
-        return "took more than " + seconds + " of CPU time";
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return "took more than " + seconds + " of CPU time";
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) return "was killed, perhaps for want of memory";
     if (WIFSIGNALED(status)) return std::string("crashed (") + strsignal(WTERMSIG(status)) + ")";
     return "ended without a result (exit code " + std::to_string(WEXITSTATUS(status)) + ")";
 }
@@ -132,6 +133,8 @@ std::vector<std::byte> run_in_child(const ChildLimits& limits, const std::functi
     }
     if (child == 0) {
         close(ends[0]);
+        // Behind the standard streams, which are silenced: a host may have closed those, and the pipe got their numbers.
+        if (ends[1] <= STDERR_FILENO) ends[1] = fcntl(ends[1], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
         limit_child(limits, parent);
         be_child(ends[1], work);
     }

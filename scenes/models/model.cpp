@@ -101,7 +101,7 @@ void exchange(Archive& archive, Value& part) {
 
 template <class Archive, OfType<ModelNode> Value>
 void exchange(Archive& archive, Value& node) {
-    archive(node.name, node.parent, node.parts);
+    archive(node.name, node.parent, node.parts, node.weights);
     exchange_matrix(archive, node.transform);
 }
 

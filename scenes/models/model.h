@@ -48,6 +48,7 @@ struct ModelNode {
     int parent = -1;                                          // its number, below the own one; -1: a root
     Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();  // to the parent
     std::vector<ModelPart> parts;
+    std::vector<double> weights = {};  // of its meshes' morph targets without an animation; empty: as the meshes have them
 };
 
 enum class Interpolation { linear, step, cubic };

@@ -28,11 +28,13 @@ std::vector<Eigen::Matrix4d> rest_poses(const Model& model) {
     return node_poses(model, [&](int node) { return model.nodes[static_cast<std::size_t>(node)].transform; });
 }
 
-std::vector<double> rest_weights(int node, const ModelMesh& mesh) {
-    static_cast<void>(node);
-    std::vector<double> weights;
-    for (const MorphTarget& target : mesh.targets) weights.push_back(target.weight);
-    return weights;
+MorphWeights rest_weights(const Model& model) {
+    return [&model](int node, const ModelMesh& mesh) {
+        std::vector<double> weights = model.nodes[static_cast<std::size_t>(node)].weights;
+        if (!weights.empty()) return weights;
+        for (const MorphTarget& target : mesh.targets) weights.push_back(target.weight);
+        return weights;
+    };
 }
 
 SkinnedShape::SkinnedShape(const Model& model, std::span<const VertexOrigin> origins) : model_(model), origins_(origins) {

@@ -20,8 +20,8 @@ std::vector<Eigen::Matrix4d> rest_poses(const Model& model);
 
 /// Weights of morph targets of a mesh on a node, one for each of the first of them; of the others 0.
 using MorphWeights = std::function<std::vector<double>(int node, const ModelMesh& mesh)>;
-/// Those of the file.
-std::vector<double> rest_weights(int node, const ModelMesh& mesh);
+/// Those of the file: the node's, or else the mesh's. The model must outlive them.
+MorphWeights rest_weights(const Model& model);
 
 /// Places of vertices: morph targets mixed in, x + sum of w (target - x), then carried by the joints of the part's skin, the mean
 /// of P_j B_j x by shares (P: a joint's pose, B: its offset; linear blend skinning), whatever its own node does; a vertex without

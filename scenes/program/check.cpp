@@ -126,7 +126,7 @@ Outcome check_scene(const std::string& file, const CheckOptions& options, const 
     Outcome outcome;
     outcome.scene.file = file;
     try {
-        run_into(outcome, options, signals);
+        signals.job([&] { run_into(outcome, options, signals); });
     } catch (const SceneError& error) {
         outcome.scene.error = error.what();
         outcome.exit_code = wrong_input;

@@ -45,7 +45,7 @@ void take_signals(const sigset_t& set, SignalState& state) {
         if (next > 0 && since > second_signal_after) end_now();
         if (since < overdue_after) continue;
         state.overdue = true;
-        if (state.preparing > 0) end_now();
+        if (state.preparing > 0 && state.preparing >= state.jobs) end_now();
     }
 }
 

@@ -1,5 +1,6 @@
 #include "python/released_gil.h"
 
+#include <pthread.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -43,6 +44,9 @@ ReleasedGil::~ReleasedGil() {
 TakenGil::Asked::Asked() { come_to_door(); }
 TakenGil::TakenGil() { --threads_at_door; }
 
-void watch_exit() { pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&begin_ending)); }
+void watch_exit() {
+    pthread_atfork(nullptr, nullptr, [] { threads_at_door = 0; });  // of os.fork: the other threads stayed behind
+    pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&begin_ending));
+}
 
 }  // namespace percale::python

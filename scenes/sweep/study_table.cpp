@@ -112,7 +112,7 @@ StudyTables study_tables(const Study& study, const StudyFolder& folder) {
         tables.csv += line_of(study, run, report);
         if (!report.is_object()) continue;
         ++tables.done;
-        tables.failed += report.value("status", "") == "failed" ? 1 : 0;
+        tables.failed += report.value("status", "finished") != "finished" ? 1 : 0;
         const Expected expected = expected_of(report);
         tables.not_as_expected += expected.passed < expected.all ? 1 : 0;
         tables.costs += std::to_string(run);

@@ -33,3 +33,10 @@ def test_what_runs_at_exit_may_still_step(tmp_path):
     assert ends(tmp_path, text) == (0, 'True\n', '')
     later = 'import sys\ndel sys.modules["percale"]\nimport percale\n' + text
     assert ends(tmp_path, later)[0] == 0
+
+
+def test_a_child_that_is_forked_while_a_thread_steps_ends(tmp_path):
+    text = ('import os\ndef work():\n    while True: simulation.step()\nthreading.Thread(target=work, daemon=True).start()\n'
+            'for _ in range(20):\n    time.sleep(0.01)\n    child = os.fork()\n    if child == 0: raise SystemExit(0)\n'
+            '    os.waitpid(child, 0)\nprint("ends")\n')
+    assert ends(tmp_path, text) == (0, 'ends\n', '')

@@ -65,6 +65,25 @@ TEST_CASE("Nodes' transforms are translation, rotation and scale, or a matrix by
     CHECK((read_gltf(other.file()).nodes[0].transform - trs).norm() < 1e-15);
 }
 
+TEST_CASE("A node's weights of morph targets take the place of its mesh's") {
+    Bar bar;
+    const std::vector<Vec3> rest = read_joined_model(bar.file()).mesh.vertices;
+    bar.with("\"mesh\":0,\"skin\":0}", "\"mesh\":0,\"skin\":0,\"weights\":[1]}");
+    const std::vector<Vec3> own = read_joined_model(bar.file()).mesh.vertices;
+    for (std::size_t k = 0; k < own.size(); ++k) CHECK((own[k] - rest[k] - Vec3(0, 0, k < 8 ? 0.0 : 0.5)).norm() < 1e-6);
+}
+
+TEST_CASE("Parts that use the same numbers without end are refused before they fill the memory") {
+    const TestFolder folder;
+    std::string primitives;
+    for (int k = 0; k < 3000; ++k) primitives += std::string(k > 0 ? "," : "") + R"({"attributes":{"POSITION":0}})";
+    const std::string file = folder.write("a.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":30000,"uri":"a.bin"}],
+"bufferViews":[{"buffer":0,"byteLength":30000}],"accessors":[{"bufferView":0,"componentType":5120,"count":10000,"type":"VEC3"}],
+"meshes":[{"primitives":[)" + primitives + R"(]}],"nodes":[{"mesh":0}]})");
+    folder.write("a.bin", std::string(30000, '\1'));
+    CHECK(message_of([&] { read_gltf(file); }).find("its parts use the same numbers over and over, 64") != std::string::npos);
+}
+
 TEST_CASE("Strips and fans are triangles that turn the same way; a list without indices takes its vertices in turn") {
     for (const auto& [mode, triangles] : {std::pair<int, std::vector<Triangle>>{4, {{0, 1, 2}}},
                                           {5, {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}}},
@@ -101,6 +120,12 @@ TEST_CASE("A file that does not fit together is refused with what and where") {
           "nodes hang on each other in a ring");
     CHECK(Bar().with("\"joints\":[1,2]", "\"joints\":[1]").fault() == "a vertex: joint 1 is out of range 0 ... 0");
     CHECK(Bar().with("\"joints\":[1,2]", "\"joints\":[1,2,0]").fault() == "a skin has 2 inverse bind matrices for 3 joints");
+    CHECK(
+        Bar()
+            .with("\"componentType\":5121,\"count\":12,\"type\":\"VEC4\"", "\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"")
+            .fault() == "JOINTS_0 and WEIGHTS_0 are not of as many vertices as POSITION");
+    CHECK(Bar().with("\"JOINTS_0\":1", "\"JOINTS_0\":2").with("\"WEIGHTS_0\":2", "\"WEIGHTS_0\":2").fault() ==
+          "JOINTS_0 holds 0.500000, no number of a joint");
     CHECK(Bar().with("\"mesh\":0", "\"mesh\":1").fault() == "mesh 1 is out of range 0 ... 0");
     CHECK(Bar().with("\"input\":6", "\"input\":8").fault() == "an animation has 3 values for 2 times");
     CHECK(Bar().with("\"POSITION\":0", "\"POSITION\":\"x\"").fault() == "POSITION is \"x\", no whole number");

@@ -70,6 +70,8 @@ TEST_CASE("Meshes hang on nodes that hang on nodes, once for each, with corners 
     CHECK(both.mesh.vertices == std::vector<Vec3>{{0, 5, 0}, {1, 5, 0}, {0, 6, 0}, {0, 5, 0}, {2, 5, 0}, {0, 7, 0}});
     CHECK(both.mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}});
     CHECK(join(model, "two", "twice").mesh.vertices == std::vector<Vec3>{{0, 5, 0}, {2, 5, 0}, {0, 7, 0}});
+    model.nodes[1].transform(0, 0) = -2.0;  // a mirror: its triangles are turned about, so that they face as before
+    CHECK(join(model, "two").mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {4, 3, 5}});
     model.meshes[0].vertices[1].y() = std::numeric_limits<double>::quiet_NaN();
     CHECK(message_of([&] { join(model, "two"); }) == "two: vertex 1: coordinate y is not finite");
 }

@@ -1,5 +1,8 @@
 #include "scenes/models/limited_child.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdlib>
 #include <string>
@@ -61,6 +64,26 @@ TEST_CASE("A child that crashes, does not end or takes too much memory is told o
     CAPTURE(memory);
     CHECK((memory == "took more than 256 MB of memory" || memory.starts_with("ended without a result")));
     CHECK(run_in_child(limits, many_bytes) == many_bytes());
+}
+
+TEST_CASE("A child leaves signals that stop the program to it, and sends its result where the standard streams are closed") {
+    CHECK(run_in_child(limits, [] {
+              std::raise(SIGINT);
+              std::raise(SIGTERM);
+              return many_bytes();
+          }) == many_bytes());
+    CHECK(fault_of([]() -> std::vector<std::byte> {
+              std::raise(SIGKILL);
+              return {};
+          }) == "was killed, perhaps for want of memory");
+    const pid_t host = fork();
+    if (host == 0) {
+        for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) close(stream);
+        _exit(run_in_child(limits, many_bytes) == many_bytes() ? 0 : 1);
+    }
+    int status = 0;
+    waitpid(host, &status, 0);
+    CHECK(status == 0);
 }
 
 TEST_CASE("Several threads may have children at once") {

@@ -39,7 +39,7 @@ TEST_CASE("Bones carry a vertex by its shares whatever its node does; without sh
     const Model model = segment();
     const std::vector<VertexOrigin> origins = all(model);
     const SkinnedShape shape(model, origins);
-    const std::vector<Vec3> rest = shape.at(rest_poses(model), rest_weights);
+    const std::vector<Vec3> rest = shape.at(rest_poses(model), rest_weights(model));
     CHECK(rest == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 2, 0}, {300, 0, 0}});
     const auto turned = [&](int node) -> Eigen::Matrix4d {
         if (node != 2) return model.nodes[static_cast<std::size_t>(node)].transform;
@@ -58,9 +58,13 @@ TEST_CASE("A mesh without a skin goes along with each node that it hangs on, its
     model.nodes[2].parts.push_back({0, -1});
     std::vector<VertexOrigin> origins = all(model);
     origins.push_back({2, 0, 2});
-    const std::vector<Vec3> shape = SkinnedShape(model, origins).at(rest_poses(model), rest_weights);
+    const std::vector<Vec3> shape = SkinnedShape(model, origins).at(rest_poses(model), rest_weights(model));
     CHECK(shape[2] == Vec3(200, 200, 0));
     CHECK(shape[4] == Vec3(2, 2, 8));
+    model.nodes[2].weights = {1.0};  // its own, not the mesh's
+    const std::vector<Vec3> own = SkinnedShape(model, origins).at(rest_poses(model), rest_weights(model));
+    CHECK(own[2] == shape[2]);
+    CHECK(own[4] == Vec3(2, 4, 8));
 }
 
 }  // namespace percale::scenes::test::skinned_shape_test

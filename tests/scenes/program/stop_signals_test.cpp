@@ -90,6 +90,36 @@ TEST_CASE("what is prepared and cannot be asked ends with the program once a sig
     }
 }
 
+TEST_CASE("while one of several jobs is still at work, what another one prepares does not end the program") {
+    int ends[2];
+    REQUIRE(pipe(ends) == 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        const StopSignals signals;
+        std::thread worker([&] {
+            signals.job([&] {
+                while (!signals.overdue()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                std::this_thread::sleep_for(std::chrono::milliseconds(300));
+                if (write(ends[1], "x", 1) != 1) _exit(7);
+            });
+        });
+        signals.job([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the other one has begun
+            kill(getpid(), SIGTERM);
+            signals.prepare([] { std::this_thread::sleep_for(std::chrono::minutes(5)); });
+        });
+        worker.join();
+        _exit(8);
+    }
+    close(ends[1]);
+    char letter = 0;
+    CHECK(read(ends[0], &letter, 1) == 1);
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(WEXITSTATUS(status) == 130);
+    close(ends[0]);
+}
+
 TEST_CASE("two signals at once are one, on several threads too") {
     const TestFolder folder;
     // A step below symplectic Euler's limit (1.6 ms here): the sheet must not fail before the signals come.

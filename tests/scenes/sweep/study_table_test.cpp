@@ -38,6 +38,10 @@ TEST_CASE("a study's tables have a line a run: values, status, measures, expecta
     CHECK(tables.csv.find("cpu") == std::string::npos);
     CHECK(tables.costs == "run,steps,cpu_s,wall_s,peak_memory_bytes\n0,10,0.5,,\n3,,,,\n");
     CHECK(tables.svg.find("largest_strain over step.time_step") != std::string::npos);
+    for (const std::string& status : {std::string("crossed"), std::string("unsolved")}) {  // whatever else became of them
+        report(folder, 3, "{\"status\": \"" + status + "\", \"expectations\": []}");
+        CHECK(study_tables(study, runs).failed == 1);
+    }
     CHECK(tables.svg.find("step.scheme = rk4") != std::string::npos);
 }
 
