@@ -1,11 +1,13 @@
 #include "common/text.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <regex>
+#include <string_view>
 
 namespace percale::scenes {
 
@@ -34,21 +36,29 @@ std::string percent_text(double share) {
 }
 
 std::string number_advice(const std::string& text) {
-    static const std::regex comma(R"(\s*([+-]?\d+),(\d+)\s*)"),
-        with_unit(R"(\s*([+-]?\d*\.?\d+(?:[eE][+-]?\d+)?)\s*([A-Za-z%].*))");
-    static const std::map<std::string, std::pair<double, const char*>> factors = {
+    static const std::map<std::string_view, std::pair<double, const char*>> factors = {
         {"mm", {1e-3, "m"}}, {"cm", {1e-2, "m"}}, {"g", {1e-3, "kg"}}, {"ms", {1e-3, "s"}}};
-    // A regex takes a call for each letter: long texts, which are no numbers either, would exhaust the stack.
+    constexpr std::string_view blanks = " \t\n\r", digits = "0123456789";
     constexpr std::size_t longest_number = 40;
-    if (text.size() > longest_number) return "";
-    std::smatch part;
-    if (std::regex_match(text, part, comma)) return "; decimals take a point: " + part.str(1) + "." + part.str(2);
-    if (!std::regex_match(text, part, with_unit)) return "";
-    const auto factor = factors.find(part.str(2));
-    if (factor == factors.end()) return "; a number is written without its unit: " + part.str(1);
-    const auto& [scale, unit] = factor->second;
-    return std::string("; a number is written without its unit, in ") + unit + ": " +
-           short_number(scale * std::strtod(part.str(1).c_str(), nullptr));
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string::npos || text.size() > longest_number) return "";
+    const std::string_view trimmed = std::string_view(text).substr(first, text.find_last_not_of(blanks) + 1 - first);
+    const std::string_view unsigned_part = trimmed.substr(trimmed.front() == '+' || trimmed.front() == '-');
+    if (unsigned_part.find_first_of(digits) > unsigned_part.starts_with('.')) return "";
+    double value = 0.0;
+    const char* end = std::from_chars(unsigned_part.data(), unsigned_part.data() + unsigned_part.size(), value).ptr;
+    const std::string number(trimmed.data(), end);
+    const std::string_view rest(end, static_cast<std::size_t>(trimmed.data() + trimmed.size() - end));
+    if (rest.starts_with(',') && rest.size() > 1 && rest.find_first_not_of(digits, 1) == rest.npos &&
+        number.find('.') == number.npos)
+        return "; decimals take a point: " + number + "." + std::string(rest.substr(1));
+    const std::string_view unit = rest.substr(std::min(rest.find_first_not_of(blanks), rest.size()));
+    if (unit.empty() || !(std::isalpha(static_cast<unsigned char>(unit.front())) || unit.front() == '%')) return "";
+    const auto factor = factors.find(unit);
+    if (factor == factors.end()) return "; a number is written without its unit: " + number;
+    const auto& [scale, base] = factor->second;
+    return std::string("; a number is written without its unit, in ") + base + ": " +
+           short_number(scale * std::strtod(number.c_str(), nullptr));
 }
 
 std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }

@@ -2,7 +2,11 @@
 
 #include <cstdio>
 
+#include "percale/certify.h"
 #include "tests/support/catch.h"
+#include "tests/support/collision/shapes.h"
+#include "tests/support/random.h"
+#include "tests/support/skip.h"
 
 namespace percale::test::random_scenes_test {
 namespace {
@@ -15,6 +19,7 @@ TEST_CASE("Nothing crosses in 200 random scenes, by the exact certificate after 
         const RandomOutcome outcome = run_random_scene(scene);
         CAPTURE(index, scene.description, outcome.result.reason);
         CHECK(outcome.crossings == 0);
+        CHECK(outcome.second_crossings == 0);
         CHECK(outcome.deepest == 0.0);
         CHECK(outcome.not_finite == 0);
         CHECK(outcome.last != StepStatus::not_finite);
@@ -33,6 +38,31 @@ TEST_CASE("Nothing crosses in 200 random scenes, by the exact certificate after 
     CHECK(blocked_free == 0);
     CHECK(blocked_yielding < 25);
     CHECK(blocked < 40);
+    if (!cgal_checker()) skip("no second checker: libcgal-dev was not there when the tests were built");
+}
+
+TEST_CASE("The second checker agrees with the certificate about cloth that was moved through bodies and through itself") {
+    const SecondChecker second = cgal_checker();
+    if (!second) {
+        skip("libcgal-dev was not there when the tests were built");
+        return;
+    }
+    int crossed = 0;
+    for (int index = 0; index < 40; ++index) {
+        const RandomScene scene = make_random_scene(2, index);
+        scenes::Frame frame{.cloths = scene.built.cloth_meshes, .obstacles = {}, .meeting = {{0, 0}}, .check = {}};
+        Random random(7u + static_cast<unsigned>(index));
+        for (Vec3& x : frame.cloths[0].vertices) x += random.point(0.03);
+        std::size_t pairs = certify_cloth(frame.cloths[0]).crossing.size();
+        for (std::size_t k = 0; k < scene.built.obstacle_meshes.size(); ++k) {
+            frame.obstacles.push_back(placed(scene.built.obstacle_meshes[k], scene.built.scene.obstacles[k].pose));
+            pairs += certify(frame.cloths[0], frame.obstacles[k]).pairs.size();
+        }
+        CAPTURE(index, scene.description);
+        CHECK(second(frame) == static_cast<long>(pairs));
+        crossed += pairs > 0 ? 1 : 0;
+    }
+    CHECK(crossed > 10);
 }
 
 }  // namespace

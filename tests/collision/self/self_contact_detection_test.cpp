@@ -34,6 +34,28 @@ std::vector<Vec3> folded(const TriangleMesh& sheet, double gap) {
     return x;
 }
 
+/// Two to five sectors of a fan, all with its apex, some with an edge in common.
+TriangleMesh random_fan(Random& random) {
+    TriangleMesh fan{.vertices = {Vec3::Zero()}, .triangles = {}};
+    const int sectors = 2 + random.index(4);
+    for (int k = 0; k < sectors; ++k) {
+        const int next = static_cast<int>(fan.vertices.size());
+        const bool hinged = k > 0 && random.index(2) == 0;
+        fan.vertices.push_back(random.point(1.0));
+        if (!hinged) fan.vertices.push_back(random.point(1.0));
+        fan.triangles.push_back({0, hinged ? next - 1 : next + 1, next});
+    }
+    return fan;
+}
+
+Cloths clear_fan(Random& random) {
+    while (true) {
+        Cloths cloths;
+        cloths.add(random_fan(random), random.decades(1e-4, 1e-2));
+        if (cloths.clean(cloths.mesh.vertices)) return cloths;
+    }
+}
+
 ContactRows rows_where_sewn(const Cloths& cloths, std::span<const Stitch> stitches) {
     SelfContact self = cloths.self_contact();
     self.stitches = stitches;
@@ -70,6 +92,28 @@ TEST_CASE("after a cut no cloth crosses cloth, on thousands of random moves", "[
     }
     CHECK(cuts > 200);
     CHECK(cuts < 400);
+}
+
+TEST_CASE("triangles that share a vertex or an edge do not come to share more, on thousands of random moves", "[slow]") {
+    Random random(GENERATE(1U, 2U, 3U));
+    int would_cross = 0, cuts = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+        const Cloths cloths = clear_fan(random);
+        const auto detector = detector_for(cloths, backends()[0]);
+        std::vector<Vec3> x = cloths.mesh.vertices;
+        for (int move = 0; move < 10; ++move) {
+            const std::vector<Vec3> to = shaken(x, random.decades(1e-2, 2.0), random);
+            detector->refresh(x, to);
+            const double fraction = detector->largest_safe_fraction(x, to, {0.0, 1.0});
+            would_cross += cloths.clean(to) ? 0 : 1;
+            cuts += fraction < 1.0;
+            REQUIRE(cloths.clean(between(x, to, 0.5 * fraction)));
+            x = between(x, to, fraction);
+            REQUIRE(cloths.clean(x));
+        }
+    }
+    CHECK(would_cross > 200);
+    CHECK(cuts >= would_cross);
 }
 
 TEST_CASE("rows between cloths keep the promise of their header") {

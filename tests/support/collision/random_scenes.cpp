@@ -327,13 +327,14 @@ RandomScene make_random_scene(unsigned seed, int index) {
     return scene;
 }
 
-RandomOutcome run_random_scene(RandomScene& scene) {
+RandomOutcome run_random_scene(RandomScene& scene, const SecondChecker& second) {
     RandomOutcome outcome;
     scenes::RunHooks hooks;
     hooks.step = [&](const StepReport& report, const Simulation& simulation) {
         outcome.last = report.status;
         outcome.not_finite += all_finite(simulation, scene.built.cloths[0]) ? 0 : 1;
     };
+    if (second) hooks.frame = [&](const scenes::Frame& frame) { outcome.second_crossings += second(frame); };
     outcome.result = scenes::run_scene(scene.built, hooks, {.certify_steps = true});
     outcome.crossings = outcome.result.measures.steps->intersections;
     outcome.deepest = outcome.result.measures.steps->deepest_penetration;

@@ -5,6 +5,7 @@
 
 #include "percale/report.h"
 #include "scenes/run/run_scene.h"
+#include "tests/support/collision/second_checker.h"
 
 // Scenes drawn at random, each from a seed, so that any one can be made again alone: cloth coarse and fine, of grids and free
 // meshes; bodies smooth, spiked, folded, that go through themselves, inside out, open, doubled, with faces in one plane, thin as
@@ -32,13 +33,16 @@ struct RandomOutcome {
     int not_finite = 0;                // states with a position or velocity that is no number
     int crossings = 0;                 // intersecting pairs, over all steps
     double deepest = 0.0;              // m, inside a watertight obstacle, over all steps
+    long second_crossings = 0;         // intersecting pairs by a second checker, over all frames
 
-    bool good() const { return crossings == 0 && deepest == 0.0 && not_finite == 0 && last != StepStatus::not_finite; }
+    bool good() const {
+        return crossings == 0 && second_crossings == 0 && deepest == 0.0 && not_finite == 0 && last != StepStatus::not_finite;
+    }
     /// The step says that the cloth could not follow; nothing has crossed.
     bool blocked() const { return good() && result.status == scenes::RunStatus::failed; }
 };
 
-/// Runs it with the exact certificate of every step.
-RandomOutcome run_random_scene(RandomScene& scene);
+/// Runs it with the exact certificate of every step, and with a second checker of every frame if there is one.
+RandomOutcome run_random_scene(RandomScene& scene, const SecondChecker& second = cgal_checker());
 
 }  // namespace percale::test

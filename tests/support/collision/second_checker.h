@@ -1,0 +1,16 @@
+#pragma once
+
+#include <functional>
+
+#include "scenes/run/run_scene.h"
+
+namespace percale::test {
+
+/// Pairs of triangles of a frame that meet: of cloth and obstacles, and of cloth that is certified against itself.
+using SecondChecker = std::function<long(const scenes::Frame&)>;
+
+/// By CGAL's boxes and exact predicates, which share nothing with the certificate; empty where the tests were built without CGAL.
+/// Triangles without area are left out, and so are pairs of one cloth that share an edge, unless they lie on each other.
+SecondChecker cgal_checker();
+
+}  // namespace percale::test
