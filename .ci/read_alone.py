@@ -2,7 +2,8 @@
 """Prints, each ended by a 0 byte, the commands that read a source alone: .ci/read_alone.py ROOT BUILD [REF].
 
 They are those of BUILD's compile_commands.json for the libraries and tests/bench/, without output; with REF those whose source changed
-since that commit, or a file that it includes, by whatever detour. Half of their time would go into Eigen, so it is precompiled here, by
+since that commit, or a file that it includes, by whatever detour, and tests that changed themselves and that no other stage of the day
+compiles by this compiler. Half of their time would go into Eigen, so it is precompiled here, by
 the flags of the command. A source that includes Eigen by none of its headers goes without: else nobody would notice that it lacks a
 header which Eigen happens to include.
 """
@@ -18,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import layers
 
 READ = ('engine/', 'collision/', 'scenes/', 'tests/bench/')
+READ_IF_CHANGED = ('tests/scenes/', 'tests/validation/')
 
 
 def with_users(changed, includes):
@@ -39,8 +41,10 @@ def chosen_sources(root, base):
     """Relative paths of the sources to read: all, or what a change since `base` asks for."""
     tree = layers.read_tree(root)
     if not base:
-        return set(tree.files)
-    return with_users(layers.changed_files(root, base), tree.includes)
+        return {path for path in tree.files if path.startswith(READ)}
+    changed = layers.changed_files(root, base)
+    users = with_users(changed, tree.includes)
+    return {path for path in users if path.startswith(READ)} | {path for path in changed if path.startswith(READ_IF_CHANGED)}
 
 
 def includes_eigen(source, folders, known):
@@ -73,7 +77,7 @@ def main():
     for entry in json.loads((build / 'compile_commands.json').read_text()):
         source = Path(entry['file'])
         path = str(source.relative_to(root)) if source.is_relative_to(root) else ''
-        if not path.startswith(READ) or path not in chosen:
+        if path not in chosen:
             continue
         words = shlex.split(entry['command'])
         folders = [Path(word[2:]) for word in words if re.match('-I.', word)]

@@ -32,13 +32,12 @@ public:
     }
 
     void set_workers(Workers* workers) override { workers_ = workers; }
-
+    void set_cancel(const std::atomic<bool>* cancel) override { cancel_ = cancel; }
     void set_self_contact(const SelfContact& cloth) override { between_cloths_.emplace(triangles_, thickness_, cloth); }
 
     int add_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) override {
         return add(mesh, pose, friction, SurfaceShape::rigid);
     }
-
     int add_deforming_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) override {
         return add(mesh, pose, friction, SurfaceShape::deforming);
     }
@@ -72,13 +71,13 @@ public:
     std::optional<Untangled> untangle(std::span<const Vec3> positions, std::span<const double> free) override {
         std::vector<SolidObstacle> solids;
         for (const auto& obstacle : obstacles_) solids.emplace_back(obstacle->start_mesh());
-        return percale::untangle(make_tangled_cloth(triangles_, thickness_, free), solids, positions);
+        return percale::untangle(make_tangled_cloth(triangles_, thickness_, free, cancel_), solids, positions);
     }
 
     std::optional<std::vector<Vec3>> untangle_cloth(std::span<const Vec3> positions, std::span<const double> free) override {
         if (!between_cloths_) return std::nullopt;
         return percale::untangle_cloth(
-            {between_cloths_->triangles(), free, between_cloths_->stitches(), between_cloths_->meeting()}, positions);
+            {between_cloths_->triangles(), free, between_cloths_->stitches(), between_cloths_->meeting(), cancel_}, positions);
     }
 
     void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
@@ -436,6 +435,7 @@ private:
     std::vector<RowSearch> searches_;
     std::vector<StretchCut> cuts_;
     Workers* workers_ = nullptr;
+    const std::atomic<bool>* cancel_ = nullptr;
     std::vector<Vec3> forgotten_at_;                      // m, where each vertex was when its contacts were last forgotten
     std::vector<unsigned char> moved_;                    // whether they are to be forgotten now
     std::optional<SelfContactDetection> between_cloths_;  // if any cloth meets cloth

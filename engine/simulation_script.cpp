@@ -172,7 +172,10 @@ void Simulation::set_time_limit(double seconds) {
     implementation_->world.time_limit = seconds;
 }
 
-void Simulation::set_cancel(const std::atomic<bool>* cancel) { implementation_->world.cancel = cancel; }
+void Simulation::set_cancel(const std::atomic<bool>* cancel) {
+    implementation_->world.cancel = cancel;
+    if (implementation_->world.scene.detector) implementation_->world.scene.detector->set_cancel(cancel);
+}
 
 void Simulation::set_positions(ClothId cloth, std::span<const Vec3> positions) {
     World& world = implementation_->world;

@@ -183,6 +183,9 @@ constexpr double centimetre_extent = 50.0, millimetre_extent = 500.0, tiny_exten
 
 /// Share of a cloth's median edge: rims nearer than that were likely meant to be one.
 constexpr double near_rim_share = 0.05;
+/// Times the widest gap between such rims: the weld that doctor names. Less: of several corners at a place, each as far from the
+/// next, some stay apart.
+constexpr double beyond_widest_gap = 2.0;
 
 /// Times the mesh's size: farther from the origin rounding spoils its shape.
 constexpr double farthest_extents = 1e4;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -12,9 +13,10 @@ namespace percale {
 /// Cloth that meets cloth, as it starts.
 struct CrossedCloth {
     std::span<const Triangle> triangles;
-    std::span<const double> free;      // 0: stays
-    std::span<const Stitch> stitches;  // also of vertices that no triangle has, and those that are still open
-    MeetingCloth meeting = {};         // by the triangles
+    std::span<const double> free;               // 0: stays
+    std::span<const Stitch> stitches;           // also of vertices that no triangle has, and those that are still open
+    MeetingCloth meeting = {};                  // by the triangles
+    const std::atomic<bool>* cancel = nullptr;  // true: no way is looked for any more
 };
 
 /// Crossed cloth in which closed stitches are gone: what they join is one vertex.

@@ -20,6 +20,8 @@ struct Tangle {
     std::vector<double> limit;  // m, farthest that a vertex may move
     mutable long searches = 0;  // how often conflicts were looked for
 
+    bool cancelled() const { return cloth.cancel != nullptr && *cloth.cancel; }
+    bool gives_up() const { return searches >= tolerances::most_conflict_searches || cancelled(); }
     std::vector<int> conflicts(std::span<const Vec3> places, const std::vector<bool>& moved) const {
         ++searches;
         return find_conflicts(cloth, obstacles, places, moved);
@@ -199,7 +201,7 @@ struct Reaches {
 
 /// The move of `good`, which is enough, brought nearer to one that is too short.
 Attempt shortened(const Tangle& tangle, const Plan& plan, Reaches reaches, Attempt good) {
-    for (int k = 0; k < tolerances::reach_refinements && reaches.too_short < reaches.enough; ++k) {
+    for (int k = 0; k < tolerances::reach_refinements && reaches.too_short < reaches.enough && !tangle.cancelled(); ++k) {
         const double middle = 0.5 * (reaches.too_short + reaches.enough);
         Attempt shorter = attempt(tangle, plan, middle);
         std::vector<bool> core = plan.core;
@@ -216,9 +218,7 @@ std::optional<Attempt> follow(const Tangle& tangle, const Patch& patch, const Ro
     for (const int v : patch.vertices) core[v] = true;
     double reach = route.reach, too_short = route.reach;
     const double farthest = route.nearest ? tolerances::farthest_push * patch.margin : most;
-    for (int round = 0;
-         round < tolerances::most_route_rounds && reach < farthest && tangle.searches < tolerances::most_conflict_searches;
-         ++round) {
+    for (int round = 0; round < tolerances::most_route_rounds && reach < farthest && !tangle.gives_up(); ++round) {
         Attempt found = attempt(tangle, {patch.obstacle, route, core}, reach);
         if (found.largest_move >= most) return std::nullopt;
         const Growth growth = grow_core(tangle, found, core);

@@ -156,8 +156,8 @@ void mark_behind(const TangledCloth& cloth, const SolidObstacle& obstacle, int n
 }  // namespace
 
 TangledCloth make_tangled_cloth(std::span<const Triangle> triangles, std::span<const double> thickness,
-                                std::span<const double> free) {
-    TangledCloth cloth{.triangles = triangles, .thickness = thickness, .free = free, .neighbours = {}};
+                                std::span<const double> free, const std::atomic<bool>* cancel) {
+    TangledCloth cloth{.triangles = triangles, .thickness = thickness, .free = free, .neighbours = {}, .cancel = cancel};
     cloth.neighbours.resize(thickness.size());
     for (const Triangle& t : triangles) {
         for (int k = 0; k < 3; ++k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -14,12 +15,13 @@ struct TangledCloth {
     std::span<const double> thickness;  // m, of each vertex
     std::span<const double> free;       // 0: stays
     std::vector<std::vector<int>> neighbours;
+    const std::atomic<bool>* cancel = nullptr;  // true: no way is looked for any more
 
     int vertex_count() const { return static_cast<int>(thickness.size()); }
 };
 
 TangledCloth make_tangled_cloth(std::span<const Triangle> triangles, std::span<const double> thickness,
-                                std::span<const double> free);
+                                std::span<const double> free, const std::atomic<bool>* cancel = nullptr);
 
 /// For each vertex an obstacle that it conflicts with, -1 where there is none: it is inside, or a triangle of it crosses or
 /// touches the obstacle without a corner inside. Triangles with a vertex for which `moved` is true also conflict where they come

@@ -46,7 +46,7 @@ public:
     std::optional<std::vector<Vec3>> run() {
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         int since_fewest = 0;
-        for (int round = 0; round < tolerances::most_untangle_rounds; ++round) {
+        for (int round = 0; round < tolerances::most_untangle_rounds && !cancelled(); ++round) {
             const std::vector<IntersectingPair> pairs = find_pairs(round);
             if (pairs.empty()) return clear_places();
             if (round == 0 && order_layers()) continue;
@@ -64,6 +64,8 @@ public:
     }
 
 private:
+    bool cancelled() const { return cloth_.cancel != nullptr && *cloth_.cancel; }
+
     /// Cloth of higher layers goes outside of lower ones; false where all is of one layer.
     bool order_layers() {
         if (cloth_.meeting.pairs == nullptr || cloth_.meeting.pairs->layers().empty()) return false;
@@ -79,7 +81,8 @@ private:
         const double edge = merged_.mean_edge();
         const LayeredCloth layered{
             surface_, cloth, layer_, outwards, free_, tolerances::layer_reach * edge, tolerances::layer_gap * edge};
-        for (int round = 0; round < tolerances::most_layer_rounds && push_outside(layered, mesh_.vertices); ++round) {
+        for (int round = 0; round < tolerances::most_layer_rounds && !cancelled() && push_outside(layered, mesh_.vertices);
+             ++round) {
             for (int sweep = 0; sweep < tolerances::bond_sweeps; ++sweep) keep_lengths();
         }
         return true;

@@ -1,5 +1,7 @@
 /* A sheet falls on a ball: the C interface of Percale from the first call to the last. Prints the height of the sheet's middle
- * and of its lowest vertex, and what the ball carries. Exit code 1 with a text where a call fails. */
+ * and of its lowest vertex, what the ball carries, and what the independent check says. Exit code 1 with a text where a call
+ * fails, a step was taken unsolved, or something crosses. */
+#include <math.h>
 #include <percale.h>
 #include <stdio.h>
 
@@ -38,9 +40,13 @@ static percale_status make_scene(made_objects* made) {
     return status;
 }
 
-static percale_status settle(percale_simulation* simulation, int steps) {
-    percale_status status = PERCALE_OK;
-    for (int i = 0; i < steps && status == PERCALE_OK; ++i) status = percale_step(simulation, NULL);
+static percale_status settle(percale_simulation* simulation, int steps, int* unsolved) {
+    percale_step_report report;
+    percale_status status = percale_init_step_report(&report, sizeof report);
+    for (int i = 0; i < steps && status == PERCALE_OK; ++i) {
+        status = percale_step(simulation, &report);
+        *unsolved += report.status == PERCALE_STEP_NOT_CONVERGED || report.status == PERCALE_STEP_TOLERANCE_MISSED;
+    }
     return status;
 }
 
@@ -59,15 +65,37 @@ static percale_status tell(const percale_simulation* simulation) {
     return status;
 }
 
+/* Whether the sheet, where it is now, crosses the ball, which has not moved. */
+static percale_status check(const made_objects* made, int* crosses) {
+    percale_certificate found;
+    percale_mesh* now = NULL;
+    size_t vertices, triangles;
+    const double* positions = percale_positions_view(made->simulation, 0, &vertices);
+    const int* corners = percale_mesh_triangles_view(made->sheet, &triangles);
+    percale_status status = percale_create_mesh(positions, vertices, corners, triangles, &now);
+    if (!status) status = percale_init_certificate(&found, sizeof found);
+    if (!status) status = percale_certify(now, made->ball, INFINITY, &found);
+    percale_destroy_mesh(now);
+    if (status) return status;
+    *crosses = found.intersecting_pairs > 0 || found.vertices_inside > 0;
+    printf("certificate: %llu intersecting pairs, %d vertices inside, %.2f mm apart\n",
+           (unsigned long long)found.intersecting_pairs, found.vertices_inside, 1e3 * found.smallest_distance);
+    return PERCALE_OK;
+}
+
 int main(void) {
     made_objects made = {NULL, NULL, NULL, NULL};
+    int unsolved = 0, crosses = 0;
     percale_status status = make_scene(&made);
-    if (status == PERCALE_OK) status = settle(made.simulation, 120);
+    if (status == PERCALE_OK) status = settle(made.simulation, 120, &unsolved);
     if (status == PERCALE_OK) status = tell(made.simulation);
+    if (status == PERCALE_OK) status = check(&made, &crosses);
+    if (unsolved > 0) fprintf(stderr, "drape: %d steps were taken unsolved\n", unsolved);
+    if (crosses) fprintf(stderr, "drape: the sheet crosses the ball\n");
     if (status != PERCALE_OK) fprintf(stderr, "drape: %s: %s\n", percale_status_text(status), percale_last_error(NULL));
     percale_destroy_simulation(made.simulation);
     percale_destroy_fabric(made.cotton);
     percale_destroy_mesh(made.ball);
     percale_destroy_mesh(made.sheet);
-    return status == PERCALE_OK ? 0 : 1;
+    return status == PERCALE_OK && unsolved == 0 && !crosses ? 0 : 1;
 }

@@ -5,6 +5,7 @@
 
 #include "forces/springs.h"
 #include "step/step.h"
+#include "support/deadline.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -181,6 +182,8 @@ StartRepair repair_start(World& world, StartFault fault) {
     const double strain_before = strain(world);
     std::vector<int> cause(before.points.size(), unmoved);
     StartRepair repair{.moves = {}, .obstruction = leave_all(world, std::move(fault), cause)};
+    if (is_cancelled({.time = {}, .cancel = world.cancel}))
+        repair.obstruction = "its caller has cancelled the repair (set_cancel)";
     if (repair.obstruction.empty()) {
         relax(world, std::max(good_start_strain, strain_before));
         const double strain_after = strain(world);

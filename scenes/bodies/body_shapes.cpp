@@ -20,6 +20,7 @@ namespace {
 std::unique_ptr<ShapeSource> open_source(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings) {
     if (int{obstacle.frames.has_value()} + int{!obstacle.cache.empty()} + int{obstacle.clip.has_value()} > 1)
         throw SceneError("frames, cache and clip exclude each other");
+    if (obstacle.weld > 0.0) throw SceneError("weld joins vertices of a mesh that stays as it is, not of frames, cache or clip");
     if (obstacle.frames) return std::make_unique<MeshSequence>(scene, obstacle, warnings);
     if (!obstacle.cache.empty()) return std::make_unique<PointCache>(scene, obstacle, warnings);
     return std::make_unique<SkinClip>(scene, obstacle);

@@ -1,6 +1,7 @@
 #include "doctor/doctor_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/text.h"
 #include "garment/meeting_warnings.h"
@@ -137,6 +138,30 @@ void find_refused_cloth(const MeshFacts& facts, Findings& found) {
                        "split the mesh along them, and sew the parts together with a [[seam]]");
 }
 
+/// To one digit, of a number above 0.
+double rounded_up(double value) {
+    const double digit = std::pow(10.0, std::floor(std::log10(value)));
+    return std::ceil(value / digit) * digit;
+}
+
+/// `more`: what else mends them.
+void find_near_rims(const TriangleMesh& mesh, const MeshFacts& facts, const std::string& open, const std::string& more,
+                    Findings& found) {
+    const double near = near_rim_share * facts.median_edge;
+    if (!(near > 0.0)) return;
+    const NearRims rims = near_rims(mesh, facts, near);
+    if (rims.vertices.empty()) return;
+    const double weld = rounded_up(beyond_widest_gap * rims.widest);
+    const std::string by_weld =
+        weld < 0.5 * facts.shortest_edge
+            ? "weld = " + short_number(weld) + " beside its mesh (--weld of percale drape) joins them; or "
+            : "";
+    found.add_elements(
+        Severity::warning, "near_rims", rims.vertices,
+        "vertex|vertices of a rim less than " + short_number(near) + " m beside another one, not joined to it: " + open,
+        by_weld + "merge vertices by distance in the mesh" + more);
+}
+
 void find_cloth_shape(const ExaminedMesh& cloth, const Fabric& fabric, Findings& found) {
     const MeshFacts& facts = cloth.facts;
     const bool bends = fabric.springs.bend > 0.0 && !fabric.has_moduli();
@@ -146,12 +171,7 @@ void find_cloth_shape(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
     const std::string join = "merge vertices by distance in the mesh, or sew them (a [[seam]], lines \"stitch\" in the OBJ file)";
     found.add_elements(Severity::warning, "repeated_places", facts.repeated_places,
                        "vertex|vertices at the place of an earlier one, not joined to it: the cloth comes apart there", join);
-    const double near = near_rim_share * facts.median_edge;
-    if (!cloth.sewn && near > 0.0)
-        found.add_elements(Severity::warning, "near_rims", near_rim_vertices(cloth.mesh, facts, near),
-                           "vertex|vertices of a rim less than " + short_number(near) +
-                               " m beside another one, not joined to it: the cloth is open there",
-                           join);
+    if (!cloth.sewn) find_near_rims(cloth.mesh, facts, "the cloth is open there", ", or sew them (a [[seam]])", found);
     found.add_elements(Severity::warning, "pinched_vertices", facts.pinched_vertices,
                        "vertex|vertices by which alone pieces hang together (non-manifold)",
                        "split the mesh at them, or join the pieces by an edge");
@@ -209,7 +229,7 @@ void find_cleaning(const ExaminedMesh& obstacle, Findings& found) {
          "nothing has to be done; uniting the parts in the mesh makes it smaller");
 }
 
-void find_obstacle_surface(const MeshFacts& surface, Findings& found) {
+void find_obstacle_surface(const TriangleMesh& mesh, const MeshFacts& surface, Findings& found) {
     const std::string open = ", so it has no inside (it holds cloth on both sides, and deepest_penetration is not measured)";
     found.add_elements(Severity::warning, "crowded_edges", surface.crowded_edges,
                        "edge|edges of three triangles or more (non-manifold)" + open,
@@ -217,6 +237,7 @@ void find_obstacle_surface(const MeshFacts& surface, Findings& found) {
     found.add_elements(Severity::warning, "contrary_edges", surface.contrary_edges,
                        "edge|edges whose two triangles are wound against each other" + open,
                        "make normals consistent in the mesh, all outwards");
+    find_near_rims(mesh, surface, "it is open there", "", found);
     found.add_elements(Severity::note, "open_edges", surface.open_edges, "edge|edges of one triangle (open boundary)" + open,
                        "close the holes of the mesh if an inside is meant");
     found.add_elements(Severity::note, "pinched_vertices", surface.pinched_vertices,
@@ -270,7 +291,7 @@ std::vector<Finding> examine_obstacle(const ExaminedMesh& obstacle) {
     }
     const JoinedMesh joined = joined_by_place(obstacle.mesh);
     const MeshFacts surface = mesh_facts(joined.mesh);
-    find_obstacle_surface(surface, found);
+    find_obstacle_surface(joined.mesh, surface, found);
     find_self_crossing(joined, surface.watertight() ? Severity::note : Severity::warning,
                        "unite the parts in the mesh (a Boolean union) if cloth can come between them", found);
     return found.take();

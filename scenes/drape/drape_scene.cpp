@@ -147,6 +147,7 @@ private:
         const std::string& file = cloth.place.file;
         cloth.mesh = file;
         cloth.part = options_.garment_part;
+        cloth.weld = options_.weld;
         cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file, "").maxCoeff(), body_size_);
         cloth.pose.rotation = product(cloth.pose.rotation, turn_);
         std::size_t stitches = extension_of(file) == ".obj" ? find_obj_stitches(file).size() : 0;
@@ -168,7 +169,7 @@ private:
         cloth.fabric = pattern_fabric;
         cloth.pattern = cloth.place.file;
         cloth.edge_length = options_.edge_length;
-        add_seam(cloth, options_.weld);
+        add_seam(cloth, options_.weld_seams);
         made_.scene.cloths.push_back(cloth);
     }
 
@@ -193,6 +194,7 @@ private:
         body.name = "body";
         body.mesh = options_.body();
         body.part = options_.body_part;
+        body.weld = options_.weld;
         body.unit = body_unit_;
         body.pose.rotation = turn_;
         body.friction = options_.friction;

@@ -17,6 +17,7 @@ struct DrapeOptions {
     std::string garment_unit, body_unit;             // mm, cm, dm, m, inch; "": guessed by the sizes (guessed_unit)
     std::string up;                                  // "y" or "z" of the meshes; "": guessed by the body's shape (stands_along_z)
     std::string garment_part, body_part;             // objects or groups of the meshes, taken alone; "": all
+    double weld = 0.0;                               // m, vertices of meshes so near become one
     double scale = 1.0;                              // of garments
     std::array<double, 3> rotate = {0.0, 0.0, 0.0};  // degrees, of garments about x, then y, then z
     std::array<double, 3> move = {0.0, 0.0, 0.0};    // m
@@ -28,7 +29,7 @@ struct DrapeOptions {
     double still = 2e-4;        // m/s, what rest is
     double edge_length = 0.02;  // m, of a pattern's mesh
     double sewing_time = 1.0;   // s, of each garment
-    bool weld = true;           // the seams of patterns
+    bool weld_seams = true;     // of patterns
     bool no_self_contact = false;
     bool damps_patterns = false;  // a preset whose damping nothing else is said of
 

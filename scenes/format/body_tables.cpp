@@ -89,6 +89,19 @@ Field<Spec> part_field() {
         &Spec::part);
 }
 
+template <class Spec>
+Field<Spec> weld_field() {
+    return value_field<Spec>({.path = "weld",
+                              .sentence = "Vertices of the mesh file that are as near as that become one; vertices are "
+                                          "counted after it. Not with rest, stitches of the file, or bodies that bend.",
+                              .unit = "m",
+                              .lowest = 0.0,
+                              .highest = 0.1,
+                              .needs = "mesh",
+                              .needs_why = "weld joins vertices of a mesh file"},
+                             &Spec::weld);
+}
+
 Field<ClothSpec> pattern_field() {
     Field<ClothSpec> field = value_field<ClothSpec>(
         {.path = "pattern",
@@ -326,8 +339,8 @@ const FieldTable<ClothSpec>& cloth_table() {
                                            .alternative = true},
                                           &ClothSpec::grid, grid_table()),
                    mesh_field<ClothSpec>("Mesh file, relative to the scene file; instead of grid."), unit_field<ClothSpec>(),
-                   part_field<ClothSpec>(), pattern_field(), edge_length_field(), panel_offset_field(), rest_field(),
-                   uv_scale_field(),
+                   part_field<ClothSpec>(), weld_field<ClothSpec>(), pattern_field(), edge_length_field(), panel_offset_field(),
+                   rest_field(), uv_scale_field(),
                    value_field<ClothSpec>({.path = "warp",
                                            .sentence = "Where warp runs, of any length: in uv, then v if not said, or in the "
                                                        "axes of the mesh without strain; weft is across.",
@@ -354,7 +367,7 @@ const FieldTable<ObstacleSpec>& obstacle_table() {
         .fields = in_turn<ObstacleSpec>(
             {{name_field<ObstacleSpec>("obstacle", "Its name in messages and file names; must begin with a letter."),
               mesh_field<ObstacleSpec>("Mesh file, relative to the scene file; instead of shape."), unit_field<ObstacleSpec>(),
-              part_field<ObstacleSpec>()},
+              part_field<ObstacleSpec>(), weld_field<ObstacleSpec>()},
              bend_fields(),
              {table_field<ObstacleSpec>({.path = "shape",
                                          .sentence = "Exactly one of the shapes below, centred at its origin; instead of mesh.",

@@ -49,6 +49,7 @@ struct ClothSpec {
     std::string mesh;              // path relative to the scene file
     double unit = 1.0;             // m per unit of the mesh file
     std::string part;              // object or group of it that is taken alone; "": all
+    double weld = 0.0;             // m, vertices of it so near become one
     std::string rest;              // path of a mesh without strain, or "uv": the mesh's vt; empty: as it starts
     double uv_scale = 1.0;         // m per unit of vt
     std::optional<Warp> warp;
@@ -93,6 +94,7 @@ struct ObstacleSpec {
     Shape shape;
     double unit = 1.0;
     std::string part;
+    double weld = 0.0;  // m
     double friction = 0.3;
     double restitution = 0.0;
     Pose pose;

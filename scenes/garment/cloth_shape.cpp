@@ -90,7 +90,7 @@ TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth, std::vector<
     } else if (cloth.grid) {
         mesh = make_grid(cloth.grid->size[0], cloth.grid->size[1], cloth.grid->vertices[0], cloth.grid->vertices[1]);
     } else {
-        mesh = import_mesh(path_beside(scene, cloth.mesh), cloth.unit, warnings, cloth.part);
+        mesh = import_mesh(path_beside(scene, cloth.mesh), cloth.unit, warnings, cloth.part, cloth.weld);
     }
     mesh.vertices = transform(cloth.pose, mesh.vertices);
     return mesh;
@@ -99,6 +99,8 @@ TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth, std::vector<
 RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, std::vector<std::string>& warnings) {
     RestShape shape;
     const bool uv = cloth.rest == "uv";
+    if (cloth.weld > 0.0 && !cloth.rest.empty())
+        throw SceneError("cloth '" + cloth.name + "': weld joins vertices of its mesh, so rest is not of the same any more");
     if (uv) {
         shape = uv_shape(path_beside(scene, cloth.mesh), cloth, start);
     } else if (!cloth.rest.empty()) {

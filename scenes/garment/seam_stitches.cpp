@@ -25,6 +25,9 @@ std::vector<Stitch> file_stitches(const Scene& scene, const SeamSpec& seam) {
     if (!cloth.part.empty())
         throw SceneError("seam: file = \"mesh\" counts all vertices of the file, but cloth '" + cloth.name + "' takes part \"" +
                          cloth.part + "\" of it alone");
+    if (cloth.weld > 0.0)
+        throw SceneError("seam: file = \"mesh\" counts the vertices of the file, of which weld makes fewer in cloth '" +
+                         cloth.name + "'");
     return read_obj_stitches(path_beside(scene, cloth.mesh));
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <span>
 #include <tuple>
 
+#include "meshes/point_cells.h"
 #include "tolerances.h"
 
 namespace percale::scenes {
@@ -247,7 +247,7 @@ bool is_watertight(const TriangleMesh& mesh) {
     return true;
 }
 
-std::vector<int> near_rim_vertices(const TriangleMesh& mesh, const MeshFacts& facts, double distance) {
+NearRims near_rims(const TriangleMesh& mesh, const MeshFacts& facts, double distance) {
     std::vector<VertexPair> joined;
     std::vector<int> rim;
     for (const VertexPair& edge : facts.open_edges) rim.insert(rim.end(), edge.begin(), edge.end());
@@ -264,29 +264,27 @@ std::vector<int> near_rim_vertices(const TriangleMesh& mesh, const MeshFacts& fa
         shortest[b] = std::min(shortest[b], length);
     }
 
-    using Cell = std::array<double, 3>;  // whole numbers
-    const auto cell_of = [&](const Vec3& x) {
-        return Cell{std::round(x.x() / distance), std::round(x.y() / distance), std::round(x.z() / distance)};
+    PointCells cells(distance);
+    for (const int v : rim) cells.add(v, mesh.vertices[v]);
+    const auto gap_to_nearest = [&](int v) {
+        double gap = std::numeric_limits<double>::infinity();
+        cells.any_around(mesh.vertices[v], [&](int other) {
+            const double apart = (mesh.vertices[v] - mesh.vertices[other]).norm();
+            const double limit = std::min({distance, 0.5 * shortest[v], 0.5 * shortest[other], gap});
+            const VertexPair pair = {std::min(v, other), std::max(v, other)};
+            if (apart > 0.0 && apart < limit && !std::binary_search(joined.begin(), joined.end(), pair)) gap = apart;
+            return false;
+        });
+        return gap;
     };
-    std::map<Cell, std::vector<int>> cells;
-    for (const int v : rim) cells[cell_of(mesh.vertices[v])].push_back(v);
-    const auto is_near = [&](int v, int other) {
-        const double apart = (mesh.vertices[v] - mesh.vertices[other]).norm();
-        const VertexPair pair = {std::min(v, other), std::max(v, other)};
-        const double limit = std::min(distance, 0.5 * std::min(shortest[v], shortest[other]));
-        return apart > 0.0 && apart < limit && !std::binary_search(joined.begin(), joined.end(), pair);
-    };
-    const auto has_near = [&](int v) {
-        const Cell own = cell_of(mesh.vertices[v]);
-        for (int k = 0; k < 27; ++k) {
-            const auto cell = cells.find({own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1});
-            if (cell == cells.end()) continue;
-            if (std::ranges::any_of(cell->second, [&](int other) { return is_near(v, other); })) return true;
-        }
-        return false;
-    };
-    std::erase_if(rim, [&](int v) { return !has_near(v); });
-    return rim;
+    NearRims near;
+    for (const int v : rim) {
+        const double gap = gap_to_nearest(v);
+        if (std::isinf(gap)) continue;
+        near.vertices.push_back(v);
+        near.widest = std::max(near.widest, gap);
+    }
+    return near;
 }
 
 JoinedMesh joined_by_place(const TriangleMesh& mesh) {

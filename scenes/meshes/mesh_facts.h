@@ -46,8 +46,12 @@ std::vector<int> repeated_triangles(const std::vector<Triangle>& triangles);
 bool is_watertight(const TriangleMesh& mesh);
 
 /// Vertices of open edges that have a vertex of another open edge within `distance` and half of the open edges at either, not in
-/// their own place and of no edge in common: where a mesh was cut, or was never joined. Ascending.
-std::vector<int> near_rim_vertices(const TriangleMesh& mesh, const MeshFacts& facts, double distance);
+/// their own place and of no edge in common: where a mesh was cut, or was never joined.
+struct NearRims {
+    std::vector<int> vertices = {};  // ascending
+    double widest = 0.0;             // m, the largest distance of one to the nearest other
+};
+NearRims near_rims(const TriangleMesh& mesh, const MeshFacts& facts, double distance);
 
 /// A mesh as contact sees it: corners at the same place are one vertex, the first of them, and triangles that are flat or
 /// repeated then are left out. The vertices stay, with their numbers.

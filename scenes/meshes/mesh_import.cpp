@@ -10,6 +10,7 @@
 
 #include "common/input_file.h"
 #include "common/text.h"
+#include "meshes/near_vertices.h"
 #include "meshes/obj_file.h"
 #include "meshes/off_file.h"
 #include "meshes/ply_file.h"
@@ -94,6 +95,16 @@ TriangleMesh read_model(const std::string& file, std::vector<std::string>* warni
     return std::move(model.mesh);
 }
 
+TriangleMesh welded(const TriangleMesh& mesh, double distance, const std::string& file, std::vector<std::string>* warnings) {
+    WeldedMesh near = weld_near(mesh, distance);
+    const std::string what = "weld = " + short_number(distance) + " m ";
+    if (near.mesh.triangles.empty()) throw SceneError(file, what + "leaves no triangle: all are smaller");
+    if (warnings != nullptr && near.dropped_triangles > 0)
+        warnings->push_back(file + ": " + what + "leaves out " + counted(near.dropped_triangles, "triangle") +
+                            " of which two corners become one");
+    return std::move(near.mesh);
+}
+
 }  // namespace
 
 std::string extension_of(const std::string& file) {
@@ -104,7 +115,8 @@ std::string extension_of(const std::string& file) {
 
 bool is_mesh_file(const std::string& file) { return is_read(extension_of(file)); }
 
-TriangleMesh import_mesh(const std::string& file, double unit, std::vector<std::string>* warnings, const std::string& part) {
+TriangleMesh import_mesh(const std::string& file, double unit, std::vector<std::string>* warnings, const std::string& part,
+                         double weld) {
     if (!std::isfinite(unit) || unit <= 0.0) throw SceneError(file, "unit is " + std::to_string(unit) + ", must be above 0");
     check_mesh_file(file);
     const std::string format = format_of(file);
@@ -114,7 +126,7 @@ TriangleMesh import_mesh(const std::string& file, double unit, std::vector<std::
     TriangleMesh mesh = own ? std::move(*own) : read_model(file, warnings, part);
     if (mesh.triangles.empty()) throw SceneError(file, "no triangles");
     for (std::size_t k = 0; k < mesh.vertices.size(); ++k) check_finite(mesh.vertices[k] *= unit, k, file);
-    return mesh;
+    return weld > 0.0 ? welded(mesh, weld, file, warnings) : mesh;
 }
 
 TriangleMesh import_mesh_with_fields(const std::string& file, std::vector<MeshField>& fields) {

@@ -161,6 +161,8 @@ void add_options(CLI::App& command, DrapeCommand& all) {
         .add_option("--garment-part", options.garment_part, "Object or group of the garments' meshes, taken alone (default: all)")
         ->type_name("NAME");
     command.add_option("--body-part", options.body_part, "Object or group of the body's mesh (default: all)")->type_name("NAME");
+    command.add_option("--weld", options.weld, "Vertices of the meshes that are as near as that become one, m (default 0, none)")
+        ->type_name("M");
     command
         .add_option("--up", options.up, "Axis of the meshes that points up: y, z (default: y, or z if the body stands along it)")
         ->type_name("AXIS");
@@ -185,7 +187,7 @@ void add_options(CLI::App& command, DrapeCommand& all) {
         ->type_name("V");
     command.add_flag("--until-rest", all.until_rest, "Go on until all garments are proven at rest, as it does anyway");
     command.add_flag_callback(
-        "--no-weld", [&options] { options.weld = false; },
+        "--no-weld", [&options] { options.weld_seams = false; },
         "Leave what gaps springs leave at the seams of patterns (default: no gap)");
     command.add_flag("--no-self-contact", options.no_self_contact,
                      "Let garments pass through themselves and each other, which costs less");

@@ -37,9 +37,10 @@ py::array triangles_of(const Mesh& mesh) {
     return shown<int>(mesh, mesh->triangles.empty() ? nullptr : mesh->triangles.front().data(), mesh->triangles.size(), 3);
 }
 
-Mesh read_mesh(const std::filesystem::path& file, double unit, const std::string& part) {
+Mesh read_mesh(const std::filesystem::path& file, double unit, const std::string& part, double weld) {
     if (!(unit > 0.0) || !std::isfinite(unit)) throw SceneError("unit", "must be a finite number of m above 0");
-    return held(scenes::import_mesh(file.string(), unit, nullptr, part));
+    if (!(weld >= 0.0) || !std::isfinite(weld)) throw SceneError("weld", "must be a finite number of m, 0 or more");
+    return held(scenes::import_mesh(file.string(), unit, nullptr, part, weld));
 }
 
 void write_as_obj(const std::filesystem::path& file, py::handle mesh) {
@@ -130,9 +131,12 @@ void bind_meshes(py::module_& module) {
                    std::to_string(mesh.triangles.size()) + " triangles>";
         });
     bind_shapes(module);
-    module.def("read_mesh", &read_mesh, py::arg("path"), py::arg("unit") = 1.0, py::arg("part") = "",
-               "Reads a mesh file: OBJ, OFF, PLY in full precision, other formats in single. unit: m per unit of the file, > 0;\n"
-               "part: an object or group of an OBJ file that is taken alone. Throws SceneError naming file and line.");
+    module.def(
+        "read_mesh", &read_mesh, py::arg("path"), py::arg("unit") = 1.0, py::arg("part") = "", py::arg("weld") = 0.0,
+        "Reads a mesh file: OBJ, OFF, PLY in full precision, other formats in single. unit: m per unit of the file, > 0;\n"
+        "part: an object or group of an OBJ file that is taken alone;\n"
+        "weld: vertices within so many m of an earlier one become one with it; 0: none. Throws SceneError naming file and\n"
+        "line.");
     module.def("write_obj", &write_as_obj, py::arg("path"), py::arg("mesh"),
                "Writes a mesh, or (vertices, triangles), as OBJ that reads back in every bit; whole or not at all.");
     module.def("write_ply", &write_as_ply, py::arg("path"), py::arg("mesh"), "The same as binary PLY.");

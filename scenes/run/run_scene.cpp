@@ -220,6 +220,10 @@ bool make_step(BuiltScene& built, const RunHooks& hooks, RunScript& script, doub
     try {
         report = built.simulation.step();
     } catch (const StartError& error) {
+        if (hooks.cancel != nullptr && *hooks.cancel) {
+            stop_at(built, "before cloth was untangled", result);
+            return false;
+        }
         result.status = RunStatus::failed;
         result.reason = error.what();
         return false;

@@ -372,7 +372,7 @@ TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std
     if (obstacle.mesh.empty()) return shape_mesh(obstacle.shape);
     if (obstacle.bends()) return BodyShapes(scene, obstacle, warnings).first();
     check_still(scene, obstacle);
-    return import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit, warnings, obstacle.part);
+    return import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit, warnings, obstacle.part, obstacle.weld);
 }
 
 BuiltScene build_scene(const Scene& given) {

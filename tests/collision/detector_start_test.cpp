@@ -108,4 +108,28 @@ TEST_CASE("every backend untangles to the same bits, from where the obstacle is 
     for (const std::vector<Vec3>& result : results) CHECK(result == results[0]);
 }
 
+TEST_CASE("untangling that is cancelled finds no way, until it is not any more") {
+    std::atomic<bool> cancel = false;
+    Steps steps = make_steps(Scene::ball, small_sheet(), backends()[0]);
+    steps.obstacles[0].start.translation = Vec3(0, 0.1, 0);
+    steps.tell_poses();
+    steps.detector->set_cancel(&cancel);
+    // Two sheets at right angles, through each other.
+    const TriangleMesh sheet = make_grid(0.3, 0.3, 6, 6);
+    const TriangleMesh crossed =
+        joined(sheet, placed(sheet, {.translation = {0.01, 0.11, 0.0}, .rotation = {std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}}));
+    std::vector<int> cloth(crossed.vertices.size(), 0);
+    const std::vector<double> thickness(cloth.size(), 1e-3), free(cloth.size(), 1.0);
+    const auto sheets = backends()[0].make_detector();
+    sheets->set_cloth(crossed.triangles, thickness);
+    sheets->set_self_contact({.cloth = cloth, .rest = crossed.vertices, .friction = thickness});
+    sheets->set_cancel(&cancel);
+    REQUIRE(sheets->check_start(crossed.vertices).any());
+    for (const bool cancelled : {true, false}) {
+        cancel = cancelled;
+        CHECK(steps.detector->untangle(steps.cloth.vertices, std::vector<double>(25, 1.0)).has_value() != cancelled);
+        CHECK(sheets->untangle_cloth(crossed.vertices, free).has_value() != cancelled);
+    }
+}
+
 }  // namespace percale::test::detector_start_test

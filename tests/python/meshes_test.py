@@ -50,6 +50,17 @@ def test_written_meshes_read_back_in_every_bit(tmp_path, write):
     assert np.array_equal(percale.read_mesh(file, unit=0.5).vertices, mesh.vertices)
 
 
+def test_near_vertices_of_a_file_are_welded(tmp_path):
+    ball = percale.make_sphere(1.0, 2)
+    corners = ball.vertices[ball.triangles].reshape(-1, 3)
+    apart = corners + 1e-6 * np.random.default_rng(1).uniform(-1, 1, corners.shape)
+    percale.write_ply(tmp_path / 'apart.ply', (apart, np.arange(len(corners)).reshape(-1, 3)))
+    assert len(percale.read_mesh(tmp_path / 'apart.ply').vertices) == len(corners)
+    assert len(percale.read_mesh(tmp_path / 'apart.ply', weld=1e-5).vertices) == len(ball.vertices)
+    with pytest.raises(percale.SceneError, match='weld'):
+        percale.read_mesh(tmp_path / 'apart.ply', weld=-1.0)
+
+
 def test_files_that_cannot_be_are_errors(tmp_path):
     with pytest.raises(percale.SceneError, match='none.obj'):
         percale.read_mesh(tmp_path / 'none.obj')

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <optional>
 #include <span>
 #include <string>
@@ -194,6 +195,9 @@ public:
     /// Threads that later calls may share their work among, null: none; they stay as long as the detector. What is found does not
     /// depend on them.
     virtual void set_workers(Workers* workers) { static_cast<void>(workers); }
+
+    /// While this is true, untangle and untangle_cloth find no way, soon. Null: none. A detector need not look.
+    virtual void set_cancel(const std::atomic<bool>* cancel) { static_cast<void>(cancel); }
 
     /// What later calls depend on besides cloth and obstacles: poses, lists, contacts kept. A detector with the same cloth and
     /// obstacles that reads it (saved_state.h) gives the same bits from its next refresh on. Throws SceneError if it cannot.

@@ -130,7 +130,8 @@ public:
     /// The clock starts when `prepare` has done what is to do. Explicit schemes do not look at it: what their steps cost is known
     /// before. Results then depend on the machine; without it no decision reads a clock. Not part of saved states.
     void set_time_limit(double seconds);
-    /// While this is true, a step ends within a few iterations of what it is at and fails (StepStatus::cancelled), nothing moves:
+    /// While this is true, a step ends within a few iterations of what it is at and fails (StepStatus::cancelled), nothing moves,
+    /// and a start that would have to be repaired is refused (StartError, from `prepare` and from the step that comes upon it):
     /// for hosts that have to go, from another thread or a signal handler. Null: none. It must outlive the steps. Not part of
     /// saved states.
     void set_cancel(const std::atomic<bool>* cancel);

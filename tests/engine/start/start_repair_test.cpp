@@ -1,5 +1,6 @@
 #include "engine/start/start_repair.h"
 
+#include <atomic>
 #include <memory>
 
 #include "engine/forces/springs.h"
@@ -89,6 +90,18 @@ TEST_CASE("What that stretches is relaxed without gravity, motion or velocity") 
     REQUIRE(start.simulation.step().ok());
     CHECK(start.simulation.obstacle_pose(start.plane).translation == Vec3(0, -0.001, 0));
     CHECK(start.simulation.time() == 1.0 / 60.0);
+}
+
+TEST_CASE("A repair that the caller cancels leaves the start as it was, for a later call") {
+    Start start(0.012);
+    const std::uint64_t before = start.simulation.state_hash();
+    std::atomic<bool> cancel = true;
+    start.simulation.set_cancel(&cancel);
+    CHECK(refusal(start).find("its caller has cancelled the repair (set_cancel)") != std::string::npos);
+    CHECK(start.simulation.state_hash() == before);
+    cancel = false;
+    CHECK(refusal(start).empty());
+    CHECK(start.simulation.start_repair().size() == 1);
 }
 
 TEST_CASE("Where the detector knows no way, or it stretches what pins hold, the start is refused and stays") {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <functional>
 
+#include "meshes/near_vertices.h"
 #include "tests/scenes/faulty_meshes.h"
+#include "tests/scenes/split_corners.h"
 #include "tests/support/catch.h"
 
 namespace percale::scenes::test::doctor_mesh_test {
@@ -160,6 +162,23 @@ TEST_CASE("rims that lie side by side were likely meant to be joined, unless a s
     sewn.sewn = true;
     CHECK(find(examine_cloth(sewn, {}), "near_rims") == nullptr);
     CHECK(find(of_cloth(both(free_sheet(), shifted(free_sheet(), {0.61, 0, 0}))), "near_rims") == nullptr);
+}
+
+TEST_CASE("corners that differ by rounding are told with the weld that joins them") {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        percale::test::Random random(seed);
+        const TriangleMesh ball = make_sphere(random.decades(0.05, 1.0), 2);
+        const TriangleMesh apart = split_corners(ball, mesh_facts(ball).shortest_edge * random.decades(1e-8, 3e-3), random);
+        for (const std::vector<Finding>& findings : {of_cloth(apart), of_obstacle(apart)}) {
+            const Finding* rims = find(findings, "near_rims");
+            CAPTURE(seed);
+            REQUIRE(rims != nullptr);
+            REQUIRE(rims->fix.starts_with("weld = "));
+            const double weld = std::stod(rims->fix.substr(7));
+            CHECK(is_watertight(weld_near(apart, weld).mesh));
+            CHECK(find(of_obstacle(weld_near(apart, weld).mesh), "near_rims") == nullptr);
+        }
+    }
 }
 
 TEST_CASE("pieces, and triangles wound against each other, are notes for cloth") {

@@ -65,7 +65,7 @@ TEST_CASE("a scene runs a littered garment and says what it left out, unless it 
     for (const auto& [keys, use] : {std::pair<std::string, std::string>{"pin = [3]\n", "pin"},
                                     {"[[event]]\ntime = 0.0\npin = { cloth = \"c\", vertices = [3] }\n", "[[event]]"},
                                     {"[[seam]]\nvertices = [[3, 9]]\n", "[[seam]]"}}) {
-        const std::string text = message_of([&] { built(folder, keys); });
+        const std::string text = message_of([&, &more = keys] { built(folder, more); });
         CAPTURE(text);
         CHECK(text.find("the first is vertex 0; left out they would change the numbers of vertices, which " + use) !=
               std::string::npos);

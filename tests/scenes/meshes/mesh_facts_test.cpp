@@ -182,7 +182,7 @@ TEST_CASE("rims that are near each other are those that every pair of vertices s
     TriangleMesh other = shifted(free_sheet(), {0.602, 0, 0});  // 2 mm beside the first along one side
     const TriangleMesh two = both(free_sheet(), other);
     const auto near = [](const TriangleMesh& mesh, double distance) {
-        return near_rim_vertices(mesh, mesh_facts(mesh), distance);
+        return near_rims(mesh, mesh_facts(mesh), distance).vertices;
     };
     CHECK(near(two, 0.001).empty());
     percale::test::Random random(3);
@@ -198,7 +198,9 @@ TEST_CASE("rims that are near each other are those that every pair of vertices s
         }
     }
     CHECK(wanted.size() > 3);
-    CHECK(near_rim_vertices(rough, facts, 0.004) == std::vector<int>(wanted.begin(), wanted.end()));
+    CHECK(near_rims(rough, facts, 0.004).vertices == std::vector<int>(wanted.begin(), wanted.end()));
+    CHECK(near_rims(rough, facts, 0.004).widest < 0.004);
+    CHECK(near_rims(two, mesh_facts(two), 0.003).widest == Approx(0.002));
     const std::vector<int> found = near(two, 0.003);
     CHECK(found.size() == 14);
     for (const int v : found) CHECK(std::abs(std::abs(two.vertices[v].x() - 0.301) - 0.001) < 1e-9);

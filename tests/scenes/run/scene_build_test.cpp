@@ -168,6 +168,27 @@ TEST_CASE("cloth and obstacle may be parts of one mesh file") {
           std::string::npos);
 }
 
+TEST_CASE("vertices of a mesh file are welded where its scene says so, and not where others count them") {
+    const percale::scenes::test::TestFolder folder;
+    folder.write("cut.obj",
+                 "v 0 1 0\nv 1 1 0\nv 0 1 1\nv 1.00001 1 0\nv 1 1 1\nv 0 1 1.00001\nvt 0 0\nf 1/1 3/1 2/1\nf 4/1 6/1 5/1\n");
+    const std::string cloth =
+        "[fabric.f]\nsprings = { structural = 100 }\n[[cloth]]\nname = \"c\"\nfabric = \"f\"\nmesh = \"cut.obj\"\nweld = 1e-4\n";
+    const auto build = [&](const std::string& more) { return build_scene(load_scene(folder.write("scene.toml", cloth + more))); };
+    const std::string obstacle =
+        "[[obstacle]]\nname = \"o\"\nmesh = \"cut.obj\"\npose = { translation = [0, -1, 0] }\nweld = 1e-4\n";
+    const BuiltScene scene = build(obstacle);
+    CHECK(scene.cloth_meshes[0].vertices.size() == 4);
+    CHECK(scene.obstacle_meshes[0].vertices.size() == 4);
+    const auto refused = [&](const std::string& more) { return error_of([&] { build(more); }); };
+    CHECK(refused("rest = \"uv\"\n").find("weld joins vertices of its mesh, so rest is not") != std::string::npos);
+    CHECK(refused("[[seam]]\nfile = \"mesh\"\ncloths = [\"c\", \"c\"]\n").find("of which weld makes fewer") != std::string::npos);
+    CHECK(refused(obstacle + "frames = [0, 1]\n").find("weld joins vertices of a mesh that stays as it is") != std::string::npos);
+    CHECK(
+        refused("[[obstacle]]\nname = \"o\"\nshape = { plane = {} }\nweld = 1e-4\n").find("weld joins vertices of a mesh file") !=
+        std::string::npos);
+}
+
 TEST_CASE("obstacles need a detector, a scene without obstacles needs none") {
     const std::string none = "[step]\ndetector = \"none\"\n";
     CHECK(fault(none + small_scene() + body("plane = {}")) ==
