@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Changes files of every format that is read, and has the program read them: mutated_files.py PERCALE FOLDER [--count N] [--seed N]
+[--only NAME]
 
 FOLDER holds meshes, as .ci/fetch_meshes.sh leaves them (its folder `odd`); patterns, scenes and caches are those of data/ and of a run.
 Of each format N files are made (default 200) from some small ones: bytes and numbers changed, parts left out, doubled or swapped, cut
@@ -7,6 +8,7 @@ off. Each goes through `doctor`, or what else reads it. Allowed are exit codes 0
 Prints a table by format; exit code 1 if anything was not allowed, and the file is left in build/mutated.
 """
 import argparse
+import json
 import random
 import re
 import sys
@@ -55,6 +57,17 @@ def mutated(data, chance):
     return bytes(data)
 
 
+def json_pattern():
+    """Two panels of every kind of curve, sewn at their sides."""
+    curves = [{}, {'curvature': [0.5, 0.1]}, {'curvature': {'type': 'cubic', 'params': [[0.3, 0.1], [0.7, 0.1]]}},
+              {'curvature': {'type': 'circle', 'params': [40.0, 0, 1]}}]
+    edges = [{'endpoints': [k, (k + 1) % 4], **curves[k]} for k in range(4)]
+    panels = {name: {'translation': [0, 90, depth], 'rotation': [0, turn, 0], 'vertices': [[0, 0], [40, 0], [40, 50], [0, 50]], 'edges': edges}
+              for name, depth, turn in (('front', 20, 0), ('back', -20, 180))}
+    stitches = [[{'panel': 'front', 'edge': 1}, {'panel': 'back', 'edge': 3}], [{'panel': 'front', 'edge': 3}, {'panel': 'back', 'edge': 1}]]
+    return json.dumps({'pattern': {'panels': panels, 'stitches': stitches}, 'properties': {'units_in_meter': 100}}, indent=1)
+
+
 def seeds_of(folder, suffix):
     files = [file for file in Path(folder).rglob('*') if file.suffix.lower() == suffix and file.stat().st_size <= MOST_BYTES]
     return sorted(files, key=lambda file: (file.stat().st_size, str(file)))[-MOST_SEEDS:]
@@ -68,7 +81,9 @@ def readers(program, folder, scratch):
     """Of each format: seeds, and what reads a file of it, as arguments of the program."""
     for suffix in MESHES:
         yield suffix, seeds_of(folder, suffix), lambda file: ['doctor', str(file)]
-    patterns = sorted((ROOT / 'data' / 'patterns').rglob('*'))
+    own = scratch / 'two_panels.json'
+    own.write_text(json_pattern())
+    patterns = [*sorted((ROOT / 'data' / 'patterns').rglob('*')), own]
     for suffix in ('.json', '.toml'):
         yield f'pattern {suffix}', [file for file in patterns if file.suffix == suffix], \
             lambda file: ['sew', str(file), '-o', str(scratch / 'sewn.obj')]
@@ -119,11 +134,14 @@ def main():
     parser.add_argument('folder')
     parser.add_argument('--count', type=int, default=200)
     parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--only', help='formats whose name contains this')
     wish = parser.parse_args()
     bad = 0
     print('| format | files of | made | read | with errors | refused | other | most CPU s | most MB |\n|---|---|---|---|---|---|---|---|---|')
     with tempfile.TemporaryDirectory() as scratch:
         for name, seeds, read in readers(wish.program, wish.folder, Path(scratch)):
+            if wish.only and wish.only not in name:
+                continue
             codes, seconds, peak, wrong = try_format(wish.program, name, seeds, read, wish)
             other = sum(codes.values()) - codes[0] - codes[1] - codes[2]
             print(f'| {name} | {len(seeds)} | {sum(codes.values())} | {codes[0]} | {codes[1]} | {codes[2]} | {other} | {seconds:.1f} '
