@@ -102,7 +102,8 @@ TEST_CASE("a garment of pieces that nothing joins is known, and said how to mend
         return note.find("it consists of 2 pieces that nothing joins; --garment-part") != note.npos;
     }));
     CHECK(std::ranges::any_of(made.notes, [](const std::string& note) {
-        return note.find("14 vertices of a rim") != note.npos && note.find("; weld = 0.004 beside its mesh") != note.npos;
+        return note.find("14 vertices of a rim") != note.npos && note.find("; weld = ") != note.npos &&
+               note.find("(--weld of percale drape)") != note.npos;
     }));
 }
 
