@@ -186,6 +186,12 @@ constexpr double near_rim_share = 0.05;
 /// Times the widest gap between such rims: the weld that doctor names. Less: of several corners at a place, each as far from the
 /// next, some stay apart.
 constexpr double beyond_widest_gap = 2.0;
+/// Share of the triangles that a weld may take with it, so that it is named: slivers may go, the shape may not.
+constexpr double dropped_by_weld = 0.01;
+/// Share of the median edge that doctor names as the gap between vertices at one place. Any joins them.
+constexpr double same_place_share = 1e-6;
+/// m, longest weld that a scene may ask for.
+constexpr double most_weld = 0.1;
 
 /// Times the mesh's size: farther from the origin rounding spoils its shape.
 constexpr double farthest_extents = 1e4;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <string>
+#include <utility>
 
 #include "c/call.h"
 #include "percale/simulation.h"
@@ -8,6 +10,9 @@
 // What stands behind the opaque types of percale.h.
 
 struct percale_simulation {
+    explicit percale_simulation(percale::Simulation made) : simulation(std::move(made)) { simulation.set_cancel(&cancel); }
+
+    std::atomic<bool> cancel = false;
     percale::Simulation simulation;
     mutable percale::c_interface::ErrorText error = {};
     std::string explanation = {};          // of the last step

@@ -53,7 +53,7 @@ percale_status percale_create_simulation(const percale_setup* setup, percale_sim
         std::shared_ptr<HostWorkers> workers;
         if (from.workers != nullptr) workers = std::make_shared<HostWorkers>(known(from.workers, "workers"));
         percale::Simulation made(settings_of(from), make_detector(&demanded(from.detector, "detector")), std::move(workers));
-        place = std::make_unique<percale_simulation>(percale_simulation{std::move(made)}).release();
+        place = std::make_unique<percale_simulation>(std::move(made)).release();
     });
 }
 

@@ -62,6 +62,11 @@ percale_status percale_set_time_limit(percale_simulation* simulation, double sec
     return call_on(__func__, simulation, [&](percale_simulation& of) { of.simulation.set_time_limit(seconds); });
 }
 
+percale_status percale_set_cancel(percale_simulation* simulation, int wish) {
+    // Nothing else of the handle is touched: another thread is in a call.
+    return call(__func__, [&] { demanded(simulation, "simulation").cancel = wish != 0; });
+}
+
 percale_status percale_set_positions(percale_simulation* simulation, int cloth, const double* positions, size_t vertex_count) {
     return call_on(__func__, simulation, [&](percale_simulation& of) {
         of.simulation.set_positions({cloth}, vectors_of(positions, vertex_count, "positions"));

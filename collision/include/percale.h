@@ -14,8 +14,8 @@
  * are the library's memory, valid until the next call that changes the simulation. Positions, velocities and forces are x y z in
  * a row.
  *
- * Threads. One thread at a time for each object, whatever the call; different objects are independent of each other. Functions
- * without an object may be called from any thread.
+ * Threads. One thread at a time for each object, whatever the call but percale_set_cancel; different objects are independent of
+ * each other. Functions without an object may be called from any thread.
  *
  * Units. m, kg, s, N, J; y is up; triangles counter-clockwise seen from outside. Numbers of cloths, obstacles and seams are 0, 1,
  * ... in the order in which they were added; those of what was removed are not given again. */
@@ -199,6 +199,10 @@ percale_status percale_set_work_limit(percale_simulation* simulation, int iterat
 /* Wall time of a step, s, 1e-6 ... 1e6; 0: none. A step that has used it up is taken as it is, and says out_of_time;
    where pins and obstacles have not arrived after some 20 iterations more it fails (PERCALE_STEP_WORK_LIMIT). */
 percale_status percale_set_time_limit(percale_simulation* simulation, double seconds);
+/* While wish is not 0 a step ends within a few iterations and fails (PERCALE_STEP_CANCELLED), nothing moves, and a start that
+ * would have to be repaired is refused. For hosts that have to go: any thread may call it, and a signal handler, while another
+ * thread is in a call of this simulation. */
+percale_status percale_set_cancel(percale_simulation* simulation, int wish);
 /* m, and m/s, -1e9 ... 1e9, of all vertices of a cloth. For starts that are not at rest. */
 percale_status percale_set_positions(percale_simulation* simulation, int cloth, const double* positions, size_t vertex_count);
 percale_status percale_set_velocities(percale_simulation* simulation, int cloth, const double* velocities, size_t vertex_count);

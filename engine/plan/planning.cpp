@@ -1,6 +1,8 @@
 #include "planning.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "forces/hinge_bending.h"
 #include "plan_costs.h"
@@ -62,13 +64,22 @@ SceneFacts counted_facts(const StepScene& scene, const ClothState& state, const 
 
 }  // namespace
 
+namespace {
+
+/// Why a scheme was chosen; empty where none was open.
+std::string choose(const StepScene& scene, const ClothState& state, SceneFacts& facts) {
+    if (scene.settings.scheme != Scheme::automatic) return "";
+    SchemeChoice choice = choose_scheme(scene, state, facts);
+    facts.chosen = choice.scheme;
+    facts.parts = choice.parts;
+    return std::move(choice.reason);
+}
+
+}  // namespace
+
 SceneFacts scene_facts(const StepScene& scene, const ClothState& state, const ScriptedChanges& to_come) {
     SceneFacts facts = counted_facts(scene, state, to_come);
-    if (scene.settings.scheme == Scheme::automatic) {
-        const SchemeChoice choice = choose_scheme(scene, state, facts);
-        facts.chosen = choice.scheme;
-        facts.parts = choice.parts;
-    }
+    choose(scene, state, facts);
     return facts;
 }
 
@@ -99,14 +110,15 @@ StepPlan plan_again(const StepScene& scene, const ClothState& state, const StepP
 }
 
 ScenePlan scene_plan(const StepScene& scene, const ClothState& state, const ScriptedChanges& to_come) {
-    const SceneFacts facts = scene_facts(scene, state, to_come);
+    SceneFacts facts = counted_facts(scene, state, to_come);
+    std::string reason = choose(scene, state, facts);
     const StepPlan plan = make_step_plan(scene.settings, facts);
-    const bool open = scene.settings.scheme == Scheme::automatic;
+    const double stable = stable_step(scene, state, plan.scheme);
     return {.scheme = plan.scheme,
             .scheme_word = std::string(facts_of(plan.scheme).word),
-            .scheme_reason = open ? choose_scheme(scene, state, facts).reason : "",
-            .stable_step = stable_step(scene, state, plan.scheme),
-            .warnings = step_warnings(scene, state, plan),
+            .scheme_reason = std::move(reason),
+            .stable_step = stable,
+            .warnings = step_warnings(scene, state, plan, stable),
             .vertices = facts.cloth_vertices,
             .pinned_vertices = facts.pinned_vertices,
             .springs = facts.springs,

@@ -160,12 +160,11 @@ void warn_of_slivers(const StepScene& scene, std::vector<std::string>& warnings)
 
 }  // namespace
 
-std::vector<std::string> step_warnings(const StepScene& scene, const ClothState& state, const StepPlan& plan) {
+std::vector<std::string> step_warnings(const StepScene& scene, const ClothState& state, const StepPlan& plan, double stable) {
     std::vector<std::string> warnings;
     const double dt = scene.settings.time_step / plan.parts;
     const std::string step = "time_step " + rough_number(dt) + " s";
     if (!plan.implicit && !scene.settings.adaptive) {
-        const double stable = stable_step(scene, state, plan.scheme);
         if (stable == 0.0)
             warnings.push_back(word(plan.scheme) + " makes every oscillation grow; use rk4 or an implicit scheme");
         else if (dt > stable) {

@@ -28,7 +28,7 @@ SchemeChoice choose_scheme(const StepScene& scene, const ClothState& state, cons
 /// chosen.
 bool can_be_chosen(const StepScene& scene, Scheme scheme, int parts);
 
-/// What the settings will make go wrong or inexact, one sentence each.
-std::vector<std::string> step_warnings(const StepScene& scene, const ClothState& state, const StepPlan& plan);
+/// What the settings will make go wrong or inexact, one sentence each; `stable`: stable_step of the plan's scheme.
+std::vector<std::string> step_warnings(const StepScene& scene, const ClothState& state, const StepPlan& plan, double stable);
 
 }  // namespace percale

@@ -26,10 +26,22 @@ std::ifstream open_input(const std::string& file) {
     return std::ifstream(file, std::ios::binary);
 }
 
+namespace {
+
+/// Two letters with a zero behind or before each, as no other text begins.
+bool begins_wide(std::string_view text) {
+    if (text.size() < 4) return false;
+    const auto zeros = [&](std::size_t at) { return text[at] == 0 && text[at + 2] == 0; };
+    const auto letters = [&](std::size_t at) { return text[at] > 0 && text[at + 2] > 0; };
+    return (zeros(0) && letters(1)) || (zeros(1) && letters(0));
+}
+
+}  // namespace
+
 std::size_t encoding_mark(std::string_view beginning, const std::string& file) {
-    const bool wide = beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF") ||
-                      beginning.starts_with(std::string_view("\0\0\xFE\xFF", 4));
-    if (wide) throw SceneError(file, "is UTF-16 or UTF-32 text; save it as UTF-8");
+    const bool marked = beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF") ||
+                        beginning.starts_with(std::string_view("\0\0\xFE\xFF", 4));
+    if (marked || begins_wide(beginning)) throw SceneError(file, "is UTF-16 or UTF-32 text; save it as UTF-8");
     return beginning.starts_with("\xEF\xBB\xBF") ? 3 : 0;
 }
 

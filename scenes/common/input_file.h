@@ -13,7 +13,7 @@ namespace percale::scenes {
 std::ifstream open_input(const std::string& file);
 
 /// How many of a text's first bytes say that it is UTF-8 (its byte-order mark): 3 or 0. Throws SceneError naming the file where
-/// they say that it is UTF-16 or UTF-32.
+/// they say that it is UTF-16 or UTF-32, by a mark or by a zero beside each of the first two letters.
 std::size_t encoding_mark(std::string_view beginning, const std::string& file);
 
 /// Throws SceneError naming the file if it cannot be read.

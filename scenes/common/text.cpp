@@ -50,7 +50,7 @@ std::string number_advice(const std::string& text) {
     const std::string number(trimmed.data(), end);
     const std::string_view rest(end, static_cast<std::size_t>(trimmed.data() + trimmed.size() - end));
     if (rest.starts_with(',') && rest.size() > 1 && rest.find_first_not_of(digits, 1) == rest.npos &&
-        number.find('.') == number.npos)
+        number.find_first_of(".eE") == number.npos)
         return "; decimals take a point: " + number + "." + std::string(rest.substr(1));
     const std::string_view unit = rest.substr(std::min(rest.find_first_not_of(blanks), rest.size()));
     if (unit.empty() || !(std::isalpha(static_cast<unsigned char>(unit.front())) || unit.front() == '%')) return "";

@@ -65,6 +65,16 @@ private:
     std::vector<std::string> made_;  // the innermost first
 };
 
+/// A table and its diagram, FOLDER/NAME.csv and .svg. Without `commit` nothing is left of them, nor of a folder made for them.
+struct TableFiles {
+    TableFiles(const std::string& in, const std::string& name)
+        : folder(in), table(in + "/" + name + ".csv"), diagram(in + "/" + name + ".svg") {}
+    void commit() { commit_together({&table, &diagram}); }
+
+    OutputFolder folder;
+    WholeFile table, diagram;
+};
+
 /// Text as a whole file.
 void write_whole_file(const std::string& file, const std::string& text);
 

@@ -5,6 +5,7 @@
 
 #include "common/text.h"
 #include "garment/meeting_warnings.h"
+#include "meshes/near_vertices.h"
 #include "percale/certify.h"
 #include "percale/cleaning.h"
 #include "percale/error.h"
@@ -144,22 +145,34 @@ double rounded_up(double value) {
     return std::ceil(value / digit) * digit;
 }
 
-/// `more`: what else mends them.
-void find_near_rims(const TriangleMesh& mesh, const MeshFacts& facts, const std::string& open, const std::string& more,
-                    Findings& found) {
+/// m per unit that a mesh looks as if it had.
+double likely_unit(const ExaminedMesh& mesh) {
+    const double extent = mesh.facts.extent();
+    if (!mesh.from_file || extent < centimetre_extent) return 1.0;
+    return extent < millimetre_extent ? 0.01 : 0.001;
+}
+
+/// The weld that joins rims so far apart, with "; or " behind it; "" where it would take many triangles with it, or is too long.
+std::string weld_text(const ExaminedMesh& mesh, const TriangleMesh& surface, double widest) {
+    const double weld = rounded_up(beyond_widest_gap * widest), unit = likely_unit(mesh);
+    const double dropped = weld_near(surface, weld).dropped_triangles;
+    const double said = weld * unit / mesh.scale;
+    if (dropped > dropped_by_weld * static_cast<double>(surface.triangles.size()) || said > most_weld) return "";
+    const std::string with = unit == 1.0 ? "" : unit == 0.01 ? " with unit = \"cm\"" : " with unit = \"mm\"";
+    return "weld = " + short_number(said) + with + " beside its mesh (m; --weld of percale drape) joins them; or ";
+}
+
+/// Of its mesh as its role sees it. `more`: what else mends them.
+void find_near_rims(const ExaminedMesh& mesh, const TriangleMesh& surface, const MeshFacts& facts, const std::string& open,
+                    const std::string& more, Findings& found) {
     const double near = near_rim_share * facts.median_edge;
     if (!(near > 0.0)) return;
-    const NearRims rims = near_rims(mesh, facts, near);
+    const NearRims rims = near_rims(surface, facts, near);
     if (rims.vertices.empty()) return;
-    const double weld = rounded_up(beyond_widest_gap * rims.widest);
-    const std::string by_weld =
-        weld < 0.5 * facts.shortest_edge
-            ? "weld = " + short_number(weld) + " beside its mesh (--weld of percale drape) joins them; or "
-            : "";
     found.add_elements(
         Severity::warning, "near_rims", rims.vertices,
         "vertex|vertices of a rim less than " + short_number(near) + " m beside another one, not joined to it: " + open,
-        by_weld + "merge vertices by distance in the mesh" + more);
+        weld_text(mesh, surface, rims.widest) + "merge vertices by distance in the mesh" + more);
 }
 
 void find_cloth_shape(const ExaminedMesh& cloth, const Fabric& fabric, Findings& found) {
@@ -168,10 +181,12 @@ void find_cloth_shape(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
     found.add_elements(bends ? Severity::error : Severity::warning, "folded_flat", facts.folded_flat,
                        "pair|pairs of vertices opposite an edge at the same place, where a bending spring has no length",
                        "unfold the mesh there, or set springs.bend = 0");
-    const std::string join = "merge vertices by distance in the mesh, or sew them (a [[seam]], lines \"stitch\" in the OBJ file)";
+    const bool welds = cloth.from_file && !cloth.sewn && facts.median_edge > 0.0;
+    const std::string join = (welds ? weld_text(cloth, cloth.mesh, same_place_share * facts.median_edge) : "") +
+                             "merge vertices by distance in the mesh, or sew them (a [[seam]], lines \"stitch\" in the OBJ file)";
     found.add_elements(Severity::warning, "repeated_places", facts.repeated_places,
                        "vertex|vertices at the place of an earlier one, not joined to it: the cloth comes apart there", join);
-    if (!cloth.sewn) find_near_rims(cloth.mesh, facts, "the cloth is open there", ", or sew them (a [[seam]])", found);
+    if (!cloth.sewn) find_near_rims(cloth, cloth.mesh, facts, "the cloth is open there", ", or sew them (a [[seam]])", found);
     found.add_elements(Severity::warning, "pinched_vertices", facts.pinched_vertices,
                        "vertex|vertices by which alone pieces hang together (non-manifold)",
                        "split the mesh at them, or join the pieces by an edge");
@@ -229,7 +244,7 @@ void find_cleaning(const ExaminedMesh& obstacle, Findings& found) {
          "nothing has to be done; uniting the parts in the mesh makes it smaller");
 }
 
-void find_obstacle_surface(const TriangleMesh& mesh, const MeshFacts& surface, Findings& found) {
+void find_obstacle_surface(const ExaminedMesh& obstacle, const TriangleMesh& mesh, const MeshFacts& surface, Findings& found) {
     const std::string open = ", so it has no inside (it holds cloth on both sides, and deepest_penetration is not measured)";
     found.add_elements(Severity::warning, "crowded_edges", surface.crowded_edges,
                        "edge|edges of three triangles or more (non-manifold)" + open,
@@ -237,7 +252,7 @@ void find_obstacle_surface(const TriangleMesh& mesh, const MeshFacts& surface, F
     found.add_elements(Severity::warning, "contrary_edges", surface.contrary_edges,
                        "edge|edges whose two triangles are wound against each other" + open,
                        "make normals consistent in the mesh, all outwards");
-    find_near_rims(mesh, surface, "it is open there", "", found);
+    find_near_rims(obstacle, mesh, surface, "it is open there", "", found);
     found.add_elements(Severity::note, "open_edges", surface.open_edges, "edge|edges of one triangle (open boundary)" + open,
                        "close the holes of the mesh if an inside is meant");
     found.add_elements(Severity::note, "pinched_vertices", surface.pinched_vertices,
@@ -291,7 +306,7 @@ std::vector<Finding> examine_obstacle(const ExaminedMesh& obstacle) {
     }
     const JoinedMesh joined = joined_by_place(obstacle.mesh);
     const MeshFacts surface = mesh_facts(joined.mesh);
-    find_obstacle_surface(joined.mesh, surface, found);
+    find_obstacle_surface(obstacle, joined.mesh, surface, found);
     find_self_crossing(joined, surface.watertight() ? Severity::note : Severity::warning,
                        "unite the parts in the mesh (a Boolean union) if cloth can come between them", found);
     return found.take();

@@ -14,6 +14,7 @@ struct ExaminedMesh {
     bool from_file = true;   // else a grid or a shape, which is made without faults
     bool sewn = false;       // a seam joins parts of it
     bool filled = false;     // cloth that is closed on purpose
+    double scale = 1.0;      // of its pose, which the mesh has and a weld comes before
     TriangleMesh mesh = {};
     MeshFacts facts = {};
 };

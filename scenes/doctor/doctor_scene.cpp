@@ -87,6 +87,7 @@ Meshes read_meshes(const Scene& scene, std::vector<Finding>& found) {
         if (!mesh) continue;
         mesh->sewn = is_sewn_to_itself(scene, cloth);
         mesh->filled = scene.is_filled(cloth);
+        mesh->scale = cloth.pose.scale;
         meshes.cloths.push_back(std::move(*mesh));
         meshes.cloth_specs.push_back(&cloth);
     }
@@ -97,6 +98,7 @@ Meshes read_meshes(const Scene& scene, std::vector<Finding>& found) {
             return placed;
         });
         if (!mesh) continue;
+        mesh->scale = obstacle.pose.scale;
         meshes.obstacles.push_back(std::move(*mesh));
         meshes.obstacle_specs.push_back(&obstacle);
     }

@@ -62,6 +62,10 @@ Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function
         try {
             drape.last = built.simulation.step();
         } catch (const StartError& error) {
+            if (stop(built.simulation.time())) {
+                drape.end = DrapeEnd::stopped;
+                return drape;
+            }
             drape.end = again ? DrapeEnd::unsewn : DrapeEnd::failed;
             drape.failure = std::string(error.what()) + " (--no-self-contact: as if it did not)";
             return drape;

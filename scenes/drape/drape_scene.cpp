@@ -147,7 +147,6 @@ private:
         const std::string& file = cloth.place.file;
         cloth.mesh = file;
         cloth.part = options_.garment_part;
-        cloth.weld = options_.weld;
         cloth.unit = unit_of(file, options_.garment_unit, "--garment-unit", extent_of(file, "").maxCoeff(), body_size_);
         cloth.pose.rotation = product(cloth.pose.rotation, turn_);
         std::size_t stitches = extension_of(file) == ".obj" ? find_obj_stitches(file).size() : 0;
@@ -156,6 +155,10 @@ private:
             stitches = 0;
         }
         cloth.fabric = stitches > 0 ? sewn_mesh_fabric : mesh_fabric;
+        if (stitches == 0)
+            cloth.weld = options_.weld;
+        else if (options_.weld > 0.0)
+            note(file + " has stitches, which count all its vertices: --weld leaves it as it is");
         if (stitches > 0) {
             note(file + " has " + std::to_string(stitches) + " stitches, by which it is sewn");
             add_seam(cloth, false);  // gathers of others are sewn at every vertex, and a weld would press their edges together
@@ -234,6 +237,7 @@ void check_drape(const DrapeOptions& options) {
     }
     if (!options.up.empty() && options.up != "y" && options.up != "z")
         throw SceneError("--up " + options.up + ": must be y or z");
+    if (!(options.weld >= 0.0 && options.weld <= most_weld)) throw SceneError("--weld: is outside the allowed range 0 ... 0.1 m");
     if (!(options.scale >= 0.01 && options.scale <= 100.0))
         throw SceneError("--scale: is outside the allowed range 0.01 ... 100");
     if (!(options.seconds > 0.0 && options.seconds <= 3600.0))

@@ -8,6 +8,7 @@
 #include "common/text.h"
 #include "format/motion_keys.h"
 #include "format/ranges.h"
+#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
@@ -96,7 +97,7 @@ Field<Spec> weld_field() {
                                           "counted after it. Not with rest, stitches of the file, or bodies that bend.",
                               .unit = "m",
                               .lowest = 0.0,
-                              .highest = 0.1,
+                              .highest = most_weld,
                               .needs = "mesh",
                               .needs_why = "weld joins vertices of a mesh file"},
                              &Spec::weld);

@@ -99,6 +99,8 @@ TriangleMesh welded(const TriangleMesh& mesh, double distance, const std::string
     WeldedMesh near = weld_near(mesh, distance);
     const std::string what = "weld = " + short_number(distance) + " m ";
     if (near.mesh.triangles.empty()) throw SceneError(file, what + "leaves no triangle: all are smaller");
+    if (warnings != nullptr && near.joined_vertices == 0)
+        warnings->push_back(file + ": " + what + "joins nothing: no two vertices are so near");
     if (warnings != nullptr && near.dropped_triangles > 0)
         warnings->push_back(file + ": " + what + "leaves out " + counted(near.dropped_triangles, "triangle") +
                             " of which two corners become one");

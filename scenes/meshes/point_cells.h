@@ -9,10 +9,10 @@
 
 namespace percale::scenes {
 
-/// Numbers of points, by cubes of a size: what is nearer than that lies in the same cube or in one beside it.
+/// Numbers of points, by cubes of a size: what is so near lies in the same cube or in one beside it.
 class PointCells {
 public:
-    explicit PointCells(double size) : size_(size) {}
+    explicit PointCells(double size) : size_(size * (1.0 + 1e-9)) {}  // what is that far apart is, rounded, too
 
     void add(int number, const Vec3& x) { cells_[cell_of(x)].push_back(number); }
 
@@ -32,7 +32,7 @@ public:
 private:
     using Cell = std::array<double, 3>;  // whole numbers
     Cell cell_of(const Vec3& x) const {
-        return {std::round(x.x() / size_), std::round(x.y() / size_), std::round(x.z() / size_)};
+        return {std::floor(x.x() / size_), std::floor(x.y() / size_), std::floor(x.z() / size_)};
     }
 
     double size_;

@@ -4,11 +4,25 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <string>
 #include <string_view>
 
+#include "common/input_file.h"
 #include "percale/error.h"
 
 namespace percale::scenes {
+
+namespace {
+
+/// Whether text in wide characters begins with "solid". A binary title may hold what it likes.
+bool is_wide_text(std::string_view start) {
+    std::string letters;
+    for (const char byte : start.substr(0, 12))
+        if (byte > 0) letters += byte;
+    return letters.starts_with("solid") && start.substr(0, 12).find('\0') != std::string_view::npos;
+}
+
+}  // namespace
 
 /// Binary STL: 80 bytes of title, a 32-bit count, 50 bytes a triangle. Text files start with "solid" and have no counts; a binary
 /// title may start so, too, and is told by its size.
@@ -18,7 +32,9 @@ void check_stl_header(const std::string& file) {
     if (!in) throw SceneError(file, std::string("cannot be read: ") + std::strerror(errno));
     char start[84] = {};
     in.read(start, sizeof start);
-    const bool says_solid = std::string_view(start, sizeof start).starts_with("solid");
+    const std::string_view begins(start, static_cast<std::size_t>(in.gcount()));
+    if (is_wide_text(begins)) encoding_mark(begins, file);
+    const bool says_solid = begins.starts_with("solid");
     if (in.gcount() < static_cast<std::streamsize>(sizeof start)) {
         if (says_solid) return;
         throw SceneError(file, "not an STL file: " + std::to_string(in.gcount()) + " bytes are less than its header");

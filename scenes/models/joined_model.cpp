@@ -63,7 +63,6 @@ void append_faces(const ModelMesh& mesh, std::size_t first, bool mirrored, Trian
         for (const int corner : corners) places.push_back(joined.vertices[first + static_cast<std::size_t>(corner)]);
         const auto corner = [&](int k) { return static_cast<int>(first) + corners[static_cast<std::size_t>(k)]; };
         for (const Triangle& t : polygon_triangles(places))
-
             joined.triangles.push_back({corner(t[mirrored ? 1 : 0]), corner(t[mirrored ? 0 : 1]), corner(t[2])});
     }
 }

@@ -21,6 +21,7 @@
 #include "program/progress_bar.h"
 #include "program/stop_signals.h"
 #include "run/run_verdict.h"
+#include "run/scene_plan.h"
 #include "run/start_fault.h"
 
 namespace percale::program {
@@ -101,7 +102,11 @@ void run_into(Outcome& outcome, const CheckOptions& check, const StopSignals& si
                      check.program);
     if (kept && kept->ended()) return take_kept(outcome, *kept, expected);
     if (check.jobs > 1 && scene.step.threads == 0) scene.step.threads = 1;  // the jobs use the cores
-    BuiltScene built = signals.prepare([&] { return build_scene(scene); });
+    BuiltScene built = signals.prepare([&] {
+        BuiltScene planned = build_scene(scene);
+        keep_plan(planned);
+        return planned;
+    });
     for (const StartMove& move : built.simulation.start_repair()) outcome.start_moves.push_back(start_move_text(move));
     RunHooks hooks;
     hooks.stop_asked = [&] { return signals.asked(); };

@@ -55,8 +55,8 @@ void print(const Comparison& comparison, const std::string& folder) {
     std::printf("%s/compare.csv, %s/compare.svg\n", folder.c_str(), folder.c_str());
 }
 
-Comparison compared(const CompareOptions& options, const CompareSettings& settings, const SceneSource& source) {
-    const StopSignals signals;
+Comparison compared(const CompareOptions& options, const CompareSettings& settings, const SceneSource& source,
+                    const StopSignals& signals) {
     CompareHooks hooks;
     hooks.stop_asked = [&] { return signals.asked(); };
     hooks.reference_made = [&](const Reference& reference) {
@@ -69,12 +69,15 @@ Comparison compared(const CompareOptions& options, const CompareSettings& settin
 
 int compare_into(const std::string& folder, const CompareOptions& options, const CompareSettings& settings,
                  const SceneSource& source) {
-    WholeFile table(folder + "/compare.csv"), diagram(folder + "/compare.svg");
+    TableFiles{folder, "compare"};  // that they cannot be written is told before anything is run
+    const StopSignals signals;
     try {
-        const Comparison comparison = compared(options, settings, source);
-        table.out() << comparison_csv(comparison);
-        diagram.out() << plot_svg(comparison_plot(comparison));
-        commit_together({&table, &diagram});
+        // Nothing is there yet that a kill would leave half made.
+        const Comparison comparison = signals.prepare([&] { return compared(options, settings, source, signals); });
+        TableFiles files(folder, "compare");
+        files.table.out() << comparison_csv(comparison);
+        files.diagram.out() << plot_svg(comparison_plot(comparison));
+        files.commit();
         if (!options.common.quiet) print(comparison, folder);
         const bool any = std::any_of(comparison.runs.begin(), comparison.runs.end(),
                                      [](const ComparedRun& run) { return run.run.end == VariantEnd::finished; });
@@ -91,9 +94,7 @@ int compare(const CompareOptions& options) {
     check_settings(settings, source);
     demand_duration(source({}));
     build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
-    const std::string name = options.folder.empty() ? default_folder(options.scene) : options.folder;
-    const OutputFolder folder(name);
-    return compare_into(name, options, settings, source);
+    return compare_into(options.folder.empty() ? default_folder(options.scene) : options.folder, options, settings, source);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ std::size_t print_start(const DrapeOptions& options, const DrapeScene& made, con
 /// Sewn within options.sewing_time; nothing where it could not be and is to be tried `again`.
 std::optional<int> drape_once(const DrapeCommand& command, const StopSignals& signals, bool again) {
     const DrapeOptions& options = command.drape;
-    const DrapeScene made = drape_scene(options);
+    const DrapeScene made = signals.prepare([&] { return drape_scene(options); });
     BuiltScene built = signals.prepare([&] { return build_scene(made.scene); });
     built.simulation.set_cancel(&signals.overdue());
     const std::size_t start_moves = command.quiet ? 0 : print_start(options, made, built);

@@ -88,6 +88,7 @@ BuiltScene built_scene(const RunOptions& options, const Checkpoint* from) {
     const Scene scene = load_scene(options.scene, scene_overrides(options.common));
     try {
         BuiltScene built = build_scene(scene);
+        keep_plan(built);
         // What [expect] reads is in its settings, and was in those of the run that was left.
         if (from) check_same_run(options.resume, *from, built.scene, options.common.certify_steps, options.common.replay_hash);
         return built;

@@ -85,8 +85,7 @@ std::vector<StressCell> wanted_cells(const StressOptions& options) {
     return cells;
 }
 
-StressRun made_run(const StressOptions& options, const SceneSource& source) {
-    const StopSignals signals;
+StressRun made_run(const StressOptions& options, const SceneSource& source, const StopSignals& signals) {
     StressHooks hooks;
     hooks.stop_asked = [&] { return signals.asked(); };
     std::optional<ProgressBar> bar;
@@ -125,13 +124,14 @@ int stress(const StressOptions& options) {
         build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
     }
     const std::string name = folder_name(options);
-    const OutputFolder folder(name);
-    WholeFile table(name + "/stress.csv"), map(name + "/stress.svg");
+    TableFiles{name, "stress"};  // that they cannot be written is told before anything is run
+    const StopSignals signals;
     try {
-        const StressRun run = made_run(options, source);
-        table.out() << stress_csv(run);
-        map.out() << map_svg(stress_map(run));
-        commit_together({&table, &map});
+        const StressRun run = signals.prepare([&] { return made_run(options, source, signals); });
+        TableFiles files(name, "stress");
+        files.table.out() << stress_csv(run);
+        files.diagram.out() << map_svg(stress_map(run));
+        files.commit();
         if (!options.common.quiet) print(options, run, name);
         return run.failures() > 0 ? not_as_expected : all_well;
     } catch (const ComparisonStopped&) {

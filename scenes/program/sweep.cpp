@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "common/folder_lock.h"
 #include "common/own_program.h"
 #include "common/text.h"
 #include "common/whole_file.h"
@@ -153,6 +154,8 @@ int sweep(const SweepOptions& options) {
     std::erase_if(runs, [&](std::size_t run) { return run < asked.front() || run > asked.back(); });
     if (options.range.empty()) write_batch_files(open);
     if (options.slurm) return submit(options, open);
+    std::optional<FolderLock> lock;  // of those that do all runs: with --run others do theirs at the same time
+    if (options.range.empty()) lock.emplace(open.folder.path());
     const StopSignals signals;
     ProgressBar bar(!options.quiet, static_cast<double>(runs.size()), {"runs", 0});
     std::vector<std::size_t> failed;

@@ -15,6 +15,22 @@ std::atomic<bool> is_ending = false;
 std::thread::id ending_thread;        // written before is_ending
 std::atomic<int> threads_at_door{0};  // that will take the lock without asking again
 
+// The handler of SIGINT reads both.
+std::atomic<std::atomic<bool>*> watched = nullptr;
+void (*handler_of_python)(int) = nullptr;
+
+void cancel_and_tell_python(int signal) {
+    if (std::atomic<bool>* cancel = watched; cancel != nullptr) *cancel = true;
+    handler_of_python(signal);
+}
+
+/// Whether Python would raise KeyboardInterrupt in this thread.
+bool interrupts_raise() {
+    const auto threading = pybind11::module_::import("threading"), signals = pybind11::module_::import("signal");
+    return threading.attr("current_thread")().is(threading.attr("main_thread")()) &&
+           signals.attr("getsignal")(SIGINT).is(signals.attr("default_int_handler"));
+}
+
 /// Returns where the lock may be waited for, and never at the end.
 void come_to_door() {
     ++threads_at_door;
@@ -43,6 +59,29 @@ ReleasedGil::~ReleasedGil() {
 
 TakenGil::Asked::Asked() { come_to_door(); }
 TakenGil::TakenGil() { --threads_at_door; }
+
+InterruptWatch::InterruptWatch(std::atomic<bool>& cancel)
+    : cancel_(cancel), before_(cancel), around_(watched), watches_(interrupts_raise()) {
+    if (!watches_) return;
+    watched = &cancel_;
+    if (around_ != nullptr) return;
+    sigaction(SIGINT, nullptr, &python_);
+    handler_of_python = python_.sa_handler;
+    struct sigaction both = python_;
+    both.sa_handler = &cancel_and_tell_python;
+    installed_ = sigaction(SIGINT, &both, nullptr) == 0;
+}
+
+InterruptWatch::~InterruptWatch() {
+    if (installed_) sigaction(SIGINT, &python_, nullptr);
+    if (!watches_) return;
+    watched = around_;
+    cancel_ = before_;
+}
+
+void InterruptWatch::check() const {
+    if (watches_ && PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+}
 
 void watch_exit() {
     pthread_atfork(nullptr, nullptr, [] { threads_at_door = 0; });  // of os.fork: the other threads stayed behind

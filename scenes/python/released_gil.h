@@ -1,6 +1,10 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <signal.h>
+
+#include <atomic>
+#include <type_traits>
 
 namespace percale::python {
 
@@ -32,6 +36,50 @@ private:
     Asked asked_;  // before the lock
     pybind11::gil_scoped_acquire gil_;
 };
+
+/// Ctrl-C is told to Python at the next line of its own code: not before a call ends that has let the GIL go. While one of these
+/// lives the signal sets `cancel`, too. Only where it would raise KeyboardInterrupt: on the main thread, with Python's own
+/// handler.
+class InterruptWatch {
+public:
+    explicit InterruptWatch(std::atomic<bool>& cancel);
+    ~InterruptWatch();
+    InterruptWatch(const InterruptWatch&) = delete;
+    InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+    /// With the GIL: raises KeyboardInterrupt where the signal has come.
+    void check() const;
+
+private:
+    std::atomic<bool>& cancel_;
+    const bool before_;          // what cancel was
+    std::atomic<bool>* around_;  // that of a call around this one
+    bool watches_;
+    bool installed_ = false;
+    struct sigaction python_ = {};
+};
+
+/// work(), which heeds `cancel` and comes back with the GIL; KeyboardInterrupt instead of what it gives or throws where Ctrl-C
+/// ended it.
+template <class Work>
+auto interruptible(std::atomic<bool>& cancel, Work work) {
+    const InterruptWatch watch(cancel);
+    try {
+        if constexpr (std::is_void_v<decltype(work())>) {
+            work();
+            watch.check();
+        } else {
+            auto made = work();
+            watch.check();
+            return made;
+        }
+    } catch (const pybind11::error_already_set&) {
+        throw;
+    } catch (...) {
+        watch.check();
+        throw;
+    }
+}
 
 /// Has the interpreter say when it is about to end.
 void watch_exit();

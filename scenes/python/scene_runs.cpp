@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <optional>
 
@@ -38,8 +39,9 @@ KeptFrame kept(const Frame& frame) {
 }
 
 /// Calls on_step where there is one; true if the run is to stop. Looks for signals, which Python's own code cannot meanwhile.
-bool told(const py::object& on_step, const StepReport& report, const BuiltScene& built) {
+bool told(const py::object& on_step, const StepReport& report, const BuiltScene& built, std::atomic<bool>& cancel) {
     const TakenGil gil;
+    cancel = false;  // what has come is told now; what comes in on_step is its own to hear
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (on_step.is_none()) return false;
     const auto view = std::make_shared<RunView>(RunView{&built});
@@ -47,7 +49,9 @@ bool told(const py::object& on_step, const StepReport& report, const BuiltScene&
         RunView& view;
         ~Ended() { view.built = nullptr; }
     } ended{*view};
-    return on_step(report, view).cast<py::object>().is(py::bool_(true));
+    const bool stop = on_step(report, view).cast<py::object>().is(py::bool_(true));
+    cancel = false;
+    return stop;
 }
 
 std::size_t number_of(const std::vector<std::string>& names, const std::string& name, const char* what) {
@@ -66,7 +70,8 @@ std::vector<std::string> names_of(const Specs& specs) {
 /// Runs what is built; files where they are asked for.
 class Recorder {
 public:
-    Recorder(BuiltScene& built, const RunWishes& wishes, SceneRun& run) : built_(built), wishes_(wishes), run_(run) {
+    Recorder(BuiltScene& built, const RunWishes& wishes, std::atomic<bool>& cancel, SceneRun& run)
+        : built_(built), wishes_(wishes), cancel_(cancel), run_(run) {
         if (!wishes.output.empty()) folder_.emplace(wishes.output, built.scene, true);
     }
 
@@ -88,10 +93,12 @@ public:
         };
         hooks.step = [&](const StepReport& report, const Simulation& simulation) {
             if (folder_) folder_->add(report, simulation);
-            stop_ = told(wishes_.on_step, report, built_) || stop_;
+            stop_ = told(wishes_.on_step, report, built_, cancel_) || stop_;
         };
         hooks.stop_asked = [&] { return stop_; };
+        hooks.cancel = &cancel_;
         run_.result = run_scene(built_, hooks, {.certify_steps = wishes_.certify_steps});
+        if (cancel_) throw SceneError("the run was interrupted");
         const std::vector<Expectation> expected =
             wishes_.certify_steps ? with_every_step(built_.scene.expectations) : built_.scene.expectations;
         run_.expectations = judge_run(expected, run_.result.measures, run_.result.timed, built_.scene);
@@ -102,6 +109,7 @@ public:
 private:
     BuiltScene& built_;
     const RunWishes& wishes_;
+    std::atomic<bool>& cancel_;
     SceneRun& run_;
     std::optional<RunFolder> folder_;
     std::vector<FrameRecord> records_;
@@ -284,13 +292,16 @@ const BuiltScene& RunView::now() const {
 
 std::shared_ptr<SceneRun> run_with(const Scene& scene, const RunWishes& wishes) {
     auto run = std::make_shared<SceneRun>();
-    const ReleasedGil others_run;
-    BuiltScene built = build_scene(scene);
-    run->cloth_names = names_of(built.scene.cloths);
-    run->obstacle_names = names_of(built.scene.obstacles);
-    Recorder(built, wishes, *run).record();
-    run->state_hash = built.simulation.state_hash();
-    run->warnings = run_warnings(built, run->result);
+    std::atomic<bool> cancel = false;
+    interruptible(cancel, [&] {
+        const ReleasedGil others_run;
+        BuiltScene built = build_scene(scene);
+        run->cloth_names = names_of(built.scene.cloths);
+        run->obstacle_names = names_of(built.scene.obstacles);
+        Recorder(built, wishes, cancel, *run).record();
+        run->state_hash = built.simulation.state_hash();
+        run->warnings = run_warnings(built, run->result);
+    });
     return run;
 }
 

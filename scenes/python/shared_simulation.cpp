@@ -17,7 +17,9 @@ std::span<const double> flat(std::span<const Vec3> points) {
 }  // namespace
 
 SharedSimulation::SharedSimulation(const scenes::Scene& scene)
-    : settings(scene.step), detector(scene.detector), simulation_(scene.step, scenes::make_detector(scene.detector)) {}
+    : settings(scene.step), detector(scene.detector), simulation_(scene.step, scenes::make_detector(scene.detector)) {
+    simulation_.set_cancel(&cancel_);
+}
 
 py::array SharedSimulation::array(ClothId cloth, Shown what) {
     check_idle();

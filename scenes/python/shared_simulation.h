@@ -2,6 +2,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <utility>
@@ -39,15 +40,20 @@ public:
         return work(simulation_);
     }
 
-    /// The same without the GIL.
+    /// The same without the GIL; Ctrl-C cancels the step.
     template <class Work>
     auto run(Work work) {
         check_idle();
         const UpToDate after{*this};
         const Busy busy(running_);
-        const ReleasedGil others_run;
-        return work(simulation_);
+        return interruptible(cancel_, [&] {
+            const ReleasedGil others_run;
+            return work(simulation_);
+        });
     }
+
+    /// For `run` in another thread, too.
+    void set_cancel(bool wish) { cancel_ = wish; }
 
     /// The array of a cloth, read-only: (n, 3) or (n).
     py::array array(ClothId cloth, Shown what);
@@ -74,6 +80,7 @@ private:
     using Key = std::pair<int, Shown>;
     std::span<const double> numbers(const Key& key) const;
 
+    std::atomic<bool> cancel_ = false;
     Simulation simulation_;
     std::map<Key, std::shared_ptr<std::vector<double>>> arrays_;
     bool running_ = false;

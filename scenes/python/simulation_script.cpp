@@ -211,7 +211,12 @@ void bind_world(SimulationClass& simulation) {
             py::arg("seconds"),
             "Wall time of a step, s, 1e-6 ... 1e6; 0: none. A step that has used it up is taken as it is:\n"
             "report.out_of_time; where pins and obstacles have not arrived after some 20 iterations more it fails\n"
-            "(work_limit). Results then depend on the machine.");
+            "(work_limit). Results then depend on the machine.")
+        .def(
+            "set_cancel", [](SharedSimulation& self, bool wish) { self.set_cancel(wish); }, py::arg("wish"),
+            "While True a step ends at once and fails (cancelled), nothing moves, and a start that would have to be repaired is\n"
+            "refused. Any thread may call it while another one is in step or prepare. Ctrl-C does so by itself on the main "
+            "thread.");
 }
 
 void bind_cloth_to_cloth(SimulationClass& simulation) {

@@ -59,7 +59,10 @@ std::string steps_text(const Scene& scene) {
            " s";
 }
 
+void keep_plan(BuiltScene& built) { built.plan = plan_of(built); }
+
 ScenePlan plan_of(const BuiltScene& built) {
+    if (built.plan) return *built.plan;
     ScenePlan plan = built.simulation.plan(changes_of(built.scene));
     plan.warnings.insert(plan.warnings.begin(), built.warnings.begin(), built.warnings.end());
     const double end = built.scene.latest_end();

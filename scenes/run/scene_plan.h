@@ -13,6 +13,9 @@ std::string steps_text(const Scene& scene);
 /// The plan of a built scene before its first step, with the motion and events that its file holds.
 ScenePlan plan_of(const BuiltScene& built);
 
+/// Makes it once for all who ask later: the longest stable step of a large cloth takes seconds.
+void keep_plan(BuiltScene& built);
+
 /// How many frames a run writes at most, and about how many bytes in all formats of the scene together.
 struct OutputSize {
     double frames = 0.0, bytes = 0.0;

@@ -1,8 +1,15 @@
-"""What becomes of threads at the end of the program."""
+"""What becomes of threads at the end of the program, and of steps that Ctrl-C or another thread ends."""
+import os
+import signal
 import subprocess
 import sys
+import threading
+import time
 
 import pytest
+
+import percale
+from conftest import SHEET
 
 START = '''
 import atexit, threading, time
@@ -40,3 +47,69 @@ def test_a_child_that_is_forked_while_a_thread_steps_ends(tmp_path):
             'for _ in range(20):\n    time.sleep(0.01)\n    child = os.fork()\n    if child == 0: raise SystemExit(0)\n'
             '    os.waitpid(child, 0)\nprint("ends")\n')
     assert ends(tmp_path, text) == (0, 'ends\n', '')
+
+
+def interrupted_later():
+    """As the key does, in a second, by when a step is under way."""
+    timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    return timer
+
+
+LONG_STEP = {'time_step': 1.0, 'newton_tolerance': 1e-10, 'scheme': 'backward_euler'}  # takes a minute
+
+
+def test_an_interrupt_ends_a_run_within_a_step(tmp_path):
+    long = {'duration': 10.0, 'step': LONG_STEP, 'fabric': {'sheet': SHEET},
+            'cloth': [{'name': 'towel', 'fabric': 'sheet', 'grid': {'size': [1.0, 1.0], 'vertices': [401, 401]}, 'pin': [0, 400]}]}
+    timer, begun = interrupted_later(), time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        percale.run(long, output=tmp_path / 'out')
+    timer.join()
+    assert time.monotonic() - begun < 30 and not (tmp_path / 'out').exists()
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def long_step():
+    simulation = percale.Simulation(**LONG_STEP)
+    cloth = simulation.add_cloth(percale.make_grid(1.0, 1.0, 401, 401), SHEET)
+    simulation.pin(cloth, [0, 400])
+    return simulation
+
+
+def test_an_interrupt_ends_a_step_and_nothing_has_moved():
+    simulation = long_step()
+    before = simulation.state_hash()
+    timer = interrupted_later()
+    with pytest.raises(KeyboardInterrupt):
+        simulation.step()
+    timer.join()
+    assert simulation.state_hash() == before
+    simulation.set_time_step(1e-4)
+    assert simulation.step().ok
+
+
+def test_a_handler_of_the_host_gets_its_signal_and_the_step_goes_on():
+    simulation, heard = percale.Simulation(), []
+    simulation.add_cloth(percale.make_grid(1.0, 1.0, 101, 101), SHEET)
+    before = signal.signal(signal.SIGINT, lambda number, frame: heard.append(number))
+    timer = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    try:
+        while not heard:
+            assert simulation.step().ok
+    finally:
+        signal.signal(signal.SIGINT, before)
+        timer.join()
+
+
+def test_another_thread_cancels_a_step():
+    simulation = long_step()
+    timer = threading.Timer(1.0, simulation.set_cancel, (True,))
+    timer.start()
+    report = simulation.step()
+    timer.join()
+    assert not report.ok and report.status == 'cancelled'
+    simulation.set_cancel(False)
+    simulation.set_time_step(1e-4)
+    assert simulation.step().ok

@@ -35,7 +35,7 @@ typedef enum percale_step_status {
     PERCALE_STEP_WRONG_DERIVATIVE = 6,  /* failed: option check_derivatives found wrong forces */
     PERCALE_STEP_NOT_FINITE = 7,        /* failed: a state would have become infinite or NaN */
     PERCALE_STEP_WORK_LIMIT = 8,        /* failed: more Newton iterations than work_limit allows; or out_of_time */
-    PERCALE_STEP_CANCELLED = 9          /* failed: its caller cancelled it; not by a call of this interface */
+    PERCALE_STEP_CANCELLED = 9          /* failed: percale_set_cancel */
 } percale_step_status;
 
 /* x -> translation + rotation (scale x). Never changes in size. */

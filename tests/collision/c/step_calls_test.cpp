@@ -1,5 +1,6 @@
 #include <cmath>
 #include <string>
+#include <thread>
 
 #include "tests/support/collision/c_objects.h"
 
@@ -181,6 +182,27 @@ TEST_CASE("What is saved is restored to the same bits, and what is damaged is re
           std::to_string(small.size()));
     CHECK(size == now.size());
     CHECK(small == std::vector<char>(small.size(), 'x'));
+}
+
+TEST_CASE("A step that is cancelled fails and moves nothing, also from another thread") {
+    const CSimulation simulation = c_sheet_over_ball("brute_force", {{"time_step", "0.01"}});
+    well(percale_step(simulation.get(), nullptr));
+    const std::uint64_t before = c_hash(simulation.get());
+    auto report = c_struct(percale_init_step_report);
+    well(percale_set_cancel(simulation.get(), 1));
+    fails(percale_step(simulation.get(), &report), PERCALE_STEP_FAILED, "percale_step", "set_cancel");
+    CHECK(report.status == PERCALE_STEP_CANCELLED);
+    CHECK(c_hash(simulation.get()) == before);
+    well(percale_set_cancel(simulation.get(), 0));
+    well(percale_step(simulation.get(), nullptr));
+    CHECK(c_hash(simulation.get()) != before);
+    CHECK(percale_set_cancel(nullptr, 1) == PERCALE_INVALID_ARGUMENT);
+
+    std::thread other([&] { percale_set_cancel(simulation.get(), 1); });
+    while (percale_step(simulation.get(), &report) == PERCALE_OK) {
+    }
+    other.join();
+    CHECK(report.status == PERCALE_STEP_CANCELLED);
 }
 
 }  // namespace percale::test::step_calls_test

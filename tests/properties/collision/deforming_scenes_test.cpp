@@ -107,7 +107,7 @@ struct Drawn {
 
 void draw_body(Draws& draws, Drawn& drawn) {
     const double size = draws.number(0.08, 0.15);
-    switch (draws.index(5)) {
+    switch (draws.index(6)) {
         case 0:
             drawn.obstacle = "sphere";
             drawn.body = make_sphere(size, 2);
@@ -124,6 +124,10 @@ void draw_body(Draws& draws, Drawn& drawn) {
         case 3:
             drawn.obstacle = "capsule";
             drawn.body = make_capsule(0.5 * size, size, 12);
+            break;
+        case 4:
+            drawn.obstacle = "frame";
+            drawn.body = make_frame(1.3 * size, draws.decades(0.003, 0.02), 24);
             break;
         default:
             drawn.obstacle = "sheet";

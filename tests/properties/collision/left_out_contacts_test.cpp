@@ -18,9 +18,26 @@ struct Body {
     TriangleMesh mesh;
 };
 
+/// One half in a plane: its inner edges are flat, those of the border are not.
+TriangleMesh half_flat(TriangleMesh sheet) {
+    for (Vec3& x : sheet.vertices)
+        if (x.x() < 0.0) x.y() = 0.0;
+    return sheet;
+}
+
+/// Every second triangle twice or thrice, some turned over.
+TriangleMesh repeated(TriangleMesh mesh, Random& random) {
+    const std::vector<Triangle> once = mesh.triangles;
+    for (const Triangle& t : once) {
+        for (int more = random.index(4) - 1; more > 0; --more)
+            mesh.triangles.push_back(random.index(2) == 0 ? Triangle{t[1], t[2], t[0]} : Triangle{t[1], t[0], t[2]});
+    }
+    return mesh;
+}
+
 Body draw_body(Random& random) {
     const auto seed = static_cast<unsigned>(random.index(100000));
-    switch (random.index(7)) {
+    switch (random.index(9)) {
         case 0:
             return {"tangled ball", tangled_ball(0.2, 1, random.number(0.05, 0.25), seed)};
         case 1:
@@ -33,6 +50,10 @@ Body draw_body(Random& random) {
             return {"touching boxes", touching_boxes(random)};
         case 5:
             return {"inside out", inside_out(spiky_ball(0.2, 1, 0.5, seed))};
+        case 6:
+            return {"open sheet with flat edges", half_flat(crumpled_sheet(0.5, 6, 0.05, random))};
+        case 7:
+            return {"repeated triangles", repeated(spiky_ball(0.2, 1, 0.5, seed), random)};
         default:
             return {"overlapping", joined(spiky_ball(0.2, 1, 0.6, seed), moved(l_solid(), {-1.0, -1.05, -0.5}))};
     }

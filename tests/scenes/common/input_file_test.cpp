@@ -29,6 +29,11 @@ TEST_CASE("text in wide characters is told of") {
         const std::string file = folder.write("wide", mark + std::string("a\0", 2));
         CHECK(message_of([&] { read_text(file); }) == file + ": is UTF-16 or UTF-32 text; save it as UTF-8");
     }
+    for (const std::string& unmarked : {std::string("O\0F\0F\0", 6), std::string("\0O\0F\0F", 6)}) {
+        const std::string file = folder.write("unmarked", unmarked);
+        CHECK(message_of([&] { read_text(file); }) == file + ": is UTF-16 or UTF-32 text; save it as UTF-8");
+    }
+    CHECK(read_text(folder.write("zero", std::string("a\0bc", 4))).size() == 4);
 }
 
 TEST_CASE("what may give bytes for ever, or none, is refused at once") {

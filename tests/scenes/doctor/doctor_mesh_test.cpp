@@ -119,6 +119,12 @@ TEST_CASE("what makes cloth come apart, stiff or thick for its mesh is a warning
     const TriangleMesh sheet = free_sheet();
     check_only(of_cloth(both(sheet, shifted(sheet, {0.6, 0, 0}))), "repeated_places", Severity::warning);
     CHECK(find(of_cloth(both(sheet, shifted(sheet, {0.7, 0, 0}))), "repeated_places") == nullptr);
+    ExaminedMesh halves = examined(MeshRole::cloth, both(sheet, shifted(sheet, {0.6, 0, 0})));
+    const std::string fix = find(examine_cloth(halves, {}), "repeated_places")->fix;
+    REQUIRE(fix.starts_with("weld = "));
+    CHECK(find(of_cloth(weld_near(halves.mesh, std::stod(fix.substr(7))).mesh), "repeated_places") == nullptr);
+    halves.sewn = true;
+    CHECK(find(examine_cloth(halves, {}), "repeated_places")->fix.starts_with("merge vertices"));
     TriangleMesh hourglass = strip(0.1);
     hourglass.vertices.insert(hourglass.vertices.end(), {{0.2, 0, 0.2}, {0.1, 0, 0.2}});
     hourglass.triangles.push_back({3, 5, 4});
@@ -179,6 +185,29 @@ TEST_CASE("corners that differ by rounding are told with the weld that joins the
             CHECK(find(of_obstacle(weld_near(apart, weld).mesh), "near_rims") == nullptr);
         }
     }
+}
+
+TEST_CASE("the weld is named in m of the unit that a mesh looks as if it had, before its pose, and for meshes with slivers") {
+    percale::test::Random random(1);
+    const TriangleMesh ball = make_sphere(0.5, 3);
+    const double edge = mesh_facts(ball).median_edge;
+    TriangleMesh apart = split_corners(ball, 1e-3 * edge, random);
+    const auto named = [](const ExaminedMesh& mesh) {
+        const std::vector<Finding> findings = examine_obstacle(mesh);
+        const Finding* rims = find(findings, "near_rims");
+        return rims == nullptr ? std::string() : rims->fix;
+    };
+    const double metres = std::stod(named(examined(MeshRole::obstacle, apart)).substr(7));
+    const std::string fix = named(examined(MeshRole::obstacle, scaled(apart, 1000.0)));
+    CHECK(std::stod(fix.substr(7)) == Approx(metres));
+    CHECK(fix.find(" with unit = \"mm\" beside its mesh") != std::string::npos);
+    ExaminedMesh posed = examined(MeshRole::obstacle, scaled(apart, 2.0));
+    posed.scale = 2.0;
+    CHECK(std::stod(named(posed).substr(7)) == Approx(metres).epsilon(0.3));  // of one digit
+    apart.vertices[1] = apart.vertices[0] + Vec3(1e-4 * edge, 0, 0);
+    const std::string sliver = named(examined(MeshRole::obstacle, apart));
+    REQUIRE(sliver.starts_with("weld = "));
+    CHECK(weld_near(apart, std::stod(sliver.substr(7))).dropped_triangles == 1);
 }
 
 TEST_CASE("pieces, and triangles wound against each other, are notes for cloth") {

@@ -103,7 +103,7 @@ TEST_CASE("a garment of pieces that nothing joins is known, and said how to mend
     }));
     CHECK(std::ranges::any_of(made.notes, [](const std::string& note) {
         return note.find("14 vertices of a rim") != note.npos && note.find("; weld = ") != note.npos &&
-               note.find("(--weld of percale drape)") != note.npos;
+               note.find("--weld of percale drape)") != note.npos;
     }));
 }
 

@@ -53,6 +53,16 @@ TEST_CASE("a weld joins what every pair says: vertices in their order to the fir
     CHECK(welded.mesh.triangles.size() + static_cast<std::size_t>(welded.dropped_triangles) == cloud.triangles.size());
 }
 
+TEST_CASE("vertices that are just as far apart as is said become one wherever they lie") {
+    for (const double x : {-0.0005, -0.5, 0.0, 0.25, 1.0}) {
+        TriangleMesh two{.vertices = {{x, 0, 0}, {x, 0, 1}, {x, 1, 0}, {x + 0.001, 0, 0}, {x, 1, 1}, {x, 0, 2}},
+                         .triangles = {{0, 1, 2}, {3, 4, 5}}};
+        const double apart = (two.vertices[3] - two.vertices[0]).norm();
+        CAPTURE(x);
+        CHECK(weld_near(two, apart).joined_vertices == 1);
+    }
+}
+
 TEST_CASE("a mesh file is welded in m, which is told where triangles go, and refused where none is left") {
     const TestFolder folder;
     const std::string file = folder.write("two.obj",
@@ -67,6 +77,8 @@ TEST_CASE("a mesh file is welded in m, which is told where triangles go, and ref
     CHECK(message_of([&] { import_mesh(file, 0.01, nullptr, "", 2.0); }) ==
           file + ": weld = 2 m leaves no triangle: all are smaller");
     CHECK(import_mesh(file, 0.01).vertices.size() == 7);
+    import_mesh(file, 0.01, &warnings, "", 1e-6);
+    CHECK(warnings.back() == file + ": weld = 1e-06 m joins nothing: no two vertices are so near");
 }
 
 }  // namespace percale::scenes::test::near_vertices_test

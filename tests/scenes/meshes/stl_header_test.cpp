@@ -32,6 +32,19 @@ TEST_CASE("a binary STL needs 50 bytes a triangle") {
     CHECK(refusal_of("short") == ": not an STL file: 5 bytes are less than its header");
 }
 
+TEST_CASE("a text STL in wide characters is told of") {
+    for (const int first : {0, 1}) {
+        for (const std::string mark : {"", first == 0 ? "\xFF\xFE" : "\xFE\xFF"}) {
+            std::string wide = mark;
+            for (const char letter : std::string("solid x\nfacet normal 0 0 1\n"))
+                wide += first == 0 ? std::string{letter, 0} : std::string{0, letter};
+            CHECK(refusal_of(wide) == ": is UTF-16 or UTF-32 text; save it as UTF-8");
+        }
+    }
+    CHECK(refusal_of(binary_stl(1, 1, std::string("s\0o\0", 4))).empty());
+    CHECK(refusal_of(binary_stl(1, 1, std::string("solid\0", 6) + std::string(20, '\0'))).empty());
+}
+
 TEST_CASE("a text STL has no counts") {
     CHECK(refusal_of("solid x\nendsolid x\n").empty());
     std::string text = "solid x\n";

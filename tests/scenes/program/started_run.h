@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -39,6 +40,10 @@ public:
     void wait_for(const TestFolder& folder, const std::string& file) const {
         for (int i = 0; i < 120000 && !folder.holds(file); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+    /// Waits as long until it answers signals itself, for which it blocks them.
+    void wait_for_signals() const {
+        for (int i = 0; i < 120000 && !blocks(SIGTERM); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     void send(int signal) const { kill(child_, signal); }
     /// Sends the signal; returns the exit code, or -1 where the signal ended the program.
     int end(int signal) {
@@ -50,6 +55,14 @@ public:
     }
 
 private:
+    bool blocks(int signal) const {
+        std::ifstream status("/proc/" + std::to_string(child_) + "/status");
+        const std::string key = "SigBlk:";
+        for (std::string line; std::getline(status, line);)
+            if (line.starts_with(key)) return (std::stoull(line.substr(key.size()), nullptr, 16) >> (signal - 1) & 1) != 0;
+        return false;
+    }
+
     pid_t child_ = -1;
 };
 

@@ -63,6 +63,22 @@ TEST_CASE("a step that takes long is not waited for: it is taken back, and the r
     CHECK(line_count(folder.read("out/steps.csv")) == 1);
 }
 
+TEST_CASE("a comparison or a stress test whose steps take long is not waited for, and leaves nothing") {
+    for (const char* command : {"compare", "stress"}) {
+        const TestFolder folder;
+        folder.write("sheet.toml", falling_sheet());
+        std::vector<std::string> arguments = {command,     "sheet.toml",     "-o",      "out/deep", "--quiet",
+                                              "--schemes", "backward_euler", "--steps", "1"};
+        for (const std::string& setting : long_step) arguments.insert(arguments.end(), {"--set", setting});
+        StartedRun run(folder, arguments);
+        run.wait_for_signals();
+        const auto asked = std::chrono::steady_clock::now();
+        CHECK(run.end(SIGTERM) == 130);
+        CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(20));
+        CHECK(folder.file_count() == 1);
+    }
+}
+
 TEST_CASE("a second signal ends a run at once") {
     const TestFolder folder;
     const auto run = started(folder, long_step);

@@ -1,3 +1,4 @@
+#include "scenes/common/folder_lock.h"
 #include "tests/scenes/program/run_program.h"
 #include "tests/scenes/sweep/study_files.h"
 #include "tests/support/catch.h"
@@ -54,6 +55,16 @@ TEST_CASE("a study with a run that crossed names it and is exit code 1, for a pa
     const ProgramRun part = run_program({"sweep", "out", "--run", "1-1", "--quiet"}, folder.path());
     CHECK(part.exit_code == 1);
     CHECK(part.error == all.error);
+}
+
+TEST_CASE("a study has one sweep of all its runs at a time; parts of it may be done meanwhile") {
+    const TestFolder folder;
+    write_study(folder, "\"step.time_step\" = [0.01, 0.005]\n");
+    REQUIRE(run_program({"sweep", "study.toml", "-o", "out", "--quiet"}, folder.path()).exit_code == 0);
+    const percale::scenes::FolderLock other(folder.path("out"));
+    CHECK(refused(run_program({"sweep", "out", "--quiet"}, folder.path()), "out: another run writes into it"));
+    CHECK(run_program({"sweep", "out", "--run", "0-0", "--quiet"}, folder.path()).exit_code == 0);
+    CHECK(run_program({"sweep", "out", "--collect", "--quiet"}, folder.path()).exit_code == 0);
 }
 
 }  // namespace percale::program::test::sweep_test

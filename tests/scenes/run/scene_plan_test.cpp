@@ -48,6 +48,19 @@ TEST_CASE("motion and events of the file are known before the first step") {
     CHECK_FALSE(skips(built(box + gravity, weightless), "energy of gravity"));
 }
 
+TEST_CASE("a plan that is kept is that of the start, and the run's") {
+    BuiltScene scene = built(falling_sheet() + pin_event, {{"duration", "0.04"}, {"step.scheme", "auto"}});
+    const ScenePlan before = plan_of(scene);
+    keep_plan(scene);
+    const RunResult result = run_scene(scene);
+    for (const ScenePlan& plan : {plan_of(scene), result.plan}) {
+        CHECK(plan.scheme == before.scheme);
+        CHECK(plan.scheme_reason == before.scheme_reason);
+        CHECK(plan.stable_step == before.stable_step);
+        CHECK(plan.warnings == before.warnings);
+    }
+}
+
 TEST_CASE("events after the end are warned of") {
     const auto warnings = [](const std::string& end) {
         return plan_of(built(falling_sheet() + pin_event, {{"duration", end}})).warnings;

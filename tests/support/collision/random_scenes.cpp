@@ -184,6 +184,7 @@ std::string pin_some(scenes::BuiltScene& built, Random& random) {
 /// Everything of a scene but where the obstacle is.
 struct Draw {
     NamedMesh cloth, obstacle;
+    std::optional<TriangleMesh> other_cloth;  // of the same fabric
     Fabric fabric;
     StepSettings settings;
     scenes::Detector detector = scenes::Detector::fcl;
@@ -211,6 +212,13 @@ scenes::BuiltScene build(const Draw& draw) {
     built.scene.cloths[0].fabric = "fabric";
     built.scene.obstacles = {draw.spec};
     built.cloths = {built.simulation.add_cloth(draw.cloth.mesh, draw.fabric)};
+    if (draw.other_cloth) {
+        built.scene.cloths.push_back(built.scene.cloths[0]);
+        built.scene.cloths.back().name = "other";
+        built.cloths.push_back(built.simulation.add_cloth(*draw.other_cloth, draw.fabric));
+        built.cloth_meshes.push_back(*draw.other_cloth);
+        built.rest_shapes.emplace_back();
+    }
     built.obstacles = {built.simulation.add_obstacle(draw.obstacle.mesh, scenes::obstacle_pose_at(draw.spec, 0.0),
                                                      {.friction = draw.spec.friction, .name = draw.obstacle.name})};
     if (draw.jaw) {
@@ -236,10 +244,15 @@ Draw draw_scene(Random& random, int index) {
     draw.settings.contact_response = random_responses[turn / random_detectors.size() % random_responses.size()];
     draw.settings.measure = StepMeasures::none;
     draw.settings.start = StartRule::refuse;  // cloth is taken farther away, not taken apart
-    draw.cloth.mesh = placed(draw.cloth.mesh, random.pose(0.0));
+    const TriangleMesh flat = draw.cloth.mesh;
+    const Pose pose = random.pose(0.0);
+    draw.cloth.mesh = placed(flat, pose);
     draw.spec.name = draw.obstacle.name;
     draw.spec.friction = random.index(4) == 0 ? 0.0 : random.number(0.05, 2.0);
     draw.fabric.self_contact = random.index(4) == 0;
+    Random of_other = random;  // what follows is drawn the same without it
+    if (draw.fabric.self_contact && of_other.index(2) == 0)
+        draw.other_cloth = placed(moved(flat, {0.0, draw.fabric.thickness * of_other.number(1.0, 8.0), 0.0}), pose);
     draw.settings.gravity = {0.0, -(random.index(3) == 0 ? random.number(0.0, 40.0) : 9.81), 0.0};
     // Projection takes backward Euler alone, of one length.
     if (draw.settings.contact_response == ContactResponse::penalty) {
@@ -293,7 +306,7 @@ std::string describe(const Draw& draw, const RandomScene& scene, const std::stri
            number(1.0 / draw.settings.time_step) + " s, g " + number(-draw.settings.gravity.y()) +
            (draw.settings.scheme == Scheme::tr_bdf2 ? ", tr_bdf2" : "") + (draw.settings.adaptive ? ", adaptive" : "") +
            (draw.settings.contact_response == ContactResponse::projection ? ", projection, " : ", penalty, ") +
-           (draw.fabric.self_contact ? "self-contact, " : "") + std::string(detector);
+           (draw.fabric.self_contact ? "self-contact, " : "") + (draw.other_cloth ? "two cloths, " : "") + std::string(detector);
 }
 
 bool all_finite(const Simulation& simulation, ClothId cloth) {
@@ -332,7 +345,7 @@ RandomOutcome run_random_scene(RandomScene& scene, const SecondChecker& second) 
     scenes::RunHooks hooks;
     hooks.step = [&](const StepReport& report, const Simulation& simulation) {
         outcome.last = report.status;
-        outcome.not_finite += all_finite(simulation, scene.built.cloths[0]) ? 0 : 1;
+        for (const ClothId cloth : scene.built.cloths) outcome.not_finite += all_finite(simulation, cloth) ? 0 : 1;
     };
     if (second) hooks.frame = [&](const scenes::Frame& frame) { outcome.second_crossings += second(frame); };
     outcome.result = scenes::run_scene(scene.built, hooks, {.certify_steps = true});

@@ -8,9 +8,9 @@
 #include "tests/support/collision/second_checker.h"
 
 // Scenes drawn at random, each from a seed, so that any one can be made again alone: cloth coarse and fine, of grids and free
-// meshes; bodies smooth, spiked, folded, that go through themselves, inside out, open, doubled, with faces in one plane, thin as
-// needles and blades, two that close to a millimetre; motions, gravity to 40 m/s^2, friction to 2, all schemes and responses that
-// take contact. Bodies that bend: tests/properties/collision/deforming_scenes_test.cpp.
+// meshes, alone or two over each other; bodies smooth, spiked, folded, that go through themselves, inside out, open, doubled,
+// with faces in one plane, thin as needles and blades, two that close to a millimetre; motions, gravity to 40 m/s^2, friction to
+// 2, all schemes and responses that take contact. Bodies that bend: tests/properties/collision/deforming_scenes_test.cpp.
 namespace percale::test {
 
 inline constexpr std::array random_detectors = {scenes::Detector::fcl, scenes::Detector::bullet, scenes::Detector::brute_force};

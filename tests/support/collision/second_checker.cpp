@@ -5,7 +5,6 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
-#include <array>
 #include <vector>
 #endif
 
@@ -104,8 +103,10 @@ SecondChecker cgal_checker() {
         long pairs = 0;
         for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth) {
             for (const TriangleMesh& body : frame.obstacles) pairs += pairs_between(frame.cloths[cloth], body);
-            const std::array<int, 2> itself{static_cast<int>(cloth), static_cast<int>(cloth)};
-            if (std::ranges::find(frame.meeting, itself) != frame.meeting.end()) pairs += pairs_within(frame.cloths[cloth]);
+        }
+        for (const auto& [first, second] : frame.meeting) {
+            const TriangleMesh& cloth = frame.cloths[static_cast<std::size_t>(first)];
+            pairs += first == second ? pairs_within(cloth) : pairs_between(cloth, frame.cloths[static_cast<std::size_t>(second)]);
         }
         return pairs;
     };

@@ -6,7 +6,8 @@
 
 namespace percale::test {
 
-/// Pairs of triangles of a frame that meet: of cloth and obstacles, and of cloth that is certified against itself.
+/// Pairs of triangles of a frame that meet: of cloth and obstacles, and of cloths that are certified against each other
+/// or themselves.
 using SecondChecker = std::function<long(const scenes::Frame&)>;
 
 /// By CGAL's boxes and exact predicates, which share nothing with the certificate; empty where the tests were built without CGAL.

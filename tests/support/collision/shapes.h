@@ -53,6 +53,27 @@ inline TriangleMesh make_tube(const TubeShape& shape) {
     return mesh;
 }
 
+/// A frame: a closed bar of square section around the y axis, with a hole that cloth goes through.
+inline TriangleMesh make_frame(double radius, double bar, int around) {
+    TriangleMesh mesh;
+    for (int i = 0; i < around; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / around;
+        for (const auto& [out, up] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
+            const double reach = radius + out * bar;
+            mesh.vertices.emplace_back(reach * std::cos(angle), up * bar, reach * std::sin(angle));
+        }
+    }
+    for (int i = 0; i < around; ++i) {
+        const int here = 4 * i, next = 4 * ((i + 1) % around);
+        for (int k = 0; k < 4; ++k) {
+            const int other = (k + 1) % 4;
+            mesh.triangles.push_back({here + k, here + other, next + k});
+            mesh.triangles.push_back({here + other, next + other, next + k});
+        }
+    }
+    return mesh;
+}
+
 /// A ball whose vertices are pulled out and pushed in along their radii: closed, not convex, no self-intersections.
 inline TriangleMesh spiky_ball(double radius, int level, double amplitude, unsigned seed) {
     TriangleMesh ball = make_sphere(radius, level);
