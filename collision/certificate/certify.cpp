@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -23,6 +24,16 @@ using namespace certificate;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // A bound times this excuses a pair from measurement.
 constexpr double below_bound = 1.0 - tolerances::bound_slack;
+
+/// Of the caller's.
+struct Cancel {
+    const std::atomic<bool>* wish = nullptr;
+
+    bool asked() const { return wish != nullptr && wish->load(std::memory_order_relaxed); }
+    void check() const {
+        if (asked()) throw CertificateCancelled();
+    }
+};
 
 struct Surface {
     std::vector<Corners> triangles;
@@ -57,15 +68,17 @@ void sort(std::vector<IntersectingPair>& pairs) {
 }
 
 /// Fills the pairs; returns for every cloth triangle whether it shares no point with the obstacle.
-std::vector<bool> find_pairs(const Surface& cloth, const Surface& obstacle, Certificate& result) {
+std::vector<bool> find_pairs(const Surface& cloth, const Surface& obstacle, const Cancel& cancel, Certificate& result) {
     std::vector<bool> free(cloth.triangles.size(), true);
-    cloth.tree.walk_overlaps(obstacle.tree, [&](int i, int j) {
+    const auto visit = [&](int i, int j) {
         const Overlap overlap = classify(cloth.triangles[i], obstacle.triangles[j]);
         if (overlap == Overlap::disjoint) return;
         free[i] = false;
         if (overlap == Overlap::crossing) result.pairs.push_back({i, j});
         result.touching_pairs += overlap == Overlap::touching;
-    });
+    };
+    cloth.tree.walk_overlaps(obstacle.tree, visit, [&] { return cancel.asked(); });
+    cancel.check();
     sort(result.pairs);
     return free;
 }
@@ -119,10 +132,12 @@ double distance_to_surface(const Vec3& x, const Surface& surface) {
     return surface.tree.nearest(infinity, box_distance, item_distance).second;
 }
 
-void measure_depth(const TriangleMesh& cloth, const Surface& obstacle, const std::vector<bool>& free, Certificate& result) {
+void measure_depth(const TriangleMesh& cloth, const Surface& obstacle, const std::vector<bool>& free, const Cancel& cancel,
+                   Certificate& result) {
     result.inside_vertices = vertices_inside(cloth, obstacle, free);
     result.vertices_inside = static_cast<int>(result.inside_vertices.size());
     for (const int v : result.inside_vertices) {
+        cancel.check();
         const double depth = distance_to_surface(cloth.vertices[v], obstacle);
         if (result.deepest_vertex >= 0 && depth <= result.deepest_penetration) continue;
         result.deepest_penetration = depth;
@@ -130,11 +145,12 @@ void measure_depth(const TriangleMesh& cloth, const Surface& obstacle, const std
     }
 }
 
-double smallest_distance(const Surface& cloth, const Surface& obstacle, double limit) {
+double smallest_distance(const Surface& cloth, const Surface& obstacle, double limit, const Cancel& cancel) {
     std::vector<Slab> slabs;
     slabs.reserve(cloth.triangles.size());
     for (const Corners& triangle : cloth.triangles) slabs.push_back(slab_of(triangle));
     return cloth.tree.nearest_pair(obstacle.tree, limit, [&](int i, int j, double best) {
+        cancel.check();
         const Corners &a = cloth.triangles[i], &b = obstacle.triangles[j];
         const double too_far = best / below_bound;
         return triangle_separation(a, slabs[i], b, too_far) > too_far ? infinity : triangle_distance(a, b);
@@ -170,17 +186,22 @@ Overlap overlap_within(const TriangleMesh& mesh, const Surface& surface, int i, 
 
 }  // namespace
 
-Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, double distance_limit) {
+Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, double distance_limit,
+                    const std::atomic<bool>* cancel) {
     check(cloth, "certify: cloth");
     check(obstacle, "certify: obstacle");
     check_limit(distance_limit);
-    const Surface cloth_surface(cloth), obstacle_surface(obstacle);
+    const Cancel wish{cancel};
+    const Surface cloth_surface(cloth);
+    wish.check();
+    const Surface obstacle_surface(obstacle);
     Certificate result;
-    const std::vector<bool> free = find_pairs(cloth_surface, obstacle_surface, result);
+    const std::vector<bool> free = find_pairs(cloth_surface, obstacle_surface, wish, result);
     result.watertight = is_watertight(obstacle);
-    if (result.watertight) measure_depth(cloth, obstacle_surface, free, result);
+    wish.check();
+    if (result.watertight) measure_depth(cloth, obstacle_surface, free, wish, result);
     const bool meet = !result.pairs.empty() || result.touching_pairs > 0;
-    result.smallest_distance = meet ? 0.0 : smallest_distance(cloth_surface, obstacle_surface, distance_limit);
+    result.smallest_distance = meet ? 0.0 : smallest_distance(cloth_surface, obstacle_surface, distance_limit, wish);
     return result;
 }
 
@@ -200,7 +221,8 @@ std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const 
     return distances;
 }
 
-ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches, const MeetingCloth& meeting) {
+ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches, const MeetingCloth& meeting,
+                               const std::atomic<bool>* cancel) {
     check(cloth, "certify_cloth: cloth");
     if (!meeting.cloth.empty() && meeting.cloth.size() != cloth.triangles.size())
         throw SceneError("certify_cloth: the cloths of " + std::to_string(meeting.cloth.size()) + " triangles for " +
@@ -208,14 +230,17 @@ ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch
     const Surface surface(cloth);
     const SewnTriangles sewn(cloth, stitches);
     ClothCertificate result;
-    surface.tree.walk_overlaps(surface.tree, [&](int i, int j) {
+    const Cancel wish{cancel};
+    const auto visit = [&](int i, int j) {
         if (i >= j || !meeting.meet(i, j)) return;
         const Overlap overlap = overlap_within(cloth, surface, i, j);
         if (overlap == Overlap::disjoint) return;
         const bool together = sewn.together(i, j), cross = overlap == Overlap::crossing;
         if (cross) (together ? result.at_seams : result.crossing).push_back({i, j});
         if (!cross && !together) result.touching.push_back({i, j});
-    });
+    };
+    surface.tree.walk_overlaps(surface.tree, visit, [&] { return wish.asked(); });
+    wish.check();
     for (auto* pairs : {&result.crossing, &result.touching, &result.at_seams}) sort(*pairs);
     return result;
 }

@@ -27,7 +27,7 @@ PairsOfCloths all_pairs(int cloths) {
 }
 
 void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const ClothStitches> seams,
-                           std::span<const std::array<int, 2>> meeting) {
+                           std::span<const std::array<int, 2>> meeting, const std::atomic<bool>* cancel) {
     if (meeting.empty()) return;
     const int count = static_cast<int>(cloths.size());
     ClothPairs pairs;
@@ -46,7 +46,7 @@ void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> clot
         for (const auto& [a, b, c] : cloths[cloth].triangles) all.triangles.push_back({first + a, first + b, first + c});
         owner.resize(all.triangles.size(), cloth);
     }
-    const ClothCertificate certificate = certify_cloth(all, joined_stitches(seams, first_vertex), {owner, &pairs});
+    const ClothCertificate certificate = certify_cloth(all, joined_stitches(seams, first_vertex), {owner, &pairs}, cancel);
     check.intersections += static_cast<int>(certificate.crossing.size());
     check.touching_pairs += static_cast<int>(certificate.touching.size());
     check.at_seams += static_cast<int>(certificate.at_seams.size());

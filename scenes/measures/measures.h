@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <limits>
 #include <map>
 #include <optional>
@@ -35,9 +36,9 @@ void add_certificate(FrameCheck& check, const Certificate& certificate);
 using PairsOfCloths = std::vector<std::array<int, 2>>;
 PairsOfCloths all_pairs(int cloths);
 
-/// Of the pairs that meet; distances between cloths are not measured.
+/// Of the pairs that meet; distances between cloths are not measured. `cancel`: as of certify_cloth.
 void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const ClothStitches> seams,
-                           std::span<const std::array<int, 2>> meeting);
+                           std::span<const std::array<int, 2>> meeting, const std::atomic<bool>* cancel = nullptr);
 
 /// What the certificates of all states say, one after each step and one of the start.
 struct StepChecks {

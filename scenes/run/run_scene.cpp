@@ -48,22 +48,22 @@ Frame first_frame(const BuiltScene& built) {
     return frame;
 }
 
-void certify_meeting_cloth(const BuiltScene& built, Frame& frame) {
+void certify_meeting_cloth(const BuiltScene& built, const std::atomic<bool>* cancel, Frame& frame) {
     frame.meeting = all_pairs(static_cast<int>(frame.cloths.size()));
     std::erase_if(frame.meeting, [&](const std::array<int, 2>& pair) {
         return !built.simulation.meets(built.cloths[pair[0]], built.cloths[pair[1]]);
     });
-    add_cloth_certificate(frame.check, frame.cloths, sewn_stitches(built), frame.meeting);
+    add_cloth_certificate(frame.check, frame.cloths, sewn_stitches(built), frame.meeting, cancel);
 }
 
-void place_and_certify(const BuiltScene& built, Frame& frame) {
+void place_and_certify(const BuiltScene& built, const std::atomic<bool>* cancel, Frame& frame) {
     frame.time = built.simulation.time();
     frame.check = {};
     place_shapes(built, frame.cloths, frame.obstacles);
     for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth)
         for (const TriangleMesh& obstacle : frame.obstacles)
-            add_certificate(frame.check, certify(frame.cloths[cloth], obstacle, distance_limit(built, cloth)));
-    certify_meeting_cloth(built, frame);
+            add_certificate(frame.check, certify(frame.cloths[cloth], obstacle, distance_limit(built, cloth), cancel));
+    certify_meeting_cloth(built, cancel, frame);
 }
 
 /// Looks at the state after each step: certificates, frames.
@@ -107,7 +107,7 @@ public:
 
 private:
     void see() {
-        if (!seen_) place_and_certify(built_, frame_);
+        if (!seen_) place_and_certify(built_, hooks_.cancel, frame_);
         seen_ = true;
     }
 
@@ -311,6 +311,26 @@ public:
     }
 
     void make_steps() {
+        try {
+            make_all_steps();
+        } catch (const CertificateCancelled&) {
+            stop_at(built_, "before its state was certified", result_);
+        }
+    }
+
+    const std::vector<std::vector<Vec3>>& shapes() const { return script_.timed.shapes(); }
+
+    /// Brings the totals up to date that are no sums over steps.
+    void measure() {
+        if (script_.rest) result_.rest = script_.rest->figures();
+        result_.timed = script_.timed.values();
+        result_.totals.simulated_s = built_.simulation.time();
+        result_.totals.wall_s =
+            earlier_wall_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    void make_all_steps() {
         if (lengths_.made() == 0) {
             script_.observer.look(0);
             script_.look_at_state(built_, nullptr);
@@ -326,18 +346,6 @@ public:
         if (script_.rest) end_at_rest(script_.rest->figures());
     }
 
-    const std::vector<std::vector<Vec3>>& shapes() const { return script_.timed.shapes(); }
-
-    /// Brings the totals up to date that are no sums over steps.
-    void measure() {
-        if (script_.rest) result_.rest = script_.rest->figures();
-        result_.timed = script_.timed.values();
-        result_.totals.simulated_s = built_.simulation.time();
-        result_.totals.wall_s =
-            earlier_wall_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
     bool over() const { return (script_.rest && script_.rest->figures().at_rest) || lengths_.over(built_.simulation.time()); }
 
     /// The last frame, and what became of a scene that has to end at rest.

@@ -107,11 +107,13 @@ class Browser:
 
     def open(self, page, size, *options):
         """The page as it is at the end, and the lines of the console."""
-        for _ in range(TRIES):
+        for tried in range(1, TRIES + 1):
             text, console = self.call(page.as_uri() + '#test', size, '--dump-dom', *options)
             body = Body(text)
             if 'done' in body.facts or console:
                 break
+        if tried > 1:
+            print(f'{page.name}: drawn at try {tried}')
         return body, console
 
     def open_framed(self, page, size):

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <limits>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "percale/cloth_pairs.h"
@@ -30,11 +32,18 @@ struct Certificate {
     bool clean() const { return pairs.empty() && vertices_inside == 0; }
 };
 
+/// A certificate that its caller did not wait for.
+class CertificateCancelled : public std::runtime_error {
+public:
+    CertificateCancelled() : std::runtime_error("the certificate was cancelled") {}
+};
+
 /// Exact check that does not share code with the solver: triangle-triangle tests by exact predicates, signed depth of every cloth
 /// vertex, smallest distance between the surfaces (searched up to `distance_limit`, m; beyond it stays infinity).
-/// Both meshes in world coordinates, finite. Thread-safe.
+/// Both meshes in world coordinates, finite. Thread-safe. Throws CertificateCancelled soon after `cancel`, where there is one,
+/// has become true.
 Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle,
-                    double distance_limit = std::numeric_limits<double>::infinity());
+                    double distance_limit = std::numeric_limits<double>::infinity(), const std::atomic<bool>* cancel = nullptr);
 
 /// Distance of each point to the nearest one of a mesh's surface, m; with a minus inside a watertight mesh. Exact apart from
 /// rounding. All in world coordinates, finite. Thread-safe.
@@ -50,9 +59,9 @@ struct ClothCertificate {
 /// Exact, with the triangle-triangle tests of certify; shares no code with the solver. Neighbours cross where they share more
 /// than the vertices, edge or points that they have to. Triangles at one stitch (each has a vertex of it) are counted apart,
 /// since how far they cross is a matter of its gap and of how the sides of the seam are divided. Triangles of cloths that do not
-/// meet (`meeting`) are not looked at. Thread-safe.
-ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches = {},
-                               const MeetingCloth& meeting = {});
+/// meet (`meeting`) are not looked at. Thread-safe. `cancel`: as of certify.
+ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches = {}, const MeetingCloth& meeting = {},
+                               const std::atomic<bool>* cancel = nullptr);
 
 /// Crossing pairs of one mesh, as far as they were looked for.
 struct CrossingSearch {

@@ -6,6 +6,7 @@ CMake's own environment variables (CXX, CMAKE_GENERATOR, CMAKE_BUILD_PARALLEL_LE
 so how far compiling has come is also written to the terminal, where there is one.
 """
 import base64
+import contextlib
 import hashlib
 import os
 import re
@@ -75,10 +76,10 @@ def build_package(config_settings=None):
     jobs = os.environ.get('CMAKE_BUILD_PARALLEL_LEVEL', str(os.cpu_count() or 1))
     subprocess.run(['cmake', '-S', ROOT, '-B', build, '-DCMAKE_BUILD_TYPE=Release', '-DPERCALE_PYTHON=ON', '-DPERCALE_TESTS=OFF',
                     f'-DPython3_EXECUTABLE={sys.executable}'], check=True)
-    terminal = open_terminal()
-    if terminal:
-        print(f'\r\033[Kpercale: compiling in {build}, which takes minutes', file=terminal, flush=True)
-    compile_told(['cmake', '--build', build, '--target', 'percale_python', '--parallel', jobs], terminal)
+    with open_terminal() or contextlib.nullcontext() as terminal:
+        if terminal:
+            print(f'\r\033[Kpercale: compiling in {build}, which takes minutes', file=terminal, flush=True)
+        compile_told(['cmake', '--build', build, '--target', 'percale_python', '--parallel', jobs], terminal)
     stage = build / 'wheel'
     shutil.rmtree(stage, ignore_errors=True)
     subprocess.run(['cmake', '--install', build, '--prefix', stage, '--component', 'python', '--strip'], check=True)

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -141,6 +142,17 @@ TEST_CASE("crumpled sheets against a ball give the pairs of brute force, in eith
     CHECK(swapped.pairs.size() == found.pairs.size());
     CHECK(swapped.touching_pairs == found.touching_pairs);
     CHECK(same(swapped.pairs, all_pairs(ball, sheet).pairs));
+}
+
+TEST_CASE("a certificate that is cancelled is none") {
+    const TriangleMesh ball = make_sphere(0.5, 2), sheet = moved(make_grid(1.0, 1.0, 9, 9), {0.0, 0.1, 0.0});
+    std::atomic<bool> cancel = false;
+    CHECK(certify(sheet, ball, infinity, &cancel).pairs.size() == certify(sheet, ball).pairs.size());
+    CHECK(certify_cloth(sheet, {}, {}, &cancel).crossing.empty());
+    cancel = true;
+    CHECK_THROWS_AS(certify(sheet, ball, infinity, &cancel), CertificateCancelled);
+    CHECK_THROWS_AS(certify(sheet, moved(ball, {0.0, 3.0, 0.0}), infinity, &cancel), CertificateCancelled);
+    CHECK_THROWS_AS(certify_cloth(sheet, {}, {}, &cancel), CertificateCancelled);
 }
 
 TEST_CASE("cloth wholly inside a ball crosses nothing and is still not clean") {

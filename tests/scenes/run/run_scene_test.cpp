@@ -189,20 +189,6 @@ TEST_CASE("without an obstacle nothing is certified and nothing is near") {
     CHECK(std::isinf(recorded.result.measures.smallest_distance));
 }
 
-TEST_CASE("a stop is heard after a step, and the run says how far it came") {
-    BuiltScene built = build_scene(scene_of(falling_sheet()));
-    int steps = 0;
-    RunHooks hooks;
-    hooks.step = [&](const StepReport&, const Simulation&) { ++steps; };
-    hooks.stop_asked = [&] { return steps == 3; };
-    const RunResult result = run_scene(built, hooks);
-    CHECK(result.status == RunStatus::stopped);
-    CHECK(steps == 3);
-    CHECK(result.totals.steps == 3);
-    CHECK(result.totals.simulated_s == Approx(0.03));
-    CHECK(result.reason.find("stopped at 0.03 of 0.1 s") != std::string::npos);
-}
-
 TEST_CASE("a pin that is dragged through an obstacle ends the run as failed, with the reason") {
     std::string text = sheet_on_box();
     text.insert(text.find("[[obstacle]]"), "pin = [0]\n");
