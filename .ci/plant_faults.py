@@ -39,10 +39,12 @@ FAULTS = [
     # Before those that break the build which they take.
     Fault('slow step', 'perf', 'engine/forces/total_force.cpp',
           'if (term->acts(input)) forces.potential', 'if (Forces copy = forces; term->acts(input)) forces.potential', 'dearer'),
-    Fault('broken consumer', 'consumer', 'engine/cmake/percale_config.cmake.in', '  find_dependency(Eigen3 3.4)\n', '', 'Eigen'),
+    Fault('broken consumer', 'consumer', 'engine/cmake/percale_config.cmake.in', '    find_dependency(fcl)\n', '', 'fcl'),
+    Fault('broken consumer of the engine alone', 'engine_only', 'engine/cmake/percale_config.cmake.in', '  find_dependency(Eigen3 3.4)\n', '',
+          'Eigen'),  # which FCL's own package finds for the others
     Fault('broken README line', 'release', 'README.md',
           'poncho_on_mannequin.toml -o build/poncho --report', 'poncho_on_mannequin.toml -o build/poncho --reports',
-          'The following argument was not expected: --reports'),
+          "no such option '--reports'"),
     Fault('wrong message', 'release', 'scenes/meshes/off_file.cpp',
           '"no vertices: the file is empty"', '"no vertexes: the file is empty"', 'scenes: off_file_test (Failed)', ends=False),
     Fault('crossing', 'release', 'collision/geometry/time_of_impact.cpp',
@@ -147,7 +149,9 @@ def main():
     if unknown:
         parser.error(f'no fault {", ".join(sorted(unknown))} ({", ".join(fault.name for fault in FAULTS)})')
     make_copy()
-    known, lost = dict.fromkeys({fault.stage for fault in FAULTS} - {'release'}, True) if wish.passed else {}, 0
+    known, lost = dict.fromkeys((fault.stage for fault in FAULTS), True) if wish.passed else {}, 0
+    if not (RELEASE_COPY / 'build' / 'percale').exists():  # stages take it
+        known.pop('release', None)
     print('| fault | in | stage | found | s |\n|---|---|---|---|---|', flush=True)
     for faults in together([fault for fault in FAULTS if not wish.faults or fault.name in wish.faults]):
         clean = passes(faults[0].stage, known)

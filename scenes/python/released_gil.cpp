@@ -15,13 +15,17 @@ std::atomic<bool> is_ending = false;
 std::thread::id ending_thread;        // written before is_ending
 std::atomic<int> threads_at_door{0};  // that will take the lock without asking again
 
-// The handler of SIGINT reads both.
+// Of the handler of SIGINT.
 std::atomic<std::atomic<bool>*> watched = nullptr;
-void (*handler_of_python)(int) = nullptr;
+std::atomic<bool> has_cancelled = false;
+std::atomic<void (*)(int)> handler_of_python = nullptr;
 
 void cancel_and_tell_python(int signal) {
-    if (std::atomic<bool>* cancel = watched; cancel != nullptr) *cancel = true;
-    handler_of_python(signal);
+    if (std::atomic<bool>* cancel = watched; cancel != nullptr) {
+        has_cancelled = true;
+        *cancel = true;
+    }
+    handler_of_python.load()(signal);
 }
 
 /// Whether Python would raise KeyboardInterrupt in this thread.
@@ -63,20 +67,22 @@ TakenGil::TakenGil() { --threads_at_door; }
 InterruptWatch::InterruptWatch(std::atomic<bool>& cancel)
     : cancel_(cancel), before_(cancel), around_(watched), watches_(interrupts_raise()) {
     if (!watches_) return;
-    watched = &cancel_;
-    if (around_ != nullptr) return;
-    sigaction(SIGINT, nullptr, &python_);
-    handler_of_python = python_.sa_handler;
-    struct sigaction both = python_;
-    both.sa_handler = &cancel_and_tell_python;
-    installed_ = sigaction(SIGINT, &both, nullptr) == 0;
+    if (around_ == nullptr) {
+        sigaction(SIGINT, nullptr, &python_);
+        const bool plain = (python_.sa_flags & SA_SIGINFO) == 0 && python_.sa_handler != SIG_DFL && python_.sa_handler != SIG_IGN;
+        handler_of_python = python_.sa_handler;
+        struct sigaction both = python_;
+        both.sa_handler = &cancel_and_tell_python;
+        installed_ = watches_ = plain && sigaction(SIGINT, &both, nullptr) == 0;
+    }
+    if (watches_) watched = &cancel_;
 }
 
 InterruptWatch::~InterruptWatch() {
     if (installed_) sigaction(SIGINT, &python_, nullptr);
     if (!watches_) return;
     watched = around_;
-    cancel_ = before_;
+    if (has_cancelled.exchange(false)) cancel_ = before_;  // else it is what its caller's other threads made it
 }
 
 void InterruptWatch::check() const {

@@ -109,7 +109,7 @@ def test_another_thread_cancels_a_step():
     timer.start()
     report = simulation.step()
     timer.join()
-    assert not report.ok and report.status == 'cancelled'
+    assert not report.ok and report.status == simulation.step().status == 'cancelled'
     simulation.set_cancel(False)
     simulation.set_time_step(1e-4)
     assert simulation.step().ok
