@@ -109,12 +109,14 @@ private:
     std::vector<int> parent_;
 };
 
-std::vector<int> vertices_inside(const TriangleMesh& cloth, const Surface& obstacle, const std::vector<bool>& free) {
+std::vector<int> vertices_inside(const TriangleMesh& cloth, const Surface& obstacle, const std::vector<bool>& free,
+                                 const Cancel& cancel) {
     Groups groups(cloth, free);
     const Box bounds = obstacle.tree.bounds();
     std::vector<bool> inside(cloth.vertices.size());
     std::vector<int> result;
     for (int v = 0; v < static_cast<int>(cloth.vertices.size()); ++v) {
+        cancel.check();
         const int first = groups.representative(v);  // the lowest of its group, so already decided
         const Vec3& x = cloth.vertices[v];
         const auto own_side = [&] { return bounds.contains(x) && side_of(x, obstacle.triangles, obstacle.tree) == Side::inside; };
@@ -134,7 +136,7 @@ double distance_to_surface(const Vec3& x, const Surface& surface) {
 
 void measure_depth(const TriangleMesh& cloth, const Surface& obstacle, const std::vector<bool>& free, const Cancel& cancel,
                    Certificate& result) {
-    result.inside_vertices = vertices_inside(cloth, obstacle, free);
+    result.inside_vertices = vertices_inside(cloth, obstacle, free, cancel);
     result.vertices_inside = static_cast<int>(result.inside_vertices.size());
     for (const int v : result.inside_vertices) {
         cancel.check();
@@ -205,14 +207,16 @@ Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, dou
     return result;
 }
 
-std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const Vec3> points) {
+std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const Vec3> points, const std::atomic<bool>* cancel) {
     check(mesh, "surface_distances: mesh");
     const Surface surface(mesh);
     const bool watertight = is_watertight(mesh);
     const Box bounds = surface.tree.bounds();
     std::vector<double> distances;
     distances.reserve(points.size());
+    const Cancel wish{cancel};
     for (const Vec3& x : points) {
+        wish.check();
         if (!x.allFinite()) throw SceneError("surface_distances: a point is not finite");
         const bool inside = watertight && bounds.contains(x) && side_of(x, surface.triangles, surface.tree) == Side::inside;
         const double distance = distance_to_surface(x, surface);

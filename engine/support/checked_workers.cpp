@@ -12,10 +12,11 @@ CheckedWorkers::CheckedWorkers(std::shared_ptr<Workers> host) : host_(std::move(
                                         std::to_string(most_threads));
 }
 
-void CheckedWorkers::do_part(void* batch, int part, int slot) {
-    Batch& of = *static_cast<Batch*>(batch);
-    const bool in_range = part >= 0 && part < of.parts && slot >= 0 && slot < of.of.threads_;
-    if (!in_range || of.of.begun_[static_cast<std::size_t>(part)].exchange(true, std::memory_order_relaxed)) {
+void CheckedWorkers::do_part(void* workers, int part, int slot) {
+    CheckedWorkers& self = *static_cast<CheckedWorkers*>(workers);
+    Batch& of = self.batch_;
+    const bool in_range = part >= 0 && part < of.parts && slot >= 0 && slot < self.threads_;
+    if (!in_range || self.begun_[static_cast<std::size_t>(part)].exchange(true, std::memory_order_relaxed)) {
         of.wrong.store(true, std::memory_order_relaxed);
         return;
     }
@@ -27,10 +28,15 @@ void CheckedWorkers::run(int parts, void (*work)(void* data, int part, int slot)
     check();
     if (begun_.size() < static_cast<std::size_t>(parts)) begun_ = std::vector<std::atomic<bool>>(static_cast<std::size_t>(parts));
     for (int part = 0; part < parts; ++part) begun_[static_cast<std::size_t>(part)].store(false, std::memory_order_relaxed);
-    Batch batch{.of = *this, .work = work, .data = data, .parts = parts};
+    batch_.work = work;
+    batch_.data = data;
+    batch_.done = 0;
+    batch_.wrong = false;
+    batch_.parts = parts;
     broken_ = true;  // stays so if the host throws
-    host_->run(parts, do_part, &batch);
-    broken_ = batch.wrong || batch.done != parts;
+    host_->run(parts, do_part, this);
+    batch_.parts = 0;  // what comes later is none of it
+    broken_ = batch_.wrong || batch_.done != parts;
     check();
 }
 

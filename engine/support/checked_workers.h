@@ -25,17 +25,16 @@ public:
 private:
     /// One call of run.
     struct Batch {
-        CheckedWorkers& of;
-        void (*work)(void* data, int part, int slot);
-        void* data;
-        int parts;
-        std::atomic<int> done = 0;
+        void (*work)(void* data, int part, int slot) = nullptr;
+        void* data = nullptr;
+        std::atomic<int> parts = 0, done = 0;
         std::atomic<bool> wrong = false;
     };
-    static void do_part(void* batch, int part, int slot);
+    static void do_part(void* workers, int part, int slot);
 
     std::shared_ptr<Workers> host_;
     int threads_;
+    Batch batch_;                           // here and not in run, for a host that comes back before its last part has begun
     std::vector<std::atomic<bool>> begun_;  // of each part of the run; grows
     std::atomic<bool> broken_ = false;
 };

@@ -58,10 +58,11 @@ std::vector<double> contact_pressure(const TriangleMesh& now, std::span<const Co
     return pressure;
 }
 
-std::vector<double> obstacle_distances(std::span<const Vec3> points, std::span<const TriangleMesh> obstacles) {
+std::vector<double> obstacle_distances(std::span<const Vec3> points, std::span<const TriangleMesh> obstacles,
+                                       const std::atomic<bool>* cancel) {
     std::vector<double> nearest(points.size(), std::numeric_limits<double>::infinity());
     for (const TriangleMesh& obstacle : obstacles) {
-        const std::vector<double> distances = surface_distances(obstacle, points);
+        const std::vector<double> distances = surface_distances(obstacle, points, cancel);
         for (std::size_t v = 0; v < nearest.size(); ++v) nearest[v] = std::min(nearest[v], distances[v]);
     }
     return nearest;
@@ -72,7 +73,8 @@ MeshFields fit_fields(const DressedCloth& cloth, std::span<const std::string> wo
     for (const std::string& word : words) {
         if (word == "strain") add_strain(cloth, fields);
         if (word == "pressure") fields.vertex.push_back({word, contact_pressure(cloth.now, cloth.loads)});
-        if (word == "distance") fields.vertex.push_back({word, obstacle_distances(cloth.now.vertices, cloth.obstacles)});
+        if (word == "distance")
+            fields.vertex.push_back({word, obstacle_distances(cloth.now.vertices, cloth.obstacles, cloth.cancel)});
     }
     return fields;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,9 +23,10 @@ std::string fit_words_meaning();
 struct DressedCloth {
     const TriangleMesh& start;  // and `rest`: as given to Simulation::add_cloth, m
     const RestShape& rest;
-    const TriangleMesh& now;                  // m, world
-    std::span<const ContactLoad> loads;       // on its vertices
-    std::span<const TriangleMesh> obstacles;  // m, world
+    const TriangleMesh& now;                    // m, world
+    std::span<const ContactLoad> loads;         // on its vertices
+    std::span<const TriangleMesh> obstacles;    // m, world
+    const std::atomic<bool>* cancel = nullptr;  // as of certify
 };
 
 /// Pa, of each vertex: the sum of what obstacles push it off with, |normal|, over its area as it is now
@@ -32,7 +34,8 @@ struct DressedCloth {
 std::vector<double> contact_pressure(const TriangleMesh& now, std::span<const ContactLoad> loads);
 
 /// m, of each point, to the nearest obstacle, with a minus inside a closed one; infinity without obstacles. World coordinates.
-std::vector<double> obstacle_distances(std::span<const Vec3> points, std::span<const TriangleMesh> obstacles);
+std::vector<double> obstacle_distances(std::span<const Vec3> points, std::span<const TriangleMesh> obstacles,
+                                       const std::atomic<bool>* cancel = nullptr);
 
 /// The fields of these words. strain: strain_warp, strain_weft, strain_shear (TriangleStrain) of triangles, and of vertices as
 /// their mean by rest area; pressure: Pa, of vertices; distance: of vertices, obstacle_distances.

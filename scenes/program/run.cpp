@@ -127,8 +127,9 @@ int verdict(const RunOptions& options, const RunResult& result, std::span<const 
     const RunVerdict verdict = verdict_of_run(result);
     const char* scene = options.scene.c_str();
     if (result.status == RunStatus::stopped) {
-        const std::string resumable =
-            options.checkpoint.empty() ? "" : "; go on with --resume " + options.folder + "/" + checkpoint_name;
+        const std::string checkpoint = options.folder + "/" + checkpoint_name;
+        const bool there = !options.checkpoint.empty() && std::filesystem::is_regular_file(checkpoint);
+        const std::string resumable = there ? "; go on with --resume " + checkpoint : "";
         std::fprintf(stderr, "percale: %s: %s; the report is written%s\n", scene, verdict.reason.c_str(), resumable.c_str());
         return stopped_by_signal;
     }
@@ -219,7 +220,7 @@ void add_run_command(CLI::App& program, Action& action) {
     command->add_flag("--report", options->report, "Write the run as an HTML page, too: DIR/report.html (see percale report)");
     command
         ->add_option("--checkpoint", options->checkpoint,
-                     "Every so many simulated seconds, and when stopped, write DIR/checkpoint.percale to resume from")
+                     "Every so many simulated seconds, and when stopped between steps, write DIR/checkpoint.percale to resume from")
         ->type_name("SECONDS");
     command
         ->add_option("--resume", options->resume,

@@ -169,10 +169,10 @@ int sweep(const SweepOptions& options) {
     do_runs(open.study, open.folder, runs, work);
     bar.clear();
     print_failures(open, failed);
-    if (!options.range.empty())  // the tables are of all runs
-        return failed.empty() && crossed_or_unsolved(open, asked) == 0 ? all_well : not_as_expected;
-    const int code = gather(options, open);
-    if (!signals.asked()) return code;
+    const auto well = [&] { return failed.empty() && crossed_or_unsolved(open, asked) == 0 ? all_well : not_as_expected; };
+    const int code = options.range.empty() ? gather(options, open) : well();  // the tables are of all runs
+    const bool left = std::ranges::any_of(runs, [&](std::size_t run) { return !open.folder.is_done(run); });
+    if (!signals.asked() || !left) return code;
     std::fprintf(stderr, "percale: %s: stopped; the same command goes on\n", options.study.c_str());
     return stopped_by_signal;
 }

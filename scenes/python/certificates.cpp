@@ -1,3 +1,4 @@
+#include <atomic>
 #include <limits>
 
 #include "percale/certify.h"
@@ -23,14 +24,20 @@ py::array pairs_of(const std::vector<IntersectingPair>& pairs) {
 Certificate certificate_of(py::handle cloth, py::handle obstacle, double distance_limit) {
     if (!(distance_limit >= 0.0)) throw SceneError("distance_limit", "must be at least 0 m");
     const auto first = mesh_of(cloth, "cloth"), second = mesh_of(obstacle, "obstacle");
-    const ReleasedGil others_run;
-    return certify(*first, *second, distance_limit);
+    std::atomic<bool> cancel = false;
+    return interruptible(cancel, [&] {
+        const ReleasedGil others_run;
+        return certify(*first, *second, distance_limit, &cancel);
+    });
 }
 
 ClothCertificate cloth_certificate_of(py::handle cloth) {
     const auto mesh = mesh_of(cloth, "cloth");
-    const ReleasedGil others_run;
-    return certify_cloth(*mesh);
+    std::atomic<bool> cancel = false;
+    return interruptible(cancel, [&] {
+        const ReleasedGil others_run;
+        return certify_cloth(*mesh, {}, {}, &cancel);
+    });
 }
 
 py::array_t<double> distances_of(py::handle mesh, py::handle points) {
@@ -38,11 +45,11 @@ py::array_t<double> distances_of(py::handle mesh, py::handle points) {
     const std::vector<Vec3> places = points_of(points, "points");
     for (const Vec3& x : places)
         if (!x.allFinite()) throw SceneError("points", "one is not finite");
-    std::vector<double> distances;
-    {
+    std::atomic<bool> cancel = false;
+    const std::vector<double> distances = interruptible(cancel, [&] {
         const ReleasedGil others_run;
-        distances = surface_distances(*surface, places);
-    }
+        return surface_distances(*surface, places, &cancel);
+    });
     py::array_t<double> array(static_cast<long>(distances.size()));
     std::copy(distances.begin(), distances.end(), array.mutable_data());
     return array;

@@ -18,13 +18,16 @@ std::atomic<int> threads_at_door{0};  // that will take the lock without asking 
 // Of the handler of SIGINT.
 std::atomic<std::atomic<bool>*> watched = nullptr;
 std::atomic<bool> has_cancelled = false;
+std::atomic<int> handlers_at_work = 0;
 std::atomic<void (*)(int)> handler_of_python = nullptr;
 
 void cancel_and_tell_python(int signal) {
+    ++handlers_at_work;
     if (std::atomic<bool>* cancel = watched; cancel != nullptr) {
         has_cancelled = true;
         *cancel = true;
     }
+    --handlers_at_work;
     handler_of_python.load()(signal);
 }
 
@@ -79,10 +82,14 @@ InterruptWatch::InterruptWatch(std::atomic<bool>& cancel)
 }
 
 InterruptWatch::~InterruptWatch() {
-    if (installed_) sigaction(SIGINT, &python_, nullptr);
+    struct sigaction now = {};
+    // Python's code may have set another handler meanwhile.
+    if (installed_ && sigaction(SIGINT, nullptr, &now) == 0 && now.sa_handler == &cancel_and_tell_python)
+        sigaction(SIGINT, &python_, nullptr);
     if (!watches_) return;
     watched = around_;
-    if (has_cancelled.exchange(false)) cancel_ = before_;  // else it is what its caller's other threads made it
+    while (handlers_at_work > 0) std::this_thread::yield();  // in another thread, with what was watched
+    if (has_cancelled.exchange(false)) cancel_ = before_;    // else it is what its caller's other threads made it
 }
 
 void InterruptWatch::check() const {

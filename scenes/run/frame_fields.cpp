@@ -14,7 +14,7 @@ void place_shapes(const BuiltScene& built, std::span<TriangleMesh> cloths, std::
 }
 
 std::vector<MeshFields> fields_of(const BuiltScene& built, std::span<const TriangleMesh> cloths,
-                                  std::span<const TriangleMesh> obstacles) {
+                                  std::span<const TriangleMesh> obstacles, const std::atomic<bool>* cancel) {
     const std::vector<std::string>& words = built.scene.output.fields;
     std::vector<MeshFields> fields;
     for (std::size_t i = 0; i < cloths.size() && !words.empty(); ++i) {
@@ -23,7 +23,8 @@ std::vector<MeshFields> fields_of(const BuiltScene& built, std::span<const Trian
                                      .rest = built.rest_shapes[i],
                                      .now = cloths[i],
                                      .loads = loads,
-                                     .obstacles = obstacles},
+                                     .obstacles = obstacles,
+                                     .cancel = cancel},
                                     words));
     }
     return fields;

@@ -121,7 +121,7 @@ private:
 
     void make_frame() {
         add_frame(measures_, frame_.index, frame_.check);
-        if (hooks_.frame) frame_.fields = fields_of(built_, frame_.cloths, frame_.obstacles);
+        if (hooks_.frame) frame_.fields = fields_of(built_, frame_.cloths, frame_.obstacles, hooks_.cancel);
         if (hooks_.frame) hooks_.frame(frame_);
         ++frame_.index;
         framed_ = true;
@@ -263,23 +263,6 @@ bool make_parts(BuiltScene& built, const RunHooks& hooks, RunScript& script, dou
     }
     return true;
 }
-
-/// Tells when checkpoints are due: whenever another so many seconds of the scene are over.
-class CheckpointTimes {
-public:
-    CheckpointTimes(double every, double now) : every_(every), made_(count(now)) {}
-
-    bool due(double now) {
-        const double before = made_;
-        made_ = count(now);
-        return made_ > before;
-    }
-
-private:
-    double count(double now) const { return every_ > 0.0 ? std::floor(now / every_ + 1e-9) : 0.0; }
-
-    double every_, made_;
-};
 
 TimedMeasures timed_of(const BuiltScene& built, std::vector<std::vector<Vec3>> references) {
     // Times are sums of steps.

@@ -61,4 +61,12 @@ double StepLengths::next(double now) {
     return length_;
 }
 
+bool CheckpointTimes::due(double now) {
+    const double before = made_;
+    made_ = count(now);
+    return made_ > before;
+}
+
+double CheckpointTimes::count(double now) const { return every_ > 0.0 ? std::floor(now / every_ + 1e-9) : 0.0; }
+
 }  // namespace percale::scenes

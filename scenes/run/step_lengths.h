@@ -34,4 +34,17 @@ private:
     long made_;
 };
 
+/// Tells when checkpoints are due: whenever another so many seconds of the scene are over; 0: never.
+class CheckpointTimes {
+public:
+    CheckpointTimes(double every, double now) : every_(every), made_(count(now)) {}
+
+    bool due(double now);
+
+private:
+    double count(double now) const;
+
+    double every_, made_;
+};
+
 }  // namespace percale::scenes

@@ -103,6 +103,36 @@ def test_a_handler_of_the_host_gets_its_signal_and_the_step_goes_on():
         timer.join()
 
 
+@pytest.mark.parametrize('wish', ['SIG_DFL', 'SIG_IGN'])
+def test_what_a_host_makes_of_the_signal_in_on_step_stays(wish):
+    scene = {'duration': 0.1, 'fabric': {'sheet': SHEET}, 'cloth': [{'name': 'towel', 'fabric': 'sheet',
+                                                                     'grid': {'size': [1.0, 1.0], 'vertices': [5, 5]}}]}
+    before = signal.getsignal(signal.SIGINT)
+    try:
+        percale.run(scene, on_step=lambda *told: signal.signal(signal.SIGINT, getattr(signal, wish)) and None)
+        assert signal.getsignal(signal.SIGINT) is getattr(signal, wish)
+        if wish == 'SIG_IGN':
+            os.kill(os.getpid(), signal.SIGINT)  # nothing
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_a_signal_that_was_ignored_beside_python_stays_so():
+    ends = ('import ctypes, os, signal, percale\nctypes.CDLL(None).signal(int(signal.SIGINT), 1)\nsimulation = percale.Simulation()\n'
+            "simulation.add_cloth(percale.make_grid(1.0, 1.0, 5, 5), {'springs': {'structural': 100.0}})\n"
+            'assert simulation.step().ok\nos.kill(os.getpid(), signal.SIGINT)\nassert simulation.step().ok\n')
+    assert subprocess.run([sys.executable, '-c', ends], check=False, timeout=120).returncode == 0
+
+
+def test_an_interrupt_ends_a_certificate():
+    fine = percale.make_grid(1.0, 1.0, 700, 700)
+    timer = interrupted_later()
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            percale.certify_cloth(fine)
+    timer.join()
+
+
 def test_another_thread_cancels_a_step():
     simulation = long_step()
     timer = threading.Timer(1.0, simulation.set_cancel, (True,))

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Stops the program amid long work: stop_latency.py PERCALE FOLDER [--only NAME]
+"""Stops the program amid long work: stop_latency.py PERCALE FOLDER [--only NAME] [--most SECONDS]
 
 Scenes whose steps, lists, certificates, repairs, plans, panels or stitches are large are made in FOLDER. Each command is sent SIGTERM
-some seconds after its start. Prints a table: at what time, how long it then took to end, and what it left. Exit code 1 where one ended
-otherwise than as a stopped program, or left a file that is not whole.
+some seconds after its start. Prints a table: at what time, and how many seconds later it had ended. Exit code 1 where one took longer
+than is wanted (--most, 2 s: the machine may be busy), ended otherwise than as a stopped program, or left a report that is not whole.
 """
 import argparse
 import json
@@ -14,7 +14,8 @@ import sys
 import time
 from pathlib import Path
 
-MOMENTS = (0.2, 1.0, 3.0, 8.0)  # s
+MOMENTS = (0.2, 1.0, 3.0, 5.0, 8.0)  # s
+WAIT = 60  # s
 STOPPED = (130, -signal.SIGTERM)  # by itself, or before there was anything to stop
 FABRIC = ('[fabric.f]\narea_density = 0.2\nthickness = 0.003\nself_contact = {self_contact}\nstretch_stiffness = [300.0, 300.0]\n'
           'bend_stiffness = 1e-5\n')
@@ -79,6 +80,7 @@ def commands(folder):
     cloth, bare = FABRIC.format(self_contact='true'), FABRIC.format(self_contact='false')
     fine = scene(folder, 'fine', cloth, sheet(320), ball(folder, 20))
     still = scene(folder, 'still', bare, sheet(33), ball(folder, 570))
+    large = scene(folder, 'large', bare, sheet(150), ball(folder, 400))
     inside = scene(folder, 'inside', cloth, sheet(160, 0.0), ball(folder, 140))
     plan = scene(folder, 'plan', '[step]\nscheme = "rk4"\ntime_step = 1e-5\n', SPRINGS, sheet(1000))
     huge = scene(folder, 'huge', SPRINGS, sheet(4096))
@@ -89,6 +91,9 @@ def commands(folder):
     return [('run, 102,400 vertices that meet themselves', ['run', fine, '-o', 'out']),
             ('run, every step certified', ['run', fine, '-o', 'out', '--certify-steps']),
             ('run, a body of 1.3 million triangles', ['run', still, '-o', 'out']),
+            ('run, a body of 640,000 triangles', ['run', large, '-o', 'out']),
+            ('run, distances in its frames', ['run', large, '-o', 'out', '--frames', 'vtp', '--set', 'output.fields=["distance"]']),
+            ('run --checkpoint', ['run', fine, '-o', 'out', '--checkpoint', '0.05']),
             ('run, a sheet through a body', ['run', inside, '-o', 'out']),
             ('run, the plan of a million vertices', ['run', plan, '-o', 'out']),
             ('run, 16.8 million vertices', ['run', huge, '-o', 'out']),
@@ -112,7 +117,11 @@ def ended_after(program, arguments, folder, moment):
         except subprocess.TimeoutExpired:
             run.send_signal(signal.SIGTERM)
         sent = time.monotonic()
-        run.wait()
+        try:
+            run.wait(WAIT)
+        except subprocess.TimeoutExpired:
+            run.kill()
+            run.wait()
         return run.returncode, time.monotonic() - sent
 
 
@@ -131,6 +140,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.partition('\n')[0])
     parser.add_argument('program', type=Path)
     parser.add_argument('folder', type=Path)
+    parser.add_argument('--most', type=float, default=2.0, help='seconds from the signal to the end (default 2)')
     parser.add_argument('--only', default='', help='commands whose name holds this text')
     wish = parser.parse_args()
     wish.folder.mkdir(parents=True, exist_ok=True)
@@ -144,7 +154,7 @@ def main():
         for moment in MOMENTS:
             code, seconds = ended_after(program, arguments, wish.folder, moment)
             cells.append('had ended' if code is None else f'{seconds:.2f}' + ('' if code in STOPPED else f' (exit code {code})'))
-            wrong += code is not None and code not in STOPPED
+            wrong += code is not None and (code not in STOPPED or seconds > wish.most)
         wrong += len(broken_files(wish.folder))
         print(f'| {name} | ' + ' | '.join(cells) + ' |', flush=True)
     return 1 if wrong else 0

@@ -46,8 +46,9 @@ Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle,
                     double distance_limit = std::numeric_limits<double>::infinity(), const std::atomic<bool>* cancel = nullptr);
 
 /// Distance of each point to the nearest one of a mesh's surface, m; with a minus inside a watertight mesh. Exact apart from
-/// rounding. All in world coordinates, finite. Thread-safe.
-std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const Vec3> points);
+/// rounding. All in world coordinates, finite. Thread-safe. `cancel`: as of certify.
+std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const Vec3> points,
+                                      const std::atomic<bool>* cancel = nullptr);
 
 /// Where cloth meets itself, all its pieces taken as one mesh.
 struct ClothCertificate {

@@ -18,7 +18,11 @@ TEST_CASE("a folder has one lock at a time, which leaves nothing behind") {
     std::optional<FolderLock> first(folder.path());
     CHECK(message_of([&] { FolderLock second(folder.path()); }) ==
           folder.path() + ": another run writes into it; wait for its end, or name another folder");
+    CHECK_FALSE(message_of([&] { FolderLock second(folder.path("none/../")); }).empty());
     first.reset();
+    folder.write("file", "");
+    CHECK(message_of([&] { FolderLock of_file(folder.path("file")); }).starts_with(folder.path("file") + ": cannot be kept"));
+    std::filesystem::remove(folder.path("file"));
     CHECK(message_of([&] { FolderLock second(folder.path()); }).empty());
     CHECK(folder.file_count() == 0);
     CHECK(message_of([&] { FolderLock none(folder.path("none")); }).empty());  // whoever makes it tells why it cannot be

@@ -40,9 +40,10 @@ public:
     void wait_for(const TestFolder& folder, const std::string& file) const {
         for (int i = 0; i < 120000 && !folder.holds(file); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    /// Waits as long until it answers signals itself, for which it blocks them.
+    /// Waits as long until it answers signals itself, for which it blocks these two; all are blocked while a thread is begun.
     void wait_for_signals() const {
-        for (int i = 0; i < 120000 && !blocks(SIGTERM); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        for (int i = 0; i < 120000 && (!blocks(SIGTERM) || blocks(SIGHUP)); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     void send(int signal) const { kill(child_, signal); }
     /// Sends the signal; returns the exit code, or -1 where the signal ended the program.

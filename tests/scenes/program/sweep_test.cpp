@@ -1,5 +1,6 @@
 #include "scenes/common/folder_lock.h"
 #include "tests/scenes/program/run_program.h"
+#include "tests/scenes/program/started_run.h"
 #include "tests/scenes/sweep/study_files.h"
 #include "tests/support/catch.h"
 
@@ -55,6 +56,18 @@ TEST_CASE("a study with a run that crossed names it and is exit code 1, for a pa
     const ProgramRun part = run_program({"sweep", "out", "--run", "1-1", "--quiet"}, folder.path());
     CHECK(part.exit_code == 1);
     CHECK(part.error == all.error);
+}
+
+TEST_CASE("runs of a study that a signal has stopped are no success, whether all were asked for or some") {
+    for (const bool part : {true, false}) {
+        const TestFolder folder;
+        write_study(folder, "\"duration\" = [10000.0, 20000.0]\n");
+        std::vector<std::string> arguments = {"sweep", "study.toml", "-o", "out", "--quiet"};
+        if (part) arguments.insert(arguments.end(), {"--run", "0-1"});
+        StartedRun run(folder, arguments);
+        run.wait_for(folder, "out/runs/00000/steps.csv.part");
+        CHECK(run.end(SIGTERM) == 130);
+    }
 }
 
 TEST_CASE("a study has one sweep of all its runs at a time; parts of it may be done meanwhile") {

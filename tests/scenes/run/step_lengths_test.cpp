@@ -77,4 +77,13 @@ TEST_CASE("a run that is gone on with counts from where it was") {
     CHECK(lengths.made() == 8);
 }
 
+TEST_CASE("checkpoints are due once for each interval that is over, counted from 0, or never") {
+    CheckpointTimes times(0.1, 0.05), none(0.0, 0.0);
+    CHECK_FALSE(times.due(0.09));
+    CHECK(times.due(0.1));
+    CHECK_FALSE(times.due(0.19));
+    CHECK(times.due(0.45));
+    CHECK_FALSE(none.due(1e6));
+}
+
 }  // namespace percale::scenes::test::step_lengths_test
