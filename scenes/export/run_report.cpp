@@ -10,10 +10,10 @@
 #include "common/input_file.h"
 #include "common/text.h"
 #include "export/run_settings.h"
-#include "percale/cleaning.h"
 #include "percale/error.h"
 #include "run/frame_fields.h"
 #include "run/run_verdict.h"
+#include "run/scene_plan.h"
 
 namespace percale::scenes {
 
@@ -143,9 +143,9 @@ ordered_json frame_list(std::span<const FrameRecord> frames) {
 
 ordered_json obstacle_list(const BuiltScene& built) {
     ordered_json list = ordered_json::array();
+    const std::vector<CleaningReport> reports = cleaning_of(built);
     for (std::size_t i = 0; i < built.obstacle_meshes.size(); ++i) {
-        const CleaningReport cleaning =
-            cleaning_report(built.obstacle_meshes[i], built.shapes[i] != nullptr || built.scene.obstacles[i].yields);
+        const CleaningReport& cleaning = reports[i];
         const Vec3 force = built.simulation.force_on(built.obstacles[i]);
         list.push_back({{"name", built.scene.obstacles[i].name},
                         {"contact_force", {force.x(), force.y(), force.z()}},
@@ -248,7 +248,8 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     put_costs(json, result.totals);
     json["obstacles"] = obstacle_list(built);
     json["seams"] = seam_list(built);
-    if (!built.scene.output.fields.empty()) json["fit"] = fit_list(built);
+    const bool fits = !built.scene.output.fields.empty() && result.status != RunStatus::stopped;  // a signal is not kept waiting
+    if (fits) json["fit"] = fit_list(built);
     json["start_repair"] = start_move_list(built.simulation);
     json["pinched"] = pinch_list(built, result.totals.pinches);
     json["scheme"] = result.plan.scheme_word;

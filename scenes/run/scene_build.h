@@ -9,6 +9,7 @@
 #include "format/scene.h"
 #include "garment/seam_stitches.h"
 #include "pattern/pattern_mesh.h"
+#include "percale/cleaning.h"
 #include "percale/plan.h"
 #include "percale/simulation.h"
 
@@ -32,9 +33,10 @@ struct BuiltScene {
     std::vector<TriangleMesh> obstacle_meshes;             // in their own coordinates, unit applied, pose not; as they start
     std::vector<std::shared_ptr<BodyShapes>> shapes = {};  // of each obstacle; null: it is rigid
     std::vector<std::vector<SewnSeam>> pattern_seams;      // of each cloth; of one without a pattern none
-    std::vector<BuiltSeam> seams;        // in the order of scene.seams, a pattern's each apart; then those of patterns
-    std::vector<std::string> warnings;   // what is not quite as the scene file says
-    std::optional<ScenePlan> plan = {};  // before the first step, where it was kept (scene_plan.h)
+    std::vector<BuiltSeam> seams;               // in the order of scene.seams, a pattern's each apart; then those of patterns
+    std::vector<std::string> warnings;          // what is not quite as the scene file says
+    std::optional<ScenePlan> plan = {};         // before the first step, where it was kept (scene_plan.h)
+    std::vector<CleaningReport> cleaning = {};  // of each obstacle, likewise
 };
 
 /// Null for `none`.

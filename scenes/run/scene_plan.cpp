@@ -59,7 +59,20 @@ std::string steps_text(const Scene& scene) {
            " s";
 }
 
-void keep_plan(BuiltScene& built) { built.plan = plan_of(built); }
+std::vector<CleaningReport> cleaning_of(const BuiltScene& built) {
+    if (!built.cleaning.empty()) return built.cleaning;
+    std::vector<CleaningReport> reports;
+    for (std::size_t i = 0; i < built.obstacle_meshes.size(); ++i) {
+        const bool deforming = built.shapes[i] != nullptr || built.scene.obstacles[i].yields;
+        reports.push_back(cleaning_report(built.obstacle_meshes[i], deforming));
+    }
+    return reports;
+}
+
+void keep_plan(BuiltScene& built) {
+    built.plan = plan_of(built);
+    built.cleaning = cleaning_of(built);
+}
 
 ScenePlan plan_of(const BuiltScene& built) {
     if (built.plan) return *built.plan;

@@ -13,7 +13,10 @@ std::string steps_text(const Scene& scene);
 /// The plan of a built scene before its first step, with the motion and events that its file holds.
 ScenePlan plan_of(const BuiltScene& built);
 
-/// Makes it once for all who ask later: the longest stable step of a large cloth takes seconds.
+/// What was left out of each obstacle's mesh.
+std::vector<CleaningReport> cleaning_of(const BuiltScene& built);
+
+/// Makes both once for all who ask later: the longest stable step of a large cloth takes seconds, as cleaning a large mesh does.
 void keep_plan(BuiltScene& built);
 
 /// How many frames a run writes at most, and about how many bytes in all formats of the scene together.

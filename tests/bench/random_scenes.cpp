@@ -2,6 +2,8 @@
 // one was not.
 #include <cstdio>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "tests/bench/bench_report.h"
 #include "tests/support/collision/random_scenes.h"
@@ -22,7 +24,7 @@ struct Options {
 /// Counts of some scenes.
 struct Tally {
     int scenes = 0, touched = 0, blocked = 0, blocked_free = 0, bad = 0;
-    long steps = 0;
+    long steps = 0, second_frames = 0;  // frames that the second checker has seen
     double cpu_s = 0.0;
 
     void add(const RandomScene& scene, const RandomOutcome& outcome) {
@@ -32,11 +34,19 @@ struct Tally {
         blocked_free += outcome.blocked() && !scene.pinned ? 1 : 0;
         bad += outcome.good() ? 0 : 1;
         steps += outcome.result.totals.steps;
+        second_frames += outcome.second_frames;
         cpu_s += outcome.result.totals.cpu_s;
     }
     Figures figures(const std::string& kind) const {
-        return {{"kind", kind}, {"scenes", scenes}, {"touched", touched}, {"blocked", blocked}, {"blocked_free", blocked_free},
-                {"bad", bad},   {"steps", steps},   {"cpu_s", cpu_s}};
+        return {{"kind", kind},
+                {"scenes", scenes},
+                {"touched", touched},
+                {"blocked", blocked},
+                {"blocked_free", blocked_free},
+                {"bad", bad},
+                {"steps", steps},
+                {"second_frames", second_frames},
+                {"cpu_s", cpu_s}};
     }
     void print(const std::string& kind) const {
         std::printf("%-14s %6d %7d %7d %8d %4d %8ld %8.2f\n", kind.c_str(), scenes, touched, blocked, blocked_free, bad, steps,
@@ -60,8 +70,9 @@ Figures sweep(const Options& options, bool& good) {
         RandomScene scene = percale::test::make_random_scene(options.seed, index);
         const RandomOutcome outcome = percale::test::run_random_scene(scene);
         if (options.only >= 0 || !outcome.good() || outcome.blocked()) print_one(index, scene, outcome);
-        for (const std::string& kind : {scene.obstacle, scene.motion, scene.cloth, std::string("all")})
-            tallies[kind].add(scene, outcome);
+        std::vector<std::string> kinds = {scene.obstacle, scene.motion, scene.cloth, "all"};
+        if (scene.built.cloths.size() > 1) kinds.push_back("two cloths");
+        for (const std::string& kind : kinds) tallies[kind].add(scene, outcome);
         good = good && outcome.good();
     }
     Figures rows = Figures::array();

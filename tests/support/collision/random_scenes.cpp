@@ -347,7 +347,12 @@ RandomOutcome run_random_scene(RandomScene& scene, const SecondChecker& second) 
         outcome.last = report.status;
         for (const ClothId cloth : scene.built.cloths) outcome.not_finite += all_finite(simulation, cloth) ? 0 : 1;
     };
-    if (second) hooks.frame = [&](const scenes::Frame& frame) { outcome.second_crossings += second(frame); };
+    if (second) {
+        hooks.frame = [&](const scenes::Frame& frame) {
+            outcome.second_crossings += second(frame);
+            ++outcome.second_frames;
+        };
+    }
     outcome.result = scenes::run_scene(scene.built, hooks, {.certify_steps = true});
     outcome.crossings = outcome.result.measures.steps->intersections;
     outcome.deepest = outcome.result.measures.steps->deepest_penetration;

@@ -34,6 +34,7 @@ struct RandomOutcome {
     int crossings = 0;                 // intersecting pairs, over all steps
     double deepest = 0.0;              // m, inside a watertight obstacle, over all steps
     long second_crossings = 0;         // intersecting pairs by a second checker, over all frames
+    long second_frames = 0;            // that it has seen
 
     bool good() const {
         return crossings == 0 && second_crossings == 0 && deepest == 0.0 && not_finite == 0 && last != StepStatus::not_finite;
