@@ -71,7 +71,7 @@ def stitched(folder, side):
                     a = first + k
                     out.write(f'f {a} {a + side} {a + 1}\nf {a + 1} {a + side} {a + side + 1}\n')
         for k in range(side * side):
-            out.write(f'stitch {k + 1} {k + 1 + side * side}\n')
+            out.write(f'stitch {k} {k + side * side}\n')
     return 'stitched.obj'
 
 
