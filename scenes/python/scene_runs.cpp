@@ -143,10 +143,11 @@ void bind_scene(py::module_& module) {
         "plan",
         [](py::handle source, py::handle overrides) {
             const Scene scene = scene_from(source, overrides);
-            return parsed_json([&] {
+            std::atomic<bool> cancel = false;
+            return parsed_json(interruptible(cancel, [&] {
                 const ReleasedGil others_run;
-                return plan_json(build_scene(scene));
-            }());
+                return plan_json(build_scene(scene, &cancel));
+            }));
         },
         py::arg("scene"), py::arg("overrides") = py::none(), "What a run of a scene would do and cost: a dict; runs nothing.");
 }
@@ -295,7 +296,7 @@ std::shared_ptr<SceneRun> run_with(const Scene& scene, const RunWishes& wishes) 
     std::atomic<bool> cancel = false;
     interruptible(cancel, [&] {
         const ReleasedGil others_run;
-        BuiltScene built = build_scene(scene);
+        BuiltScene built = build_scene(scene, &cancel);
         run->cloth_names = names_of(built.scene.cloths);
         run->obstacle_names = names_of(built.scene.obstacles);
         Recorder(built, wishes, cancel, *run).record();

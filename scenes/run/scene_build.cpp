@@ -375,7 +375,7 @@ TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std
     return import_mesh(path_beside(scene, obstacle.mesh), obstacle.unit, warnings, obstacle.part, obstacle.weld);
 }
 
-BuiltScene build_scene(const Scene& given) {
+BuiltScene build_scene(const Scene& given, const std::atomic<bool>* cancel) {
     Scene scene = given;
     const bool open = scene.step.measure == StepMeasures::automatic;
     if (open && read_step_measures(scene.expectations)) scene.step.measure = StepMeasures::all;
@@ -402,7 +402,9 @@ BuiltScene build_scene(const Scene& given) {
     for (const PairSpec& pair : built.scene.pairs) at_place(pair.place, "", [&] { set_pair(built, pair); });
     script_events(scene, built.cloth_meshes);
     attached_pins(scene, built.cloth_meshes, built.obstacle_meshes);
+    built.simulation.set_cancel(cancel);
     check_start(built);
+    built.simulation.set_cancel(nullptr);
     if (scene.until_rest) {
         check_can_rest(scene, built.simulation.plan());
         check_shapes_end(scene, ends_of_shapes(built));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -81,6 +82,7 @@ TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std
 /// Reads meshes, selects pins, makes the detector and the simulation, and checks the start (Simulation::prepare), which may move
 /// cloth out of obstacles. Throws SceneError with the place of the cloth, obstacle, event or key in the scene file; where the
 /// start is the trouble, StartRefused (start_fault.h). Where step.measure is automatic it becomes `all` if [expect] reads it.
-BuiltScene build_scene(const Scene& given);
+/// `cancel`: Simulation::set_cancel, while the start is repaired.
+BuiltScene build_scene(const Scene& given, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace percale::scenes

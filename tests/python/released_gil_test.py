@@ -133,6 +133,17 @@ def test_an_interrupt_ends_a_certificate():
     timer.join()
 
 
+def test_an_interrupt_ends_the_repair_of_a_start(tmp_path):
+    through = {'duration': 1.0, 'fabric': {'sheet': {**SHEET, 'self_contact': True}}, 'obstacle': [
+        {'name': 'ball', 'shape': {'sphere': {'radius': 0.3}}}], 'cloth': [
+        {'name': 'towel', 'fabric': 'sheet', 'grid': {'size': [1.6, 1.6], 'vertices': [250, 250]}}]}
+    timer, begun = interrupted_later(), time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        percale.run(through, output=tmp_path / 'out')
+    timer.join()
+    assert time.monotonic() - begun < 30 and not (tmp_path / 'out').exists()
+
+
 def test_another_thread_cancels_a_step():
     simulation = long_step()
     timer = threading.Timer(1.0, simulation.set_cancel, (True,))

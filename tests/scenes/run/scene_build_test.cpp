@@ -1,5 +1,6 @@
 #include "scenes/run/scene_build.h"
 
+#include <atomic>
 #include <cmath>
 
 #include "percale/fabric_presets.h"
@@ -222,6 +223,9 @@ TEST_CASE("a start is repaired unless the scene refuses that") {
     CHECK(repaired.simulation.start_repair()[0].obstacle_name == "block");
     CHECK(repaired.simulation.start_repair()[0].cloth_name == "flag");
     CHECK(build_scene(parse_scene(small_scene() + ball(0.5), "t")).simulation.start_repair().empty());
+    const std::atomic<bool> cancel = true;
+    CHECK_THROWS_WITH(build_scene(parse_scene(small_scene() + ball(0.0), "t"), &cancel), Catch::Contains("cancelled"));
+    CHECK_NOTHROW(build_scene(parse_scene(small_scene() + ball(0.5), "t"), &cancel));
 }
 
 TEST_CASE("a pin inside an obstacle is an error at the obstacle that names the pin") {
