@@ -219,8 +219,9 @@ void add_run_command(CLI::App& program, Action& action) {
         ->excludes("--quiet");
     command->add_flag("--report", options->report, "Write the run as an HTML page, too: DIR/report.html (see percale report)");
     command
-        ->add_option("--checkpoint", options->checkpoint,
-                     "Every so many simulated seconds, and when stopped between steps, write DIR/checkpoint.percale to resume from")
+        ->add_option(
+            "--checkpoint", options->checkpoint,
+            "Every so many simulated seconds, and when stopped between steps, write DIR/checkpoint.percale to resume from")
         ->type_name("SECONDS");
     command
         ->add_option("--resume", options->resume,
