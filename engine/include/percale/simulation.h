@@ -127,8 +127,9 @@ public:
     /// StepReport says out_of_time, and not_converged or, of an adaptive step, tolerance_missed. Nothing crosses, pins and
     /// obstacles are where they go; what is missing is that the cloth gave way to all forces. Where these have not arrived after
     /// some 20 iterations more, as after a jump, the step fails (work_limit, out_of_time), nothing moves: `teleport` what jumped.
-    /// The clock starts when `prepare` has done what is to do. Near lists are made whole, so that a step takes at
-    /// least their time. Explicit schemes do not look at it: what their steps cost is known before. Results then depend on the machine; without it no decision reads a clock. Not part of saved states.
+    /// The clock starts when `prepare` has done what is to do. Near lists are made whole, so that a step takes at least their
+    /// time. Explicit schemes do not look at it: what their steps cost is known before. Results then depend on the machine;
+    /// without it no decision reads a clock. Not part of saved states.
     void set_time_limit(double seconds);
     /// While this is true, a step ends within a few iterations of what it is at and fails (StepStatus::cancelled), nothing moves,
     /// and a start that would have to be repaired is refused (StartError, from `prepare` and from the step that comes upon it):
