@@ -39,7 +39,7 @@ FAULTS = [
     # Before those that break the build which they take.
     Fault('slow step', 'perf', 'engine/forces/total_force.cpp',
           'if (term->acts(input)) forces.potential', 'if (Forces copy = forces; term->acts(input)) forces.potential', 'dearer'),
-    Fault('broken consumer', 'consumer', 'engine/cmake/percale_config.cmake.in', 
+    Fault('broken consumer', 'consumer', 'engine/cmake/percale_config.cmake.in',
           '/percale-${_percale_component}.cmake', '/percale_${_percale_component}.cmake', 'percale_engine.cmake'),
     Fault('broken consumer of the engine alone', 'engine_only', 'engine/cmake/percale_config.cmake.in', '  find_dependency(Eigen3 3.4)\n', '',
           'Eigen'),  # which FCL's own package finds for the others
