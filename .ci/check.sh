@@ -161,8 +161,8 @@ stage_engine_only() {
     ctest --test-dir build/ci-engine-only/consumer --no-tests=error
 }
 
-# The newest commit that what is here does not count as changed from: PERCALE_BASE, if there is such a commit; else that of the default branch; on that branch itself
-# the last one that is a day older than the newest. Nothing where there is no such history.
+# The newest commit that what is here does not count as changed from: PERCALE_BASE, if there is such a commit; else that of the default
+# branch; on that branch itself the last one that is a day older than the newest. Nothing where there is no such history.
 changes_since() {
     local base
     if [ -n "${PERCALE_BASE:-}" ] && git rev-parse -q --verify "$PERCALE_BASE^{commit}" >/dev/null 2>&1; then echo "$PERCALE_BASE"; return; fi

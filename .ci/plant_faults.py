@@ -150,7 +150,7 @@ def main():
         parser.error(f'no fault {", ".join(sorted(unknown))} ({", ".join(fault.name for fault in FAULTS)})')
     make_copy()
     known, lost = dict.fromkeys((fault.stage for fault in FAULTS), True) if wish.passed else {}, 0
-    if not (RELEASE_COPY / 'build' / 'percale').exists():  # stages take it
+    if not (RELEASE_COPY / 'build' / 'Testing' / 'Temporary' / 'LastTest.log').exists():  # stages take the whole build
         known.pop('release', None)
     print('| fault | in | stage | found | s |\n|---|---|---|---|---|', flush=True)
     for faults in together([fault for fault in FAULTS if not wish.faults or fault.name in wish.faults]):

@@ -62,10 +62,6 @@ SceneFacts counted_facts(const StepScene& scene, const ClothState& state, const 
     return facts;
 }
 
-}  // namespace
-
-namespace {
-
 /// Why a scheme was chosen; empty where none was open.
 std::string choose(const StepScene& scene, const ClothState& state, SceneFacts& facts) {
     if (scene.settings.scheme != Scheme::automatic) return "";

@@ -13,6 +13,14 @@ namespace {
 
 std::string reason() { return std::strerror(errno != 0 ? errno : EIO); }
 
+/// Two letters with a zero behind or before each, as no other text begins.
+bool begins_wide(std::string_view text) {
+    if (text.size() < 4) return false;
+    const auto zeros = [&](std::size_t at) { return text[at] == 0 && text[at + 2] == 0; };
+    const auto letters = [&](std::size_t at) { return text[at] > 0 && text[at + 2] > 0; };
+    return (zeros(0) && letters(1)) || (zeros(1) && letters(0));
+}
+
 }  // namespace
 
 std::ifstream open_input(const std::string& file) {
@@ -25,18 +33,6 @@ std::ifstream open_input(const std::string& file) {
     errno = 0;
     return std::ifstream(file, std::ios::binary);
 }
-
-namespace {
-
-/// Two letters with a zero behind or before each, as no other text begins.
-bool begins_wide(std::string_view text) {
-    if (text.size() < 4) return false;
-    const auto zeros = [&](std::size_t at) { return text[at] == 0 && text[at + 2] == 0; };
-    const auto letters = [&](std::size_t at) { return text[at] > 0 && text[at + 2] > 0; };
-    return (zeros(0) && letters(1)) || (zeros(1) && letters(0));
-}
-
-}  // namespace
 
 std::size_t encoding_mark(std::string_view beginning, const std::string& file) {
     const bool marked = beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF") ||

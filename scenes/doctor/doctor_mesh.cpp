@@ -64,14 +64,23 @@ private:
     std::vector<Finding> found_;
 };
 
+/// m per unit that a mesh looks as if it had.
+double likely_unit(const ExaminedMesh& mesh) {
+    const double extent = mesh.facts.extent();
+    if (!mesh.from_file || !(extent >= centimetre_extent)) return 1.0;
+    return extent < millimetre_extent ? 0.01 : 0.001;
+}
+
+/// "unit = "cm""; of one that is not m.
+std::string unit_text(double unit) { return std::string("unit = \"") + (unit == 0.01 ? "cm" : "mm") + "\""; }
+
 void find_size(const ExaminedMesh& mesh, Findings& found) {
     const double extent = mesh.facts.extent();
     const std::string size = "it is " + short_number(extent) + " m large";
-    if (mesh.from_file && extent >= centimetre_extent) {
-        const bool centimetres = extent < millimetre_extent;
+    if (const double unit = likely_unit(mesh); unit != 1.0) {
         found.add(Severity::warning, "size", size + ", which looks like another unit than m",
-                  std::string("say unit = \"") + (centimetres ? "cm" : "mm") + "\" beside its mesh, which makes it " +
-                      short_number(extent * (centimetres ? 0.01 : 0.001)) + " m, if it is not meant so");
+                  "say " + unit_text(unit) + " beside its mesh, which makes it " + short_number(extent * unit) +
+                      " m, if it is not meant so");
     }
     if (mesh.from_file && extent <= tiny_extent) {
         found.add(Severity::warning, "size", size + ", which looks like a unit too much or a pose.scale too small",
@@ -145,20 +154,13 @@ double rounded_up(double value) {
     return std::ceil(value / digit) * digit;
 }
 
-/// m per unit that a mesh looks as if it had.
-double likely_unit(const ExaminedMesh& mesh) {
-    const double extent = mesh.facts.extent();
-    if (!mesh.from_file || extent < centimetre_extent) return 1.0;
-    return extent < millimetre_extent ? 0.01 : 0.001;
-}
-
 /// The weld that joins rims so far apart, with "; or " behind it; "" where it would take many triangles with it, or is too long.
 std::string weld_text(const ExaminedMesh& mesh, const TriangleMesh& surface, double widest) {
     const double weld = rounded_up(beyond_widest_gap * widest), unit = likely_unit(mesh);
     const double dropped = weld_near(surface, weld).dropped_triangles;
     const double said = weld * unit / mesh.scale;
     if (dropped > dropped_by_weld * static_cast<double>(surface.triangles.size()) || said > most_weld) return "";
-    const std::string with = unit == 1.0 ? "" : unit == 0.01 ? " with unit = \"cm\"" : " with unit = \"mm\"";
+    const std::string with = unit == 1.0 ? "" : " with " + unit_text(unit);
     return "weld = " + short_number(said) + with + " beside its mesh (m; --weld of percale drape) joins them; or ";
 }
 

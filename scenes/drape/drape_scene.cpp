@@ -237,7 +237,8 @@ void check_drape(const DrapeOptions& options) {
     }
     if (!options.up.empty() && options.up != "y" && options.up != "z")
         throw SceneError("--up " + options.up + ": must be y or z");
-    if (!(options.weld >= 0.0 && options.weld <= most_weld)) throw SceneError("--weld: is outside the allowed range 0 ... 0.1 m");
+    if (!(options.weld >= 0.0 && options.weld <= most_weld))
+        throw SceneError("--weld: is outside the allowed range 0 ... " + short_number(most_weld) + " m");
     if (!(options.scale >= 0.01 && options.scale <= 100.0))
         throw SceneError("--scale: is outside the allowed range 0.01 ... 100");
     if (!(options.seconds > 0.0 && options.seconds <= 3600.0))

@@ -105,6 +105,7 @@ void run_into(Outcome& outcome, const CheckOptions& check, const StopSignals& si
     BuiltScene built = signals.prepare([&] {
         BuiltScene planned = build_scene(scene);
         keep_plan(planned);
+        if (kept) keep_cleaning(planned);
         return planned;
     });
     for (const StartMove& move : built.simulation.start_repair()) outcome.start_moves.push_back(start_move_text(move));

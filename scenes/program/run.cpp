@@ -89,6 +89,7 @@ BuiltScene built_scene(const RunOptions& options, const Checkpoint* from) {
     try {
         BuiltScene built = build_scene(scene);
         keep_plan(built);
+        keep_cleaning(built);
         // What [expect] reads is in its settings, and was in those of the run that was left.
         if (from) check_same_run(options.resume, *from, built.scene, options.common.certify_steps, options.common.replay_hash);
         return built;

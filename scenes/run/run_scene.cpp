@@ -120,8 +120,9 @@ private:
     }
 
     void make_frame() {
-        add_frame(measures_, frame_.index, frame_.check);
+        // Before anything counts the frame: what is cancelled here is none.
         if (hooks_.frame) frame_.fields = fields_of(built_, frame_.cloths, frame_.obstacles, hooks_.cancel);
+        add_frame(measures_, frame_.index, frame_.check);
         if (hooks_.frame) hooks_.frame(frame_);
         ++frame_.index;
         framed_ = true;

@@ -85,8 +85,8 @@ struct RunHooks {
     std::function<void(const Frame&)> frame;                         // each output frame, after it was certified
     std::function<void(const StepReport&, const Simulation&)> step;  // each step, a failed one too
     std::function<bool()> stop_asked;                                // asked after each step
-    const std::atomic<bool>* cancel = nullptr;        // true: stop within the step, which is taken back, or a certificate
-    std::function<void(const RunState&)> checkpoint;  // where one is due, and when the run is stopped after a step
+    const std::atomic<bool>* cancel = nullptr;                       // true: stop amid a step (taken back) or certificate
+    std::function<void(const RunState&)> checkpoint;                 // where one is due, and when the run is stopped after a step
 };
 
 struct RunSettings {

@@ -69,10 +69,8 @@ std::vector<CleaningReport> cleaning_of(const BuiltScene& built) {
     return reports;
 }
 
-void keep_plan(BuiltScene& built) {
-    built.plan = plan_of(built);
-    built.cleaning = cleaning_of(built);
-}
+void keep_plan(BuiltScene& built) { built.plan = plan_of(built); }
+void keep_cleaning(BuiltScene& built) { built.cleaning = cleaning_of(built); }
 
 ScenePlan plan_of(const BuiltScene& built) {
     if (built.plan) return *built.plan;

@@ -16,8 +16,10 @@ ScenePlan plan_of(const BuiltScene& built);
 /// What was left out of each obstacle's mesh.
 std::vector<CleaningReport> cleaning_of(const BuiltScene& built);
 
-/// Makes both once for all who ask later: the longest stable step of a large cloth takes seconds, as cleaning a large mesh does.
+/// Make these once for all who ask later: the longest stable step of a large cloth takes seconds, as cleaning a large mesh does,
+/// which reports alone tell of.
 void keep_plan(BuiltScene& built);
+void keep_cleaning(BuiltScene& built);
 
 /// How many frames a run writes at most, and about how many bytes in all formats of the scene together.
 struct OutputSize {

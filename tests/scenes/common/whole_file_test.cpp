@@ -83,6 +83,27 @@ TEST_CASE("of files committed together none appears where one could not be writt
     CHECK(folder.holds("other"));
 }
 
+TEST_CASE("of a table and its diagram nothing is left, nor of their folder, where one could not be written") {
+    const TestFolder folder;
+    { TableFiles unfinished(folder.path("new"), "a"); }
+    CHECK_FALSE(folder.holds("new"));
+    TableFiles whole(folder.path("new"), "a");
+    whole.table.out() << "1,2";
+    whole.diagram.out() << "<svg/>";
+    whole.commit();
+    CHECK(folder.read("new/a.csv") == "1,2");
+    CHECK(folder.read("new/a.svg") == "<svg/>");
+    if (!std::filesystem::exists("/dev/full")) return;
+    std::filesystem::create_symlink("/dev/full", folder.path("new/b.svg.part"));
+    {
+        TableFiles full(folder.path("new"), "b");
+        full.table.out() << "1,2";
+        full.diagram.out() << "<svg/>";
+        CHECK_THROWS_WITH(full.commit(), Catch::Contains("b.svg: cannot be written: No space left on device"));
+    }
+    CHECK(folder.file_count() == 2);
+}
+
 TEST_CASE("a new output folder with nothing in it goes again, others stay") {
     const TestFolder folder;
     { const OutputFolder output(folder.path() + "/a/b/"); }
