@@ -138,7 +138,7 @@ stage_release() {
     [ "$ran" -eq "$known" ] || return 1
     echo "without body scans:"
     for name in collision validation; do
-        PERCALE_REAL_MESHES=$root/build/ci-release/none "$release_copy/build/percale_${name}_tests" '*body scan*,*scanned*' --warn NoTests \
+        PERCALE_REAL_MESHES=$root/build/ci-release/none "$release_copy/build/percale_${name}_tests" '*scan*' --warn NoTests \
             >"$release_copy/../without_scans.log" || { cat "$release_copy/../without_scans.log"; return 1; }
         grep 'not everything was tested' "$release_copy/../without_scans.log"
     done
